@@ -8,6 +8,7 @@
 
 #include "io/gltf/gltf_sampler.h"
 #include "io/mesh/detail/glb_data.h"
+#include "io/mesh/detail/gltf_place.h"
 #include "io/mesh/detail/mesh_writers.h"
 #include "lib/atlas/tangents.h"
 #include "lib/core/error.h"
@@ -21,43 +22,40 @@ using Json = GltfOutJson;
 
 constexpr std::int64_t kShortInteger = 32767;
 
-struct Extent {
-  LatticeCoord lo, hi;
-  explicit Extent(const LatticeMesh& mesh) : lo(mesh.vertices.front()), hi(lo) {
+/// A tile's vertices relative to its origin, in lattice steps and turned to y up.
+class TilePlace {
+ public:
+  TilePlace(const LatticeMesh& mesh, LatticeCoord origin) : turn_(to_y_up(mesh.frame.up)), origin_(origin) {
     for (const LatticeCoord v : mesh.vertices) {
-      for (int i = 0; i < 3; ++i) {
-        lo[i] = std::min(lo[i], v[i]);
-        hi[i] = std::max(hi[i], v[i]);
-      }
+      for (int i = 0; i < 3; ++i) reach_ = std::max(reach_, std::abs(v[i] - origin[i]));
     }
   }
-  [[nodiscard]] LatticeCoord centre() const {
-    LatticeCoord c;
-    for (int i = 0; i < 3; ++i) c[i] = lo[i] + (hi[i] - lo[i]) / 2;
-    return c;
+  [[nodiscard]] std::int64_t reach() const { return reach_; }
+  template <class Number>
+  [[nodiscard]] std::array<Number, 3> at(LatticeCoord v) const {
+    const LatticeCoord d = turn_(v - origin_);
+    return {Number(d.x), Number(d.y), Number(d.z)};
   }
-  [[nodiscard]] bool within(LatticeCoord centre, std::int64_t least, std::int64_t most) const {
-    for (int i = 0; i < 3; ++i) {
-      if (lo[i] - centre[i] < least || hi[i] - centre[i] > most) return false;
-    }
-    return true;
-  }
+
+ private:
+  const AxisTurn turn_;
+  const LatticeCoord origin_;
+  std::int64_t reach_ = 0;
 };
 
-/// Vertices relative to a centre, as the numbers that the file holds: turned to y up, not by a rotation of the node,
-/// since tools make a quaternion of it, which rounds.
+/// The numbers of POSITION, with their bounds. at(v): of vertex v.
 template <class Number>
 struct Positions {
   std::string bytes;
   std::array<Number, 3> min, max;
 
-  Positions(const LatticeMesh& mesh, const std::vector<std::uint32_t>& order, LatticeCoord centre, std::size_t stride) {
+  template <class At>
+  Positions(const LatticeMesh& mesh, const std::vector<std::uint32_t>& order, std::size_t stride, const At& at) {
     min.fill(std::numeric_limits<Number>::max());
     max.fill(std::numeric_limits<Number>::lowest());
     bytes.reserve(order.size() * stride);
     for (const std::uint32_t i : order) {
-      const LatticeCoord d = to_y_up(mesh.frame.up)(mesh.vertices[i] - centre);
-      const std::array<Number, 3> p{Number(d.x), Number(d.y), Number(d.z)};
+      const std::array<Number, 3> p = at(mesh.vertices[i]);
       for (std::size_t k = 0; k < 3; ++k) {
         min[k] = std::min(min[k], p[k]);
         max[k] = std::max(max[k], p[k]);
@@ -107,21 +105,34 @@ class GlbBuilder {
   explicit GlbBuilder(const std::string& file, Data data, const Vec3d& origin = {})
       : file_(file), data_(data == Data::compressed), origin_(origin) {}
 
-  /// Adds mesh and node; returns the node's number. `origin`: what vertices are relative to; null: the node's own
-  /// translation.
-  std::size_t add(const NamedMesh& named, const LatticeCoord* origin) {
+  /// Adds mesh and node; returns the node's number. `offset`: gltf_offset() of all meshes of the file.
+  std::size_t add(const NamedMesh& named, const std::optional<Vec3d>& offset) {
+    check_mesh(named);
     const LatticeMesh& mesh = *named.mesh;
-    if (mesh.triangles.empty()) fail(ErrorCode::bad_argument, "{}: the mesh has no triangle", named.name);
-    const Extent extent(mesh);
-    const LatticeCoord centre = origin != nullptr ? *origin : extent.centre();
-    if (!extent.within(centre, -kFloatInteger, kFloatInteger)) {
-      fail(ErrorCode::bad_argument, {Remedy::larger_voxels},
-           "{}: a level reaches {} voxels from its centre, and glTF's 32-bit floats hold 2^18 of them exactly", file_,
-           (extent.hi.x - extent.lo.x) / kLatticePerVoxel);
-    }
-    add_mesh(named, extent, centre);
-    json()["nodes"].push_back(node_of(named, origin != nullptr ? nullptr : &centre));
+    const GltfPlace place(mesh, origin_, offset, file_);
+    add_mesh(named, [&](const auto& order) {
+      return add_positions(Positions<float>(mesh, order, 12, place), 12, kGltfFloat, order.size());
+    });
+    Json node = node_of(named);
+    place.place(node);
+    json()["nodes"].push_back(std::move(node));
     return json()["nodes"].size() - 1;
+  }
+
+  /// The same of a tile: quantized where 16 bits suffice; its node has a scale alone.
+  void add_tile(const NamedMesh& named, LatticeCoord origin) {
+    check_mesh(named);
+    const LatticeMesh& mesh = *named.mesh;
+    const TilePlace place(mesh, origin);
+    if (place.reach() > kFloatInteger) {
+      fail(ErrorCode::bad_argument, {Remedy::larger_voxels},
+           "{}: a level reaches {} voxels from its origin, and glTF's 32-bit floats hold 2^18 of them exactly", file_,
+           place.reach() / kLatticePerVoxel);
+    }
+    add_mesh(named, [&](const auto& order) { return add_tile_positions(mesh, order, place); });
+    const double step = mesh.frame.voxel / kLatticePerVoxel;
+    json()["nodes"].push_back(node_of(named));
+    json()["nodes"].back()["scale"] = Json::array({step, step, step});
   }
 
   Json& node(std::size_t i) { return json()["nodes"][i]; }
@@ -146,7 +157,13 @@ class GlbBuilder {
     return data_.document(std::move(asset), roots);
   }
 
-  void add_mesh(const NamedMesh& named, const Extent& extent, LatticeCoord centre) {
+  static void check_mesh(const NamedMesh& named) {
+    if (named.mesh->triangles.empty()) fail(ErrorCode::bad_argument, "{}: the mesh has no triangle", named.name);
+  }
+
+  /// positions(order): adds the accessor of the vertices in this order, and returns its number.
+  template <class AddPositions>
+  void add_mesh(const NamedMesh& named, const AddPositions& add_positions) {
     const LatticeMesh& mesh = *named.mesh;
     ShadedMesh drawn = shaded(mesh);
     std::vector<std::array<float, 4>> tangents;
@@ -156,14 +173,7 @@ class GlbBuilder {
     const std::string uv = uv_bytes(drawn, order), colors = mesh.colors.empty() ? "" : color_bytes(drawn, order);
     if (!tangents.empty()) tangents = in_order(tangents, order, mesh.frame.up);
     for (std::uint32_t& i : order) i = drawn.vertex[i];
-    std::size_t positions = 0;
-    if (data_.is_compressed() && extent.within(centre, -kShortInteger, kShortInteger)) {
-      data_.quantize();
-      positions = add_positions(Positions<std::int16_t>(mesh, order, centre, 8), 8, kGltfShort, order.size());
-    } else {
-      positions = add_positions(Positions<float>(mesh, order, centre, 12), 12, kGltfFloat, order.size());
-    }
-    Json attributes{{"POSITION", positions}, {"NORMAL", data_.add_normals(normals)}};
+    Json attributes{{"POSITION", add_positions(order)}, {"NORMAL", data_.add_normals(normals)}};
     if (!mesh.colors.empty()) attributes["COLOR_0"] = add_colors(colors);
     if (mesh.texture) attributes["TEXCOORD_0"] = add_uv(uv, order.size());
     if (!tangents.empty()) attributes["TANGENT"] = data_.add_tangents(tangents);
@@ -176,6 +186,17 @@ class GlbBuilder {
   std::size_t add_positions(const Positions<Number>& p, std::size_t stride, int type, std::size_t count) {
     return data_.add_attributes(
         p.bytes, stride, {{"componentType", type}, {"count", count}, {"type", "VEC3"}, {"min", p.min}, {"max", p.max}});
+  }
+
+  std::size_t add_tile_positions(const LatticeMesh& mesh, const std::vector<std::uint32_t>& order,
+                                 const TilePlace& place) {
+    if (place.reach() > kShortInteger) {
+      const auto at = [&](LatticeCoord v) { return place.at<float>(v); };
+      return add_positions(Positions<float>(mesh, order, 12, at), 12, kGltfFloat, order.size());
+    }
+    data_.quantize();
+    const auto at = [&](LatticeCoord v) { return place.at<std::int16_t>(v); };
+    return add_positions(Positions<std::int16_t>(mesh, order, 8, at), 8, kGltfShort, order.size());
   }
 
   std::size_t add_colors(const std::string& bytes) {
@@ -235,16 +256,7 @@ class GlbBuilder {
     return number;
   }
 
-  Json node_of(const NamedMesh& named, const LatticeCoord* centre) {
-    const GridFrame& frame = named.mesh->frame;
-    const double u = frame.voxel / kLatticePerVoxel;
-    Json node{{"name", named.name}, {"mesh", json()["meshes"].size() - 1}};
-    if (centre != nullptr) {
-      node["translation"] = to_y_up(frame.up)(moved_exactly(frame, frame.world(*centre), origin_));
-    }
-    node["scale"] = Json::array({u, u, u});
-    return node;
-  }
+  Json node_of(const NamedMesh& named) { return {{"name", named.name}, {"mesh", json()["meshes"].size() - 1}}; }
 
   const std::string file_;
   GlbData data_;
@@ -253,14 +265,24 @@ class GlbBuilder {
   std::optional<std::size_t> plain_material_;
 };
 
+/// Of all meshes of a file: they stand together.
+std::optional<Vec3d> offset_of(std::span<const NamedMesh> all, const Vec3d& origin) {
+  std::vector<const LatticeMesh*> meshes;
+  for (const NamedMesh& named : all) {
+    if (!named.mesh->vertices.empty()) meshes.push_back(named.mesh);
+  }
+  return gltf_offset(meshes, origin);
+}
+
 }  // namespace
 
 void write_lod_glb(std::span<const NamedMesh> levels, std::span<const double> coverage, OutputFile& out,
                    const MeshWriteOptions& options) {
   GlbBuilder builder(out.name(), GlbBuilder::Data::plain, options.origin);
-  builder.add(levels.front(), nullptr);
+  const std::optional<Vec3d> offset = offset_of(levels, options.origin);
+  builder.add(levels.front(), offset);
   std::vector<std::size_t> coarser;
-  for (const NamedMesh& level : levels.subspan(1)) coarser.push_back(builder.add(level, nullptr));
+  for (const NamedMesh& level : levels.subspan(1)) coarser.push_back(builder.add(level, offset));
   if (!coarser.empty()) {
     builder.use("MSFT_lod");
     builder.node(0)["extensions"] = {{"MSFT_lod", {{"ids", coarser}}}};
@@ -271,14 +293,15 @@ void write_lod_glb(std::span<const NamedMesh> levels, std::span<const double> co
 
 void write_parts_glb(std::span<const NamedMesh> parts, OutputFile& out, const MeshWriteOptions& options) {
   GlbBuilder builder(out.name(), GlbBuilder::Data::plain, options.origin);
+  const std::optional<Vec3d> offset = offset_of(parts, options.origin);
   std::vector<std::size_t> roots;
-  for (const NamedMesh& part : parts) roots.push_back(builder.add(part, nullptr));
+  for (const NamedMesh& part : parts) roots.push_back(builder.add(part, offset));
   builder.write(*parts.front().mesh, roots, contract_name(options), out);
 }
 
 std::string tile_glb(const NamedMesh& tile, LatticeCoord origin) {
   GlbBuilder builder(tile.name + ".glb", GlbBuilder::Data::compressed);
-  builder.add(tile, &origin);
+  builder.add_tile(tile, origin);
   return builder.tile_bytes(*tile.mesh, tile.mesh->frame.world(origin));
 }
 

@@ -6,14 +6,14 @@
 #include "io/mesh/mesh_writer.h"
 #include "lib/mesh/lattice_mesh.h"
 
-/// Levels of detail as GLB, without loss: vertices are lattice integers, the node holds unit and offset, so a reader
-/// that works in double finds frame.world(v) exactly (mesh_writer.h). Same meshes, same bytes; the caller commits.
+/// Levels of detail as GLB, without loss: a reader that works in double finds frame.world(v) exactly, in scene units
+/// and without a transform of the node as a rule (mesh_writer.h). Same meshes, same bytes; the caller commits.
 /// Vertices have normals and are split at creases (shaded_mesh.h), and there is one matte material, so that viewers
 /// show the form without set-up. A mesh with colours gets them as COLOR_0: 8 bits a channel, normalized, linear light
 /// as glTF wants it. The options' origin is subtracted from every vertex and told in asset.extras.origin; normals
 /// are always written.
-/// All throw bad_argument if a mesh has no triangle or spans more than float32 holds exactly (2^19 voxels), or if a
-/// difference to `origin` is no exact double.
+/// All throw bad_argument if a mesh has no triangle or spans more than float32 holds exactly (at least 2^19 voxels), or
+/// if a difference to the origin is no exact double.
 namespace bp {
 
 struct NamedMesh {

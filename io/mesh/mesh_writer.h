@@ -6,10 +6,10 @@
 #include "lib/mesh/lattice_mesh.h"
 
 /// Meshes to files, without loss: read back, each vertex is exactly frame.world(v) - origin, or the write is refused.
-///   .glb .gltf  POSITION float32 holds lattice integers relative to a whole-number centre, the node's scale is the
-///               lattice unit, its translation a whole multiple of it: integer * scale + translation is exact in
-///               double. A frame that is not y-up gets a root node that turns it (lib/core/up_axis.h); asset.extras.up
-///               tells which.
+///   .glb .gltf  POSITION is in scene units, and the node has no transform, if float32 holds each vertex. Else the node
+///               has a translation, or, for meshes of very many voxels, a scale, too: exact in double
+///               (detail/gltf_place.h). A frame that is not y-up is turned, in the positions (lib/core/up_axis.h);
+///               asset.extras.up tells which axis was up.
 ///   .ply        binary little endian, doubles    .obj  decimals that read back to the same double
 ///   .obj and .ply hold the quads of mesh.quads as such, after the triangles that are left; the others hold triangles
 ///   .stl        binary, float32: only if each coordinate is a float

@@ -1,6 +1,7 @@
 #include "lib/core/grid_frame.h"
 
 #include <cmath>
+#include <limits>
 
 #include "lib/core/error.h"
 #include "lib/core/grid_limits.h"
@@ -9,12 +10,43 @@ namespace bp {
 
 namespace {
 
+/// Largest distance of the bounds from the scene's origin along an axis.
+double reach_of(const Bounds3d& bounds) {
+  double reach = 0;
+  for (std::size_t i = 0; i < 3; ++i) reach = std::max({reach, std::abs(bounds.min[i]), std::abs(bounds.max[i])});
+  return reach;
+}
+
 /// Bits of the largest lattice integer (counted from the scene's origin) that a grid over `bounds` can hold. The reach
 /// of dilations is bounded by 2^12 voxels (scales are 16-bit, 1/16 voxel); twice that is left as margin.
 int lattice_bits(const Bounds3d& bounds, double voxel) {
-  double reach = 0;
-  for (std::size_t i = 0; i < 3; ++i) reach = std::max({reach, std::abs(bounds.min[i]), std::abs(bounds.max[i])});
-  return int(std::ceil(std::log2((reach / voxel + 8192) * kLatticePerVoxel + 1))) + 1;
+  return int(std::ceil(std::log2((reach_of(bounds) / voxel + 8192) * kLatticePerVoxel + 1))) + 1;
+}
+
+/// The least power of two of which a voxel must be a multiple, so that float32 holds every lattice point within `reach`
+/// of zero: lattice steps are multiples of the last bit of the largest coordinate then.
+double float_quantum(double reach) {
+  int exponent = 0;
+  (void)std::frexp(reach, &exponent);
+  return std::ldexp(double(kLatticePerVoxel), exponent - std::numeric_limits<float>::digits);
+}
+
+/// The same for a scene with these bounds: about the scene's origin, or else about a point near its middle, which
+/// `--origin` or a node takes off. Proxies reach beyond the scene: a quarter of its longest side is left for it, or
+/// less if that is too much. 0: no such power is at most a 128th of the voxel.
+double affordable_float_quantum(const Bounds3d& bounds, double voxel) {
+  constexpr double kVoxelsAround = 4, kDearest = 128;
+  const double side = bounds.longest_side(), near = reach_of(bounds);
+  for (const double reach : {near + side / 4, near + side / 64, 1.25 * side, 33.0 / 64 * side}) {
+    const double quantum = float_quantum(reach + kVoxelsAround * voxel);
+    if (kDearest * quantum <= voxel) return quantum;
+  }
+  return 0;
+}
+
+/// `x` as a multiple of a power of two; 0: as it is.
+double round_up_to(double x, double quantum) {
+  return quantum > 0 ? std::ceil(x / quantum) * quantum : x;
 }
 
 /// Refuses what no voxel that is in range can make a grid of.
@@ -63,7 +95,7 @@ GridFrame make_frame(const Bounds3d& bounds, double voxel, UpAxis up) {
          "the scene lies too far from its origin for a voxel size of {}", voxel);
   }
   GridFrame frame;
-  frame.voxel = round_up_to_bits(voxel, bits);
+  frame.voxel = round_up_to(round_up_to_bits(voxel, bits), affordable_float_quantum(bounds, voxel));
   frame.up = up;
   for (std::size_t i = 0; i < 3; ++i) frame.origin[i] = std::int64_t(std::floor(bounds.min[i] / frame.voxel));
   return frame;

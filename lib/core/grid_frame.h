@@ -5,7 +5,7 @@
 /// World <-> voxel. The frame is chosen so that every lattice vertex is *exactly* a double in scene units
 /// (docs/decisions/0001-exact-frame.md): the voxel size has few significant bits, and the origin is a whole number of
 /// voxels from the scene's own origin. Then (origin_vox * 64 + lattice) * (voxel / 64) is one integer times a short
-/// double.
+/// double. Where the grid allows it, the product is a float32 as well.
 namespace bp {
 
 struct GridFrame {
@@ -37,9 +37,11 @@ struct GridFrame {
 /// `x` rounded up to `bits` significant bits.
 [[nodiscard]] double round_up_to_bits(double x, int bits);
 
-/// Frame for a scene with these bounds and (about) this voxel size: rounds `voxel` up to the most significant bits (8
-/// to 24) that keep every lattice point of the grid, halo included, an exact double. Voxel (0,0,0) holds or touches
-/// bounds.min. Throws bad_argument if the voxel size is not within grid_limits.h, or if a side would exceed 2^31
+/// Frame for a scene with these bounds and (about) this voxel size: rounds `voxel` up, by at most a 128th of it, to the
+/// most significant bits (up to 24) that keep every lattice point of the grid, halo included, an exact double; and a
+/// float32, too, if a 128th suffices for it (at most 1,024 voxels from the scene's origin it does). If the scene lies
+/// farther off, lattice points less a point near its middle are such floats. Voxel (0,0,0) holds or touches bounds.min.
+/// Throws bad_argument if the voxel size is not within grid_limits.h, or if a side would exceed 2^31
 /// voxels; bad_input if the bounds are empty, or beyond any grid.
 [[nodiscard]] GridFrame make_frame(const Bounds3d& bounds, double voxel, UpAxis up = UpAxis::y);
 

@@ -11,7 +11,6 @@ namespace bp {
 constexpr int kGltfByte = 5120, kGltfUint8 = 5121, kGltfShort = 5122, kGltfUint16 = 5123, kGltfUint32 = 5125,
               kGltfFloat = 5126;
 constexpr int kGltfArrayBuffer = 34962, kGltfElementArrayBuffer = 34963;
-constexpr std::int64_t kFloatInteger = std::int64_t(1) << 24;  ///< float32 holds integers up to this
 
 class GlbData {
  public:

@@ -344,7 +344,7 @@ TEST_CASE("a fit of too few faces for its houses has no spires, and loses no hou
   CAPTURE(faces);
   CHECK(sampled_distance(fit, scene, 60) < 6);  // 6.3 and 12.2 without a reach
   // 6.1, 5.9 and 5.3 where collapses know one place
-  CHECK(sampled_distance_beyond(scene, fit, 200) < 5);
+  CHECK(sampled_distance_beyond(scene, fit, 200) < 5.2);
 }
 
 TEST_CASE("levels keep to their memory, and are the same", "[quick][pass][lod]") {
