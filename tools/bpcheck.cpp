@@ -16,6 +16,7 @@
 #include "tools/check/check_run.h"
 #include "tools/check/claim.h"
 #include "tools/check/hints.h"
+#include "tools/check/places.h"
 #include "tools/check/tileset_verdict.h"
 #include "tools/check/verdict_steps.h"
 #include "tools/check/watched_source.h"
@@ -143,9 +144,15 @@ std::vector<bp::CheckReport> check(const bp::CheckRun& o, const std::vector<bp::
   }
   progress.begin("check", 0, "triangles");
   std::vector<bp::CheckReport> verdicts;
+  const std::string unknown = bp::unknown_axes(o.files);
   for (const bp::IndexedMesh& level : levels) {
     verdicts.push_back(bp::check_proxy(level, watched.get(), options));
-    bp::refuse_empty_scene(verdicts.back());
+    bp::CheckReport& verdict = verdicts.back();
+    bp::refuse_empty_scene(verdict);
+    if (watched == nullptr) continue;
+    verdict.place_unknown = unknown;
+    if (unknown.empty() && !o.inside && verdict.enclosure() == bp::Answer::refuted)
+      verdict.place_unknown = bp::missing_axes(o.files, level, watched->bounds(), watched->up());
   }
   progress.end();
   return verdicts;
@@ -194,6 +201,7 @@ int run_mesh(const bp::CheckRun& o, const std::optional<bp::Contract>& claim = {
   scene_options.memory_bytes = budget.reader_bytes();
   scene_options.document = budget.of_scene_document();
   const bp::Vec3d origin = origin_of(o, report);
+  for (const std::string& note : bp::place_notes(o.files, levels.front().up)) report.note(note, o.common);
   for (bp::IndexedMesh& level : levels) bp::add_origin(level, origin);
   std::unique_ptr<bp::TriangleSource> scene;
   scene_options.keep_degenerate = true;  // they have a place, and may be what closes the scene

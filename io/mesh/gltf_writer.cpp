@@ -70,7 +70,7 @@ Json views_of(const Buffer& buffer) {
   return Json::array({positions, normals, indices});
 }
 
-Json document_of(const LatticeMesh& mesh, const Buffer& buffer, const GltfPlace& place, const Vec3d& origin) {
+Json document_of(const LatticeMesh& mesh, const Buffer& buffer, const GltfPlace& place, const MeshWriteOptions& options) {
   const Json primitive{{"attributes", {{"POSITION", 0}, {"NORMAL", 1}}}, {"indices", 2}, {"material", 0}};
   Json doc, node{{"name", "proxy"}, {"mesh", 0}};
   place.place(node);
@@ -92,7 +92,7 @@ void write_gltf(const LatticeMesh& mesh, OutputFile& out, bool binary, const Mes
   const LatticeMesh* const all[] = {&mesh};
   const GltfPlace place(mesh, options.origin, gltf_offset(all, options.origin), out.name());
   const Buffer buffer = buffer_of(mesh, place);
-  Json doc = document_of(mesh, buffer, place, options.origin);
+  Json doc = document_of(mesh, buffer, place, options);
   if (binary) return write_glb(doc.dump(), buffer.bytes, out);
   doc["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64_of(buffer.bytes);
   out.write(doc.dump(1) + "\n");

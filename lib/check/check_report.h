@@ -83,6 +83,7 @@ struct CheckReport {
   // The scene against the proxy.
   bool has_scene = false;
   bool sides_decided = false;  ///< false: the proxy is not closed, so "outside" has no meaning and was not counted
+  std::string place_unknown;   ///< why it is not known where scene and proxy lie to each other; empty: it is
   std::string scene_name;
   SceneCounts scene_counts;
   std::uint64_t scene_triangles = 0;  ///< tested: those with an area
@@ -137,13 +138,14 @@ struct CheckReport {
   [[nodiscard]] bool outward() const { return inverted_components.count == 0; }
   /// Strict: every scene triangle, boundary included, lies in the open interior of the proxy.
   [[nodiscard]] Answer enclosure() const {
-    if (!has_scene || !sides_decided) return Answer::undecided;
+    if (!has_scene || !sides_decided || !place_unknown.empty()) return Answer::undecided;
     if (touching.count + outside.count + not_held.count > 0) return Answer::refuted;
     return undecidable_scene.count + perhaps_not_held.count > 0 || scene_counts.is_partial() ? Answer::undecided
                                                                                              : Answer::proven;
   }
   /// No point of the scene is nearer to the proxy's surface than `margin`.
   [[nodiscard]] Answer keeps_margin() const {
+    if (!place_unknown.empty()) return Answer::undecided;
     if (too_near.count > 0) return Answer::refuted;
     return perhaps_near.count + undecidable_scene.count > 0 || scene_counts.is_partial() ? Answer::undecided
                                                                                          : Answer::proven;
@@ -152,17 +154,22 @@ struct CheckReport {
   [[nodiscard]] bool convex() const { return sides_decided && nonconvex_parts.count == 0; }
   /// Strict: the solid of the proxy meets no scene triangle, and every path to it from far away crosses the scene.
   [[nodiscard]] Answer insideness() const {
-    if (!has_scene || !sides_decided) return Answer::undecided;
+    if (!has_scene || !sides_decided || !place_unknown.empty()) return Answer::undecided;
     if (touching.count + swallowed.count > 0) return Answer::refuted;
     if (undecidable_scene.count > 0 || scene_counts.is_partial())
       return Answer::undecided;  // what is left out may be what hides a part
     if (outside_parts.count > 0) return Answer::refuted;
     return unsettled_parts.count > 0 ? Answer::undecided : Answer::proven;
   }
+  /// Asked on the way: no triangle of the scene meets the proxy's solid.
+  [[nodiscard]] Answer freedom() const {
+    if (!place_unknown.empty()) return Answer::undecided;
+    return touching.count + swallowed.count == 0 ? Answer::proven : Answer::refuted;
+  }
   [[nodiscard]] bool inside() const { return insideness() == Answer::proven; }
   /// Only if asks_hidden.
   [[nodiscard]] Answer hiddenness() const {
-    if (!hidden_unknown.empty()) return Answer::undecided;
+    if (!hidden_unknown.empty() || !place_unknown.empty()) return Answer::undecided;
     if (exposed.count > 0) return Answer::refuted;
     return scene_counts.is_partial() ? Answer::undecided : Answer::proven;
   }

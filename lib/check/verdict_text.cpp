@@ -65,8 +65,7 @@ std::string inside_rows(const CheckReport& r) {
   const auto add = [&](const char* question, Answer answer) {
     if (!other || answer == Answer::proven) text += row(question, answer, scene_doubt(r));
   };
-  const bool is_free = r.touching.count + r.swallowed.count == 0;
-  if (r.sides_decided) add("free of the scene", is_free ? Answer::proven : Answer::refuted);
+  if (r.sides_decided) add("free of the scene", r.freedom());
   add("strictly inside the scene", r.insideness());
   if (!r.asks_hidden) return text;
   if (r.hiddenness() != Answer::proven) return text + row("hidden from outside", r.hiddenness(), hidden_doubt(r));

@@ -92,6 +92,7 @@ bool is_unasked(const CheckReport& r, const FindingText& t) {
 
 /// Why the question about the scene is not decided.
 std::string scene_doubt(const CheckReport& r) {
+  if (!r.place_unknown.empty()) return r.place_unknown;
   if (!r.sides_decided) return kNoOutside;
   if (r.undecidable_scene.count > 0) return "the scene has coordinates that are too large or too small";
   if (r.scene_counts.is_partial()) return partial_scene(r.scene_counts);
@@ -100,12 +101,12 @@ std::string scene_doubt(const CheckReport& r) {
 }
 
 std::string hidden_doubt(const CheckReport& r) {
-  return r.hidden_unknown.empty() ? scene_doubt(r) : r.hidden_unknown;
+  return r.hidden_unknown.empty() || !r.place_unknown.empty() ? scene_doubt(r) : r.hidden_unknown;
 }
 
 /// Why the margin is not decided.
 std::string margin_doubt(const CheckReport& r) {
-  return r.undecidable_scene.count > 0 || r.scene_counts.is_partial()
+  return r.undecidable_scene.count > 0 || r.scene_counts.is_partial() || !r.place_unknown.empty()
              ? scene_doubt(r)
              : "the least distance is the margin, to the last digits";
 }

@@ -2,18 +2,22 @@
 #include <string>
 #include <vector>
 
+#include "lib/core/box.h"
 #include "lib/core/triangle_source.h"
 #include "tools/cli/progress.h"
 
 namespace bp {
 
-/// Counts what passes through.
+/// Counts and measures what passes through.
 class WatchedSource : public TriangleSource {
  public:
   WatchedSource(TriangleSource& source, Progress& progress) : source_(source), progress_(progress) {}
   bool read(std::vector<TriangleD>& out) override {
     const bool more = source_.read(out);
     progress_.add(out.size());
+    for (const TriangleD& t : out) {
+      for (const Vec3d& p : t) bounds_.add(p);
+    }
     return more;
   }
   bool read_faces(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors,
@@ -24,11 +28,14 @@ class WatchedSource : public TriangleSource {
   }
   void rewind() override { source_.rewind(); }
   [[nodiscard]] const SceneCounts& counts() const override { return source_.counts(); }
+  [[nodiscard]] std::optional<UpAxis> up() const override { return source_.up(); }
+  [[nodiscard]] const Bounds3d& bounds() const { return bounds_; }  ///< of what was read
   [[nodiscard]] std::string name() const override { return source_.name(); }
 
  private:
   TriangleSource& source_;
   Progress& progress_;
+  Bounds3d bounds_;
 };
 
 }  // namespace bp

@@ -1,7 +1,9 @@
 #include "tools/run/mesh_extras.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <limits>
 #include <sstream>
 
 #include "io/files/file.h"
@@ -91,6 +93,65 @@ std::string gltf_contract(const Json& document) {
   return document.at(key).get<std::string>();
 }
 
+std::optional<std::string> gltf_up(const Json& document) {
+  static const Json::json_pointer key("/asset/extras/up");
+  if (!document.is_object() || !document.contains(key)) return {};
+  const Json& up = document.at(key);
+  return up.is_string() ? up.get<std::string>() : up.dump();
+}
+
+/// Half of the step of 32-bit floats at `x`.
+double half_step(double x) {
+  int exponent = 0;
+  (void)std::frexp(x, &exponent);
+  return x == 0 ? 0 : std::ldexp(0.5, exponent - std::numeric_limits<float>::digits);
+}
+
+/// Of a node without parent and children that has a translation and a scale; `bounds`: an accessor with min and max.
+void add_move(const Json& node, const Json& bounds, NodeMove& move) {
+  const auto number = [](const Json& object, const char* key, std::size_t i, double otherwise) {
+    const auto found = object.find(key);
+    const bool has = found != object.end() && found->is_array() && found->size() == 3 && (*found)[i].is_number();
+    return has ? (*found)[i].get<double>() : otherwise;
+  };
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double at = number(node, "translation", i, 0), scale = number(node, "scale", i, 1);
+    double rounding = 0;
+    for (const char* const end : {"min", "max"}) {
+      const double p = scale * number(bounds, end, i, 0);
+      const double scaled = scale == 1 ? 0 : half_step(p) + (double(float(scale)) == scale ? 0 : half_step(p));
+      rounding = std::max(rounding, at == 0 ? scaled : scaled + half_step(at + p));
+    }
+    if (double(float(at)) != at) rounding += half_step(at);
+    move.length = std::max(move.length, std::abs(at));
+    move.rounding = std::max(move.rounding, rounding);
+  }
+}
+
+std::optional<NodeMove> gltf_move(const Json& document) {
+  NodeMove move;
+  const auto object = [&](const char* array, const Json& i) -> const Json* {
+    if (!i.is_number_unsigned() || !document.contains(array) || !document.at(array).is_array()) return nullptr;
+    const auto n = i.get<std::size_t>();
+    return n < document.at(array).size() && document.at(array)[n].is_object() ? &document.at(array)[n] : nullptr;
+  };
+  if (!document.is_object() || !document.contains("nodes") || !document.at("nodes").is_array()) return {};
+  for (const Json& node : document.at("nodes")) {
+    if (!node.is_object() || node.contains("matrix") || node.contains("rotation") || node.contains("children"))
+      return {};
+    const Json* const mesh = node.contains("mesh") ? object("meshes", node.at("mesh")) : nullptr;
+    if (mesh == nullptr || !mesh->contains("primitives")) continue;
+    static const Json::json_pointer position("/attributes/POSITION");
+    for (const Json& primitive : mesh->at("primitives")) {
+      if (!primitive.is_object() || !primitive.contains(position)) return {};
+      const Json* const accessor = object("accessors", primitive.at(position));
+      if (accessor == nullptr) return {};
+      add_move(node, *accessor, move);
+    }
+  }
+  return move.length > 0 || move.rounding > 0 ? std::optional(move) : std::nullopt;
+}
+
 std::size_t gltf_animations(const Json& document) {
   return document.is_object() && document.contains("animations") ? document.at("animations").size() : 0;
 }
@@ -140,6 +201,10 @@ MeshExtras from_gltf(const std::string& text) {
   extras.provenance = gltf_provenance(document);
   extras.origin = gltf_origin(document);
   extras.contract = gltf_contract(document);
+  extras.up = gltf_up(document);
+  static const Json::json_pointer record("/asset/extras/provenance");
+  extras.recorded = document.is_object() && document.contains(record) && document.at(record).is_array();
+  extras.move = gltf_move(document);
   extras.tile = document.is_object() && document.contains(tile);
   extras.levels = gltf_levels(document);
   extras.hulls = has_hulls(document);

@@ -29,12 +29,12 @@ bpvox levels/a_LOD0.glb --resolution 20 | bpinfo | grep -o '. is up'
 for up in x -x -y -z; do
   bpvox cube.obj --resolution 30 --up $up | bpmesh --faces 30 -q -o up$up.glb
   bpvox up$up.glb --resolution 20 | bpinfo | grep -oE -- '-?[xyz] is up'
-  bpcheck cube.obj up$up.glb | tail -1
+  bpcheck cube.obj up$up.glb -q | tail -1
   bpinfo cube.obj up$up.glb --image-size 99 --image up$up.png > said || cat said
   for profile in gltf 3dtiles; do
     bplod cube.obj -q --resolution 30 --levels 1 --faces 30 --up $up --profile $profile --name a -o up$up-$profile > list
   done
-  bpcheck cube.obj up$up-gltf/a_LOD0.glb | tail -1
+  bpcheck cube.obj up$up-gltf/a_LOD0.glb -q | tail -1
   bpcheck cube.obj up$up-3dtiles/tileset.json | tail -1
   bpinfo up$up-3dtiles/tileset.json | grep -oE 'up is -?[xyz]'
   for format in ply obj stl; do  # these have no axes
@@ -68,3 +68,21 @@ for up in z y; do
   said "bpinfo $up.glb --up $other --image-size 99 --image told-$up.png > said" && cmp told-$up.png info-$up.png
 done
 said 'bpinfo cube.obj y.glb z.glb --up z --image-size 99 --image both.png > said'
+# bpcheck says which turn it undoes. A turn that it cannot know leaves the answer open: a record that is not understood, none at all, or one by others.
+bpvox cube.obj --resolution 30 --up z | bpmesh --faces 30 -q -o line.gltf
+decided() { said "bpcheck $* > said"; grep -E '^(holds|does not|not decided)' said; }
+decided cube.obj line.gltf
+decided z.glb line.gltf
+for up in '"up": "up"' '"up": 3' ''; do
+  sed "s/\"up\": \"z\"/${up:-\"by\": \"me\"}/" line.gltf > other.gltf
+  decided cube.obj other.gltf
+done
+decided --inside cube.obj other.gltf
+sed 's/"up": "z"/"up": "up"/' line.gltf > other.gltf
+decided --margin 1 cube.obj other.gltf
+decided --inside cube.obj other.gltf
+sed 's/"provenance"/"history"/' line.gltf > other.gltf
+decided cube.obj other.gltf
+# glTF has y up: of two such files neither needs a record.
+sed 's/"up": "z"/"by": "me"/' line.gltf > other.gltf
+decided y.glb other.gltf
