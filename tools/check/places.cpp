@@ -52,12 +52,11 @@ std::vector<std::string> place_notes(const std::vector<std::string>& files, std:
   }
   const std::string& proxy = files.back();
   if (up && *up != UpAxis::y) notes.push_back(turn_note(proxy, *up));
-  const std::optional<NodeMove> move = extras_of(proxy).move;
-  if (move && move->rounding > 0) {
+  if (const double rounding = extras_of(proxy).rounding; rounding > 0) {
     notes.push_back(
-        fmt::format("{}: its nodes move it by up to {:.6g}: the proof is for coordinates composed in double; programs "
-                    "that compute in 32-bit floats may draw vertices up to {:.2g} elsewhere",
-                    file_name(proxy), move->length, move->rounding));
+        fmt::format("{}: its nodes move or scale it. The proof is for coordinates composed in double; programs that "
+                    "compute in 32-bit floats may draw a vertex elsewhere, by up to {:.2g} along each axis",
+                    file_name(proxy), rounding));
   }
   return notes;
 }

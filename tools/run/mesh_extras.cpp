@@ -108,7 +108,8 @@ double half_step(double x) {
 }
 
 /// Of a node without parent and children that has a translation and a scale; `bounds`: an accessor with min and max.
-void add_move(const Json& node, const Json& bounds, NodeMove& move) {
+double rounding_of(const Json& node, const Json& bounds) {
+  double most = 0;
   const auto number = [](const Json& object, const char* key, std::size_t i, double otherwise) {
     const auto found = object.find(key);
     const bool has = found != object.end() && found->is_array() && found->size() == 3 && (*found)[i].is_number();
@@ -123,33 +124,33 @@ void add_move(const Json& node, const Json& bounds, NodeMove& move) {
       rounding = std::max(rounding, at == 0 ? scaled : scaled + half_step(at + p));
     }
     if (double(float(at)) != at) rounding += half_step(at);
-    move.length = std::max(move.length, std::abs(at));
-    move.rounding = std::max(move.rounding, rounding);
+    most = std::max(most, rounding);
   }
+  return most;
 }
 
-std::optional<NodeMove> gltf_move(const Json& document) {
-  NodeMove move;
+double gltf_rounding(const Json& document) {
+  double rounding = 0;
   const auto object = [&](const char* array, const Json& i) -> const Json* {
     if (!i.is_number_unsigned() || !document.contains(array) || !document.at(array).is_array()) return nullptr;
     const auto n = i.get<std::size_t>();
     return n < document.at(array).size() && document.at(array)[n].is_object() ? &document.at(array)[n] : nullptr;
   };
-  if (!document.is_object() || !document.contains("nodes") || !document.at("nodes").is_array()) return {};
+  if (!document.is_object() || !document.contains("nodes") || !document.at("nodes").is_array()) return 0;
   for (const Json& node : document.at("nodes")) {
     if (!node.is_object() || node.contains("matrix") || node.contains("rotation") || node.contains("children"))
-      return {};
+      return 0;
     const Json* const mesh = node.contains("mesh") ? object("meshes", node.at("mesh")) : nullptr;
     if (mesh == nullptr || !mesh->contains("primitives")) continue;
     static const Json::json_pointer position("/attributes/POSITION");
     for (const Json& primitive : mesh->at("primitives")) {
-      if (!primitive.is_object() || !primitive.contains(position)) return {};
+      if (!primitive.is_object() || !primitive.contains(position)) return 0;
       const Json* const accessor = object("accessors", primitive.at(position));
-      if (accessor == nullptr) return {};
-      add_move(node, *accessor, move);
+      if (accessor == nullptr) return 0;
+      rounding = std::max(rounding, rounding_of(node, *accessor));
     }
   }
-  return move.length > 0 || move.rounding > 0 ? std::optional(move) : std::nullopt;
+  return rounding;
 }
 
 std::size_t gltf_animations(const Json& document) {
@@ -204,7 +205,7 @@ MeshExtras from_gltf(const std::string& text) {
   extras.up = gltf_up(document);
   static const Json::json_pointer record("/asset/extras/provenance");
   extras.recorded = document.is_object() && document.contains(record) && document.at(record).is_array();
-  extras.move = gltf_move(document);
+  extras.rounding = gltf_rounding(document);
   extras.tile = document.is_object() && document.contains(tile);
   extras.levels = gltf_levels(document);
   extras.hulls = has_hulls(document);

@@ -7,12 +7,6 @@
 
 namespace bp {
 
-/// What the nodes of a glTF file add to its positions: translations and scales of roots.
-struct NodeMove {
-  double length = 0;    ///< largest number of a translation
-  double rounding = 0;  ///< of a coordinate, at most, when a program applies them in 32-bit floats; scene units
-};
-
 /// What a file says beside its triangles; nothing if there is none, or if it cannot be understood.
 struct MeshExtras {
   std::vector<std::string> provenance;  ///< a line each step, as bpmesh wrote: comments of PLY and OBJ, extras of glTF
@@ -20,14 +14,16 @@ struct MeshExtras {
   std::string contract;                 ///< the name of what it claims (docs/contracts.md); empty: nothing
   std::optional<std::string> up;        ///< of glTF: asset.extras.up; what is no text, as JSON
   bool recorded = false;                ///< of glTF: asset.extras.provenance is there, as files of this suite have it
-  std::optional<NodeMove> move;         ///< of glTF; empty: nodes move nothing, or turn, or have children
-  bool tile = false;                    ///< the content of a tile, which its transform puts into its place
-  std::size_t levels = 1;               ///< of detail; MSFT_lod of glTF
-  bool hulls = false;                   ///< nodes of glTF are named UCX_*, as convex hulls for Unreal
-  std::size_t animations = 0;           ///< of glTF
-  std::size_t morph_targets = 0;        ///< of glTF: the most that a mesh has
-  std::size_t skins = 0;                ///< of glTF
-  std::size_t joints = 0;               ///< of glTF: the most that a skin has
+  /// Of glTF: how far a coordinate is off, at most, when a program applies the translations and scales of nodes in
+  /// 32-bit floats; scene units. 0: not at all, or not known, since nodes turn or have children.
+  double rounding = 0;
+  bool tile = false;              ///< the content of a tile, which its transform puts into its place
+  std::size_t levels = 1;         ///< of detail; MSFT_lod of glTF
+  bool hulls = false;             ///< nodes of glTF are named UCX_*, as convex hulls for Unreal
+  std::size_t animations = 0;     ///< of glTF
+  std::size_t morph_targets = 0;  ///< of glTF: the most that a mesh has
+  std::size_t skins = 0;          ///< of glTF
+  std::size_t joints = 0;         ///< of glTF: the most that a skin has
 };
 [[nodiscard]] MeshExtras mesh_extras(const std::string& path);
 
