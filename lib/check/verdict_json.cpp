@@ -65,8 +65,7 @@ Json answers_of(const CheckReport& r) {
   Json a = {{"mesh", to_string(r.soundness())}, {"outward", to_string(outward)}};
   if (r.has_scene)
     a[r.wants_inside ? "inside" : "encloses"] = to_string(r.wants_inside ? r.insideness() : r.enclosure());
-  if (r.wants_inside && r.sides_decided)
-    a["free_of_scene"] = to_string(r.freedom());
+  if (r.wants_inside && r.sides_decided) a["free_of_scene"] = to_string(r.freedom());
   if (r.margin > 0) a["margin"] = to_string(r.keeps_margin());
   if (r.asks_hidden) a["hidden"] = to_string(r.hiddenness());
   return a;
