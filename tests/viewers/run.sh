@@ -63,6 +63,23 @@ for viewer in three cesium blender; do
 done
 node "$here/grid.cjs" 4 320 all.png "${shown[@]}" # one row for each viewer
 
+# A mesh that is taken without its node has the size and the place of the level, turned to y up.
+bplod scenes/truck.obj --profile collision --resolution 160 -o data/body > /dev/null
+for file in truck/truck_LOD0 city/city_LOD0 body/truck_unity body/truck_unreal; do
+  cp data/$file.glb data/alone.glb
+  node "$here/shot.cjs" three data/alone.glb alone.png alone=1 > alone
+  bpinfo data/alone.glb --json > alone.json
+  python3 - $file << 'P' || failed=1
+import json, sys
+seen, told = [float(x) for x in open("alone").read().split()[1:]], json.load(open("alone.json"))
+low, high = told["bounds"]["min"], told["bounds"]["max"]
+if sys.argv[1].startswith("city"):  # z up
+    low, high = [low[0], low[2], -high[1]], [high[0], high[2], -low[1]]
+print("alone:", sys.argv[1], seen)
+sys.exit(seen != low + high)
+P
+done
+
 # An animated scene: at the time of a cage three.js sees it where `apply` of that cage writes it.
 awk 'BEGIN { for (i = 0; i < 8; ++i) print "v", (i % 2 ? 2 : -2), (int(i / 2) % 2 ? 4 : -1), (i > 3 ? 2 : -2)
   split("1 3 4 2 5 6 8 7 1 2 6 5 3 7 8 4 1 5 7 3 2 4 8 6", v); for (i = 1; i < 25; i += 4) print "f", v[i], v[i+1], v[i+2], v[i+3] }' > cage.obj
