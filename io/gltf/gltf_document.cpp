@@ -35,9 +35,17 @@ GltfJson parse_json(std::string text) {
   return GltfJson::parse(text);
 }
 
-CountedJson parsed(std::string text, const std::string& name, const SceneOptions& options, std::uint64_t held) {
+std::uint64_t bytes_made(std::string_view text, const MadeOfJson& made) {
+  std::uint64_t count = 0;
+  if (made.word.empty()) return 0;
+  for (std::size_t at = 0; (at = text.find(made.word, at)) != std::string_view::npos; at += made.word.size()) ++count;
+  return count * made.bytes;
+}
+
+CountedJson parsed(std::string text, const std::string& name, const SceneOptions& options, std::uint64_t held,
+                   const MadeOfJson& made = {}) {
   const std::uint64_t bytes = bytes_to_parse(text), all = options.document.bytes;
-  check_document(options, name, "its JSON", text.size() + bytes, all - std::min(all, held));
+  check_document(options, name, "its JSON", text.size() + bytes + bytes_made(text, made), all - std::min(all, held));
   if (text.empty()) fail(ErrorCode::bad_input, {Remedy::repair_file}, "{}: is empty", name);
   try {
     return {parse_json(std::move(text)), bytes};
@@ -48,8 +56,10 @@ CountedJson parsed(std::string text, const std::string& name, const SceneOptions
 
 }  // namespace
 
-CountedJson read_json(const SceneFilePtr& file, const SceneOptions& options, std::uint64_t held) {
-  return parsed(read_lean_json(file, 0, file->size(), temp_dir_of(options), false).text, file->name(), options, held);
+CountedJson read_json(const SceneFilePtr& file, const SceneOptions& options, std::uint64_t held,
+                      const MadeOfJson& made) {
+  return parsed(read_lean_json(file, 0, file->size(), temp_dir_of(options), false).text, file->name(), options, held,
+                made);
 }
 
 ComponentType component_type(const GltfObject& o) {
@@ -63,7 +73,7 @@ ComponentType component_type(const GltfObject& o) {
 // --------------------------------------------------------------------------------------------------------
 
 void GltfObject::unfit(const std::string& what) const {
-  fail(ErrorCode::bad_input, "{}: {} {}", file_, place_.empty() ? "the document" : place_, what);
+  throw Unfit(fmt::format("{}: {} {}", file_, place_.empty() ? "the document" : place_, what));
 }
 
 void GltfObject::broken(const std::string& what) const {

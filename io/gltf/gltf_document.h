@@ -13,6 +13,12 @@ namespace bp {
 
 using GltfJson = nlohmann::json;
 
+/// A bad_input of a file that is right, but not for this: others may read it.
+class Unfit : public Error {
+ public:
+  explicit Unfit(const std::string& what) : Error(ErrorCode::bad_input, what) {}
+};
+
 /// An object of the document that knows its name for messages: "meshes[3].primitives[0]".
 class GltfObject {
  public:
@@ -50,10 +56,12 @@ class GltfObject {
     }
     return otherwise;
   }
-  [[nodiscard]] std::string dump() const { return json_->dump(); }  ///< its JSON
+  [[nodiscard]] const GltfJson& json() const { return *json_; }
+  [[nodiscard]] const std::string& place() const { return place_; }  ///< empty: the document
+  [[nodiscard]] std::string dump() const { return json_->dump(); }   ///< its JSON
   /// Throws bad_input "file: place what", with Remedy::repair_file.
   [[noreturn]] void broken(const std::string& what) const;
-  /// The same of what is right, but not for this: `what` says what to do.
+  /// Throws Unfit "file: place what": `what` says what to do.
   [[noreturn]] void unfit(const std::string& what) const;
 
  private:
@@ -64,6 +72,9 @@ class GltfObject {
 
 /// Of a glTF, or of a tileset. Throws bad_input, with the name, if it requires an extension that is not known.
 void check_required_extensions(const GltfObject& root);
+
+/// Whether an extension of a content is read, or changes nothing of what triangles a viewer draws, nor where.
+[[nodiscard]] bool keeps_triangles(const std::string& extension);
 
 /// The componentType of an accessor, one that glTF knows.
 [[nodiscard]] ComponentType component_type(const GltfObject& accessor);
@@ -77,9 +88,15 @@ struct CountedJson {
   GltfJson json;
   std::uint64_t bytes = 0;  ///< of memory that it takes
 };
-/// The JSON of a file that is no glTF. `held`: bytes of SceneOptions::document that are taken already. Throws as
-/// GltfDocument does.
-[[nodiscard]] CountedJson read_json(const SceneFilePtr& file, const SceneOptions& options, std::uint64_t held = 0);
+/// What is made of a JSON while it is there: so many bytes for each time that a word stands in it.
+struct MadeOfJson {
+  std::string_view word;
+  std::uint64_t bytes = 0;
+};
+/// The JSON of a file that is no glTF. `held`: bytes of SceneOptions::document that are taken already. `made` is
+/// counted with the JSON before that is parsed. Throws as GltfDocument does.
+[[nodiscard]] CountedJson read_json(const SceneFilePtr& file, const SceneOptions& options, std::uint64_t held = 0,
+                                    const MadeOfJson& made = {});
 
 class GltfDocument {
  public:

@@ -16,6 +16,12 @@ Affine gltf_world(std::optional<UpAxis> up) {
   return affine_of(to_y_up(up.value_or(UpAxis::y)).inverse());
 }
 
+// Not as scenes are turned where x is up: by a quarter turn around y.
+Affine gltf_in_tile(UpAxis up) {
+  if (up == UpAxis::x) return affine_of(AxisTurn{{2, 1, 0}, {true, false, false}});
+  return affine_of(to_y_up(UpAxis::z).inverse()) * affine_of(to_y_up(up));
+}
+
 Affine gltf_matrix(const GltfObject& object, const char* key) {
   const auto m = object.numbers<16>(key, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
   Affine a;

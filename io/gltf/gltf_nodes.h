@@ -13,6 +13,9 @@ namespace bp {
 [[nodiscard]] std::optional<UpAxis> gltf_up(const GltfObject& root);
 /// From the y-up world of glTF to the scene's own coordinates.
 [[nodiscard]] Affine gltf_world(std::optional<UpAxis> up);
+/// From the axes of a glTF whose axis `up` (x, y or z) is up to those of a tile, where z is, as viewers turn a content.
+/// Exact.
+[[nodiscard]] Affine gltf_in_tile(UpAxis up);
 /// Nodes of the default scene, else of the first; without scenes every node that is no child.
 [[nodiscard]] std::vector<std::uint64_t> gltf_roots(const GltfObject& root);
 /// 16 numbers by columns; if they are not there, the points stay.

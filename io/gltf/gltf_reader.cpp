@@ -13,6 +13,7 @@
 #include "io/gltf/detail/gltf_skin.h"
 #include "io/gltf/gltf_document.h"
 #include "io/gltf/gltf_nodes.h"
+#include "io/gltf/gltf_unread.h"
 #include "io/scene/part_names.h"
 
 // glTF 2.0 and GLB (Khronos, glTF 2.0 specification, section 3.7 on geometry, 3.5 on nodes). Only what says where
@@ -46,6 +47,7 @@ class SceneBuilder {
     scene_.nodes.reserve(root_.array("nodes").size());
     places_.resize(root_.array("nodes").size());
     if (!place_) scene_.up = gltf_up(root_);
+    if (place_) scene_.unread = gltf_unread(root_);
     add_nodes(gltf_roots(root_), place_ ? placed() : gltf_world(scene_.up));
     for (const Skinned& skinned : skinned_) add_skinned(skinned);
     scene_.animations = root_.array("animations").size();
@@ -121,7 +123,7 @@ Affine SceneBuilder::placed() const {
     const Vec3d at = root_.object("extensions").object("CESIUM_RTC").numbers<3>("center", {0, 0, 0});
     for (std::size_t i = 0; i < 3; ++i) centre.m[i][3] = at[i];
   }
-  return place_->tile * centre * affine_of(to_y_up(UpAxis::z).inverse()) * affine_of(to_y_up(place_->up));
+  return place_->tile * centre * gltf_in_tile(place_->up);
 }
 
 // Depth first, without recursion: a chain of nodes may be as long as the file.

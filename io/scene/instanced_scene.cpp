@@ -165,6 +165,7 @@ class InstancedSource final : public RawSource {
   [[nodiscard]] std::uint64_t instances() const override { return instances_; }
   [[nodiscard]] std::optional<UpAxis> up() const override { return scene_.up; }
   [[nodiscard]] std::size_t levels() const override { return scene_.levels; }
+  [[nodiscard]] UnreadParts unread() const override { return scene_.unread; }
   [[nodiscard]] std::size_t animations() const override { return scene_.animations; }
   [[nodiscard]] std::uint64_t differing() const override { return scene_.differing; }
 

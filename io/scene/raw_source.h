@@ -18,6 +18,13 @@ struct RawBatch {
   std::uint64_t bad_faces = 0;            ///< met by complete()
 };
 
+/// What a file says that may change what a viewer shows of it, and that no reader here follows; a line each.
+struct UnreadParts {
+  std::vector<std::string> moves;        ///< may move or hide its triangles, or put others in their place
+  std::vector<std::string> see_through;  ///< may let an eye through them
+  bool has_holes = false;                ///< images may cut holes into them
+};
+
 class RawSource {
  public:
   static constexpr std::size_t kBatch = 1 << 14;  ///< triangles per read(), about
@@ -45,6 +52,7 @@ class RawSource {
   [[nodiscard]] virtual std::optional<UpAxis> up() const { return {}; }  ///< TriangleSource::up()
   [[nodiscard]] virtual std::size_t animations() const { return 0; }     ///< SceneCounts::animations
   [[nodiscard]] virtual std::uint64_t differing() const { return 0; }    ///< SceneCounts::differing
+  [[nodiscard]] virtual UnreadParts unread() const { return {}; }        ///< of contents of tiles; others tell nothing
   [[nodiscard]] virtual std::size_t levels() const { return 1; }    ///< of the file: SceneOptions::level is one of them
   [[nodiscard]] virtual std::uint64_t points() const { return 0; }  ///< vertices read so far, where they are counted
   [[nodiscard]] std::uint64_t bad_faces() const {
@@ -109,6 +117,10 @@ void normalize(TriangleD& t);
 /// The same, but nothing moves: only negative zeros are 0.
 void drop_signs_of_zeros(TriangleD& t);
 [[nodiscard]] bool is_finite(const TriangleD& t);
+
+/// As read_mesh(), from a source that is open.
+[[nodiscard]] IndexedMesh mesh_of(const std::string& name, RawSource& raw, const SceneOptions& options,
+                                  SceneCounts& counts);
 
 /// Throws out_of_resource, with the figure, if `what` of a file takes more than `left` bytes. `per_missing`: bytes of
 /// SceneOptions::document that leave one byte more for it.

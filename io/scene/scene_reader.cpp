@@ -352,9 +352,13 @@ std::unique_ptr<TriangleSource> open_scenes(std::vector<std::string> paths, cons
   return std::make_unique<SceneRow>(std::move(paths), options);
 }
 
+IndexedMesh mesh_of(const std::string& name, RawSource& raw, const SceneOptions& options, SceneCounts& counts) {
+  return mesh_of(name, raw, options, 0, counts);
+}
+
 IndexedMesh read_mesh(const std::string& path, const SceneOptions& options, SceneCounts* counts) {
   SceneCounts met;
-  IndexedMesh mesh = mesh_of(path, *open_raw(path, options), options, 0, met);
+  IndexedMesh mesh = mesh_of(path, *open_raw(path, options), options, met);
   if (counts != nullptr) *counts = met;
   return mesh;
 }

@@ -1,13 +1,11 @@
 #include "io/tiles/tileset_contents.h"
 
-#include <sys/stat.h>
-
 #include <algorithm>
 #include <filesystem>
+#include <map>
 
 #include "io/files/file.h"
 #include "io/files/kept_files.h"
-#include "io/files/lower.h"
 #include "io/gltf/gltf_nodes.h"
 #include "io/tiles/tileset_rules.h"
 #include "lib/core/error.h"
@@ -18,21 +16,11 @@ namespace {
 
 // What real tilesets stay far below; beyond it a file asks for more than it can hold.
 constexpr std::size_t kMostNested = 16;  // tilesets below tilesets
-constexpr std::size_t kMostTilesets = 1 << 16;
+constexpr double kMostTilesets = 1 << 16;
+constexpr double kMostContents = 1 << 24;
 
-bool is_file(const std::string& path) {
-  struct stat file {};
-  return ::stat(path.c_str(), &file) == 0 && S_ISREG(file.st_mode);
-}
-
-/// A tileset that is looked at.
-struct Around {
-  std::string folder;
-  UpAxis up;        ///< of its contents
-  bool has_leaves;  ///< ours: they are the scene (extras.leaf), and what stands beside them is not
-};
-
-/// Looks at all tiles, so that those who come after need not.
+/// Looks at all tiles, so that those who come after need not. Leaves of ours are the scene (extras.leaf), and what
+/// stands beside them is not.
 bool has_leaves(const GltfObject& tile, int depth) {
   check_tile(tile, depth);
   bool has = is_leaf(tile);
@@ -41,11 +29,114 @@ bool has_leaves(const GltfObject& tile, int depth) {
   return has;
 }
 
-/// Of older tilesets; glTF has y up.
-UpAxis content_up(const GltfObject& root) {
-  if (!root.has("asset") || !root.object("asset").has("gltfUpAxis")) return UpAxis::y;
-  const std::string named = lower(root.object("asset").text("gltfUpAxis"));
-  return up_axis_named(named).value_or(UpAxis::y);
+struct FoundContent {
+  std::string path;
+  bool is_tileset = false;  ///< that stands for the tiles below
+  Affine place;
+};
+
+/// Calls f(FoundContent) for what shows one tileset as fine as it is. Depth first, as it is drawn.
+template <class F>
+class TileWalk {
+ public:
+  TileWalk(const GltfObject& root, const std::string& path, const F& f)
+      : folder_(folder_of(path)), has_leaves_(has_leaves(root, 0)), f_(f) {}
+
+  /// adds: tiles are drawn beside those below them, as the tile above says.
+  void walk(const GltfObject& tile, const Affine& parent, bool adds = false) const {
+    const Affine place = parent * affine_of_transform(tile_transform(tile));
+    if (tile.has("refine")) adds = bp::adds(tile.text("refine"));
+    const std::size_t below = tile.array("children").size();
+    const bool drawn = has_leaves_ ? is_leaf(tile) : adds || below == 0;
+    if (tile.has("content")) find(tile.object("content"), place, drawn);
+    for (std::size_t i = 0; i < tile.array("contents").size(); ++i) find(tile.item("contents", i), place, drawn);
+    for (std::size_t i = 0; i < below; ++i) walk(tile.item("children", i), place, adds);
+  }
+
+ private:
+  void find(const GltfObject& content, const Affine& place, bool drawn) const {
+    const std::string uri = content_uri(content);
+    if (uri.find("://") != std::string::npos) content.unfit("lies on the network; download it");
+    if (uri.starts_with("data:")) content.unfit("is embedded, which is not read");
+    FoundContent found{content_path(folder_, uri), names_tileset(uri), place};
+    if (drawn || found.is_tileset) f_(std::move(found));
+  }
+
+  const std::string folder_;
+  const bool has_leaves_;
+  const F& f_;
+};
+
+template <class F>
+void for_each_content(const GltfObject& tileset, const std::string& path, const Affine& place, const F& f) {
+  const GltfObject root = tileset.object("root");
+  TileWalk<F>(root, path, f).walk(root, place);
+}
+
+std::string real_path(const std::string& path) {
+  return std::filesystem::weakly_canonical(path).string();
+}
+
+/// Counts what a tileset and those within it stand for, before any is followed: a few that name each other often stand
+/// for more than there are numbers. Each file is read once.
+class ContentCounter {
+ public:
+  struct Count {
+    double tilesets = 1, contents = 0, bytes = 0;  ///< bytes: of the list of contents
+    std::size_t deep = 1;
+  };
+
+  explicit ContentCounter(const SceneOptions& options) : options_(options) {}
+
+  Count count(const GltfObject& tileset, const std::string& path, std::uint64_t bytes) {
+    const std::string real = real_path(path);
+    if (std::find(open_.begin(), open_.end(), real) != open_.end())
+      fail(ErrorCode::bad_input, {Remedy::repair_file}, "{}: is a content of itself, so it has no end", path);
+    if (const auto known = known_.find(real); known != known_.end()) return known->second;
+    if (open_.size() == kMostNested) too_deep(path);
+    check_required_extensions(tileset);
+    open_.push_back(real);
+    held_ += bytes + real.size() + sizeof(Count);
+    Count all;
+    for_each_content(tileset, path, Affine{}, [&](const FoundContent& found) { add(found, all); });
+    held_ -= bytes;
+    open_.pop_back();
+    return known_[real] = all;
+  }
+
+  [[noreturn]] static void too_deep(const std::string& path) {
+    fail(ErrorCode::bad_input, {Remedy::repair_file}, "{}: tilesets within tilesets are read {} deep", path,
+         kMostNested);
+  }
+
+ private:
+  void add(const FoundContent& found, Count& all) {
+    if (!found.is_tileset) {
+      all.contents += 1;
+      all.bytes += double(sizeof(ContentFile) + found.path.size());
+    } else if (is_regular_file(found.path)) {
+      const Count within = counted(found.path);
+      all.tilesets += within.tilesets;
+      all.contents += within.contents;
+      all.bytes += within.bytes;
+      all.deep = std::max(all.deep, 1 + within.deep);
+    }
+  }
+  Count counted(const std::string& path) {
+    const auto known = known_.find(real_path(path));
+    if (known != known_.end()) return known->second;
+    const CountedJson json = read_json(open_scene_file(path, temp_dir_of(options_)), options_, held_);
+    return count(GltfObject(json.json, path, ""), path, json.bytes);
+  }
+
+  const SceneOptions& options_;
+  std::map<std::string, Count> known_;
+  std::vector<std::string> open_;  // tilesets around the place
+  std::uint64_t held_ = 0;
+};
+
+std::string number_text(double n) {
+  return n < 1e18 ? fmt::format("{:.0f}", n) : fmt::format("{:.3g}", n);
 }
 
 /// Depth first, as they are drawn.
@@ -54,10 +145,12 @@ class ContentFinder {
   explicit ContentFinder(const SceneOptions& options) : options_(options) {}
 
   TilesetContents run(const CountedJson& tileset, const std::string& path) {
-    held_ = tileset.bytes;
     const GltfObject root(tileset.json, path, "");
+    check_counts(ContentCounter(options_).count(root, path, tileset.bytes), path, tileset.bytes);
+    held_ = tileset.bytes;
     out_.up = gltf_up(root).value_or(UpAxis::z);
-    add_tileset(root, path, affine_of(to_y_up(out_.up).inverse()) * affine_of(to_y_up(UpAxis::z)));
+    content_up_ = bp::content_up(root);
+    add_tileset(root, path, scene_place(kNoTransform, out_.up));
     if (missing_ > 0)
       fail(ErrorCode::bad_input,
            "{}: {} of {} contents are missing, and the scene is not whole without them; the first is {}", path,
@@ -66,64 +159,39 @@ class ContentFinder {
   }
 
  private:
+  void check_counts(const ContentCounter::Count& count, const std::string& path, std::uint64_t held) const {
+    if (count.tilesets > kMostTilesets || count.contents > kMostContents)
+      fail(ErrorCode::bad_input, {Remedy::repair_file},
+           "{}: stands for {} contents in {} tilesets within each other, and at most {:.0f} in {:.0f} are read", path,
+           number_text(count.contents), number_text(count.tilesets), kMostContents, kMostTilesets);
+    if (count.deep > kMostNested) ContentCounter::too_deep(path);
+    const std::uint64_t all = options_.document.bytes;
+    check_document(options_, path, "the list of its contents", std::uint64_t(count.bytes), all - std::min(all, held));
+  }
+
   void add_tileset(const GltfObject& root, const std::string& path, const Affine& place) {
-    const std::string real = std::filesystem::weakly_canonical(path).string();
-    if (std::find(open_.begin(), open_.end(), real) != open_.end())
-      fail(ErrorCode::bad_input, {Remedy::repair_file}, "{}: is a content of itself, so it has no end", path);
-    if (open_.size() == kMostNested || ++tilesets_ > kMostTilesets)
-      fail(ErrorCode::bad_input, {Remedy::repair_file}, "{}: tilesets within tilesets are read {} deep, and {} of them",
-           path, kMostNested, kMostTilesets);
-    check_required_extensions(root);
-    open_.push_back(real);
-    const GltfObject tile = root.object("root");
-    add_tile(tile, {folder_of(path), content_up(root), has_leaves(tile, 0)}, place, false);
-    open_.pop_back();
+    for_each_content(root, path, place, [&](FoundContent found) { add_content(std::move(found)); });
   }
 
-  /// adds: tiles are drawn beside those below them, as the tile above says.
-  void add_tile(const GltfObject& tile, const Around& around, const Affine& parent, bool adds) {
-    const Affine place = parent * gltf_matrix(tile, "transform");
-    if (tile.has("refine")) adds = bp::adds(tile.text("refine"));
-    const std::size_t below = tile.array("children").size();
-    const bool drawn = around.has_leaves ? is_leaf(tile) : adds || below == 0;
-    if (tile.has("content")) add_content(tile.object("content"), around, place, drawn);
-    for (std::size_t i = 0; i < tile.array("contents").size(); ++i)
-      add_content(tile.item("contents", i), around, place, drawn);
-    for (std::size_t i = 0; i < below; ++i) add_tile(tile.item("children", i), around, place, adds);
-  }
-
-  void add_content(const GltfObject& content, const Around& around, const Affine& place, bool drawn) {
-    std::string path = content_uri(content);
-    if (path.find("://") != std::string::npos) content.unfit("lies on the network; download it");
-    if (path.starts_with("data:")) content.unfit("is embedded, which is not read");
-    if (!path.starts_with('/')) path.insert(0, around.folder + "/");
-    if (!is_file(path)) path.resize(std::min(path.size(), path.find('?')));
-    const bool is_tileset = names_tileset(path);  // stands for the tiles below
-    if (!drawn && !is_tileset) return;
-    if (!is_file(path)) {
-      if (missing_++ == 0) first_missing_ = path;
-    } else if (is_tileset) {
-      const CountedJson tileset = read_json(open_scene_file(path, temp_dir_of(options_), NamedBy::file), options_, held_);
+  void add_content(FoundContent found) {
+    if (!is_regular_file(found.path)) {
+      if (missing_++ == 0) first_missing_ = found.path;
+    } else if (found.is_tileset) {
+      const CountedJson tileset = read_json(open_scene_file(found.path, temp_dir_of(options_), NamedBy::file), options_, held_);
       held_ += tileset.bytes;
-      add_tileset(GltfObject(tileset.json, path, ""), path, place);
+      add_tileset(GltfObject(tileset.json, found.path, ""), found.path, found.place);
       held_ -= tileset.bytes;
     } else {
-      add_file({std::move(path), {place, around.up}});
+      keep_file(found.path);
+      out_.files.push_back({std::move(found.path), {found.place, content_up_}});
     }
-  }
-
-  void add_file(ContentFile file) {
-    held_ += sizeof(ContentFile) + file.path.size();
-    check_document(options_, open_.front(), "its JSON and the list of its contents", held_, options_.document.bytes);
-    keep_file(file.path);
-    out_.files.push_back(std::move(file));
   }
 
   const SceneOptions& options_;
   TilesetContents out_;
-  std::vector<std::string> open_;  // tilesets around the place
-  std::size_t tilesets_ = 0, missing_ = 0;
-  std::uint64_t held_ = 0;  // of the tilesets around the place, and of the list
+  UpAxis content_up_ = UpAxis::y;
+  std::size_t missing_ = 0;
+  std::uint64_t held_ = 0;  // of the tilesets around the place
   std::string first_missing_;
 };
 

@@ -15,8 +15,6 @@ namespace {
 
 using Json = GltfOutJson;
 
-constexpr std::uint64_t kMostBytes = std::uint64_t(1) << 32;  // some millions of tiles
-
 double number_of(const GltfJson& json, const GltfObject& object, const char* key) {
   const auto found = json.find(key);
   if (found == json.end() || !found->is_number()) object.broken(fmt::format("has no number '{}'", key));
@@ -34,48 +32,54 @@ TileBox box_from(const std::array<double, 12>& n) {
 
 class Reader {
  public:
-  explicit Reader(const std::string& path) : name_(path) {
-    try {
-      json_ = GltfJson::parse(read_text(path, kMostBytes));
-    } catch (const GltfJson::exception& e) {
-      fail(ErrorCode::bad_input, {Remedy::repair_file}, "{}: broken JSON: {}", path, detail::json_fault(e));
-    }
-  }
+  Reader(const GltfJson& json, const std::string& path) : json_(json), root_(json, path, ""), unread_(root_) {}
 
   Tileset run() {
-    const GltfObject root(json_, name_, "");
-    check_required_extensions(root);
+    check_required_extensions(root_);
+    unread_.look_at_root(root_);
     Tileset tileset;
-    tileset.version = root.object("asset").text("version");
-    tileset.up = gltf_up(root).value_or(UpAxis::z);
-    tileset.geometric_error = number_of(json_, root, "geometricError");
-    tileset.images = images(root.object("asset"));
-    const GltfObject top = root.object("root");  // says if there is none
+    tileset.version = root_.object("asset").text("version");
+    tileset.up = gltf_up(root_).value_or(UpAxis::z);
+    tileset.content_up = content_up(root_);
+    tileset.geometric_error = number_of(json_, root_, "geometricError");
+    tileset.images = images(root_.object("asset"));
+    const GltfObject top = root_.object("root");  // says if there is none
     tileset.root = tile(top, json_["root"], 0);
+    tileset.not_understood = unread_.lines();
     return tileset;
   }
 
  private:
-  Tile tile(const GltfObject& object, const GltfJson& json, int depth) const {
+  TileVolume volume(const GltfObject& object) {
+    unread_.look_at_volume(object);
+    TileVolume volume;
+    if (object.has("box")) volume.box = box_from(object.numbers<12>("box", {}));
+    if (object.has("sphere")) {
+      const auto n = object.numbers<4>("sphere", {});
+      volume.sphere = TileSphere{{n[0], n[1], n[2]}, n[3]};
+    }
+    if (!volume.box && !volume.sphere && !object.has("region") && !object.has("extensions"))
+      object.broken("has neither a box nor a sphere nor a region");
+    return volume;
+  }
+
+  Tile tile(const GltfObject& object, const GltfJson& json, int depth) {
     check_tile(object, depth);
     if (object.has("contents")) object.unfit("has several contents, which are not read");
+    unread_.look_at_tile(object);
     Tile tile;
-    const GltfObject volume = object.object("boundingVolume");
-    if (volume.has("box")) {
-      tile.box = box_from(volume.numbers<12>("box", {}));
-    } else if (!volume.has("sphere") && !volume.has("region") && !volume.has_extension("3DTILES_bounding_volume_S2")) {
-      volume.broken("has neither a box nor a sphere nor a region");
-    }
-    tile.transform = object.numbers<16>("transform", kNoTransform);
+    tile.volume = volume(object.object("boundingVolume"));
+    tile.transform = tile_transform(object);
     tile.geometric_error = number_of(json, object, "geometricError");
     if (object.has("refine")) tile.refine = object.text("refine");
-    if (object.has("content")) tile.uri = content(object.object("content"));
+    if (object.has("content")) add_content(object.object("content"), tile);
     if (object.has("extras") && object.object("extras").has("cell")) {
       const auto cell = object.object("extras").numbers<6>("cell", {});
       tile.cell = Bounds3d{{cell[0], cell[1], cell[2]}, {cell[3], cell[4], cell[5]}};
       tile.is_leaf = is_leaf(object);
     }
     if (object.has("children") && object.array("children").empty()) object.broken("has 'children', and none in it");
+    tile.children.reserve(object.array("children").size());
     for (std::size_t i = 0; i < object.array("children").size(); ++i)
       tile.children.push_back(this->tile(object.item("children", i), json["children"][i], depth + 1));
     return tile;
@@ -91,14 +95,17 @@ class Reader {
     return images;
   }
 
-  static std::string content(const GltfObject& object) {
-    const std::string uri = content_uri(object);
-    if (names_tileset(uri)) object.unfit("is a tileset of its own: check it by itself");
-    return uri;
+  void add_content(const GltfObject& content, Tile& tile) {
+    unread_.look_at_content(content);
+    tile.uri = content_uri(content);
+    if (names_tileset(tile.uri)) content.unfit("is a tileset of its own: check it by itself");
+    if (content.has("boundingVolume"))
+      tile.content_volume = std::make_shared<const TileVolume>(volume(content.object("boundingVolume")));
   }
 
-  std::string name_;
-  GltfJson json_;
+  const GltfJson& json_;
+  const GltfObject root_;
+  UnreadKeys unread_;
 };
 
 Json json_of(const TileBox& box) {
@@ -113,7 +120,7 @@ Json json_of(const TileBox& box) {
 Json json_of(const Tile& tile) {
   Json json;
   if (tile.transform != kNoTransform) json["transform"] = tile.transform;
-  json["boundingVolume"] = {{"box", json_of(*tile.box)}};
+  json["boundingVolume"] = {{"box", json_of(*tile.volume.box)}};
   json["geometricError"] = tile.geometric_error;
   if (!tile.refine.empty()) json["refine"] = tile.refine;
   if (!tile.uri.empty()) json["content"] = {{"uri", detail::percent_encoded(tile.uri)}};
@@ -128,8 +135,19 @@ Json json_of(const Tile& tile) {
 
 }  // namespace
 
-Tileset read_tileset(const std::string& path) {
-  return Reader(path).run();
+Tileset read_tileset(const std::string& path, const SceneOptions& options) {
+  const MadeOfJson tiles{"\"boundingVolume\"", kTileBytes};  // each has one
+  const CountedJson counted = read_json(open_scene_file(path, temp_dir_of(options)), options, 0, tiles);
+  return Reader(counted.json, path).run();
+}
+
+Tileset read_old_tileset(const std::string& path) {
+  constexpr std::uint64_t kMostBytes = std::uint64_t(1) << 32;  // some millions of tiles
+  try {
+    return Reader(GltfJson::parse(read_text(path, kMostBytes)), path).run();
+  } catch (const GltfJson::exception& e) {
+    fail(ErrorCode::bad_input, {Remedy::repair_file}, "{}: broken JSON: {}", path, detail::json_fault(e));
+  }
 }
 
 std::string tileset_text(const Tileset& tileset, const std::vector<Provenance>& provenance) {

@@ -51,7 +51,7 @@ bool names_image(const std::string& name) {
 
 std::vector<std::string> contents_of(const std::string& tileset) {
   std::vector<std::string> uris;
-  const Tileset read = read_tileset(tileset);
+  const Tileset read = read_old_tileset(tileset);
   std::copy_if(read.images.begin(), read.images.end(), std::back_inserter(uris), is_inside);
   for_each_tile(read, [&](const Tile& tile, const std::string&, const Transform&) {
     if (is_inside(tile.uri)) uris.push_back(tile.uri);

@@ -1,7 +1,5 @@
 #include "io/tiles/tileset_level.h"
 
-#include <sys/stat.h>
-
 #include <iterator>
 #include <set>
 
@@ -49,9 +47,8 @@ class LevelFinder {
 
  private:
   void take(const std::string& uri, const Transform& transform) {
-    const std::string path = folder_ + "/" + uri;
-    struct stat file {};
-    if (::stat(path.c_str(), &file) == 0 && S_ISREG(file.st_mode)) {
+    const std::string path = content_path(folder_, uri);
+    if (is_regular_file(path)) {
       out_.contents.push_back({path, transform});
     } else {
       out_.missing.push_back(uri);
@@ -62,15 +59,6 @@ class LevelFinder {
   std::size_t depth_;
   TilesetLevel& out_;
 };
-
-/// In the axes of the scene.
-Affine placed(const Transform& m, UpAxis up) {
-  Affine a;
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 4; ++j) a.m[i][j] = m[4 * j + i];
-  }
-  return affine_of(to_y_up(up).inverse()) * affine_of(to_y_up(UpAxis::z)) * a;
-}
 
 }  // namespace
 
@@ -91,7 +79,7 @@ std::unique_ptr<TriangleSource> open_contents(const Tileset& tileset, std::vecto
                                               const std::string& path, const SceneOptions& options) {
   TilesetContents all{tileset.up, {}};
   for (PlacedContent& content : contents)
-    all.files.push_back({std::move(content.path), {placed(content.transform, tileset.up)}});
+    all.files.push_back({std::move(content.path), {scene_place(content.transform, tileset.up), tileset.content_up}});
   return filtered(path, open_contents(std::move(all), options), options);
 }
 

@@ -1,5 +1,10 @@
 #include "io/tiles/tileset_rules.h"
 
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <array>
+
 #include "io/files/lower.h"
 #include "io/files/uri.h"
 
@@ -13,12 +18,39 @@ void check_tile(const GltfObject& tile, int depth) {
   if (tile.has_extension("3DTILES_multiple_contents")) tile.unfit("has contents in an extension, which are not read");
 }
 
+Transform tile_transform(const GltfObject& tile) {
+  const Transform m = tile.numbers<16>("transform", kNoTransform);
+  if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1)
+    tile.broken("has a 'transform' whose last row is not 0 0 0 1");
+  return m;
+}
+
+UpAxis content_up(const GltfObject& root) {
+  if (!root.has("asset") || !root.object("asset").has("gltfUpAxis")) return UpAxis::y;
+  const GltfObject asset = root.object("asset");
+  const std::string named = lower(asset.text("gltfUpAxis"));
+  if (named != "x" && named != "y" && named != "z")
+    asset.broken(fmt::format("has the gltfUpAxis \"{}\", which is neither X nor Y nor Z", asset.text("gltfUpAxis")));
+  return *up_axis_named(named);
+}
+
 std::string content_uri(const GltfObject& content) {
   return detail::percent_decoded(content.text(content.has("uri") ? "uri" : "url"));
 }
 
+bool is_regular_file(const std::string& path) {
+  struct stat file {};
+  return ::stat(path.c_str(), &file) == 0 && S_ISREG(file.st_mode);
+}
+
+std::string content_path(const std::string& folder, const std::string& uri) {
+  std::string path = uri.starts_with('/') || folder.empty() ? uri : folder + "/" + uri;
+  if (!is_regular_file(path)) path.resize(std::min(path.size(), path.find('?')));
+  return path;
+}
+
 bool names_tileset(const std::string& uri) {
-  return uri.ends_with(".json");
+  return lower(uri.substr(0, uri.find('?'))).ends_with(".json");
 }
 
 bool adds(const std::string& refine) {
@@ -27,6 +59,116 @@ bool adds(const std::string& refine) {
 
 bool is_leaf(const GltfObject& tile) {
   return tile.has("extras") && tile.object("extras").has("leaf") && tile.object("extras").flag("leaf");
+}
+
+Affine affine_of_transform(const Transform& transform) {
+  Affine a;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 4; ++j) a.m[i][j] = transform[4 * j + i];
+  }
+  return a;
+}
+
+Affine scene_place(const Transform& to_tileset, UpAxis up) {
+  return affine_of(to_y_up(up).inverse()) * affine_of(to_y_up(UpAxis::z)) * affine_of_transform(to_tileset);
+}
+
+// --- UnreadKeys
+// --------------------------------------------------------------------------------------------------------
+
+namespace {
+
+// What OGC 22-025r4 lists, and what older versions had under other names. Left out are keys that move, hide or cull:
+// viewerRequestVolume, expire, region.
+constexpr std::array kRoot = {
+    "asset",  "geometricError", "root",           "properties",        "schema", "schemaUri", "statistics",
+    "groups", "metadata",       "extensionsUsed", "extensionsRequired"};
+constexpr std::array kAsset = {"version", "tilesetVersion", "generator", "copyright", "gltfUpAxis"};
+constexpr std::array kTile = {"boundingVolume", "geometricError", "refine",  "transform",
+                              "content",        "metadata",       "children"};
+constexpr std::array kContent = {"uri", "url", "boundingVolume", "metadata", "group"};
+constexpr std::array kVolume = {"box", "sphere"};
+constexpr std::array kHarmless = {"3DTILES_content_gltf"};
+
+bool is_among(std::span<const char* const> names, const std::string& name) {
+  return std::any_of(names.begin(), names.end(), [&](const char* known) { return name == known; });
+}
+
+/// Metadata with such semantics take the place of what the tile says: TILE_BOUNDING_BOX, CONTENT_HORIZON_OCCLUSION ...
+bool has_semantics_of_tiles(const GltfJson& schema) {
+  std::vector<const GltfJson*> open{&schema};  // no recursion: a file may be as deep as it is long
+  while (!open.empty()) {
+    const GltfJson& json = *open.back();
+    open.pop_back();
+    if (json.is_string()) {
+      const auto& text = json.get_ref<const std::string&>();
+      if (text.starts_with("TILE_") || text.starts_with("CONTENT_")) return true;
+    }
+    for (const GltfJson& below : json) {
+      if (&below != &json) open.push_back(&below);
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+UnreadKeys::UnreadKeys(const GltfObject& root) {
+  metadata_matter_ = root.has("schemaUri") || root.has_extension("3DTILES_metadata") ||
+                     (root.has("schema") && has_semantics_of_tiles(root.json()["schema"]));
+}
+
+void UnreadKeys::note(const GltfObject& object, const std::string& what) {
+  const auto [found, is_new] = found_.try_emplace(what, Found{object.place()});
+  if (!is_new) ++found->second.others;
+}
+
+void UnreadKeys::look(const GltfObject& object, std::span<const char* const> known) {
+  for (const auto& [key, value] : object.json().items()) {
+    if (key == "extensions" && value.is_object()) {
+      for (const auto& [name, extension] : value.items()) {
+        if (!is_among(kHarmless, name)) note(object, name);
+      }
+    } else if (key != "extras" && !is_among(known, key)) {
+      note(object, key);
+    } else if (key == "metadata" && metadata_matter_) {
+      note(object, key);
+    }
+  }
+}
+
+void UnreadKeys::look_at_root(const GltfObject& root) {
+  look(root, kRoot);
+  for (const GltfJson& name : root.array("extensionsUsed")) {
+    if (!name.is_string() || !is_among(kHarmless, name.get<std::string>())) note(root, "extensionsUsed " + name.dump());
+  }
+  const GltfObject asset = root.object("asset");
+  look(asset, kAsset);
+  if (!asset.has("gltfUpAxis")) return;
+  const std::string up = asset.text("gltfUpAxis");  // viewers differ where it is written small
+  if (up != "X" && up != "Y" && up != "Z") note(asset, "gltfUpAxis \"" + up + "\"");
+}
+
+void UnreadKeys::look_at_tile(const GltfObject& tile) {
+  look(tile, kTile);
+}
+
+void UnreadKeys::look_at_content(const GltfObject& content) {
+  look(content, kContent);
+}
+
+void UnreadKeys::look_at_volume(const GltfObject& volume) {
+  look(volume, kVolume);
+}
+
+std::vector<std::string> UnreadKeys::lines() const {
+  std::vector<std::string> lines;
+  for (const auto& [what, found] : found_) {
+    const std::string more = found.others > 0 ? fmt::format(" and {} more", found.others) : "";
+    lines.push_back(fmt::format("{}{}: {} is not followed here, and may move, hide or cull what is drawn",
+                                found.place.empty() ? "tileset" : found.place, more, what));
+  }
+  return lines;
 }
 
 }  // namespace bp

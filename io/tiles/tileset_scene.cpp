@@ -1,13 +1,11 @@
-#include <array>
-#include <cstring>
 #include <mutex>
-#include <nlohmann/json.hpp>
 
 #include "io/gltf/gltf_document.h"
+#include "io/tiles/tile_content.h"
 #include "io/tiles/tileset_contents.h"
 #include "lib/core/error.h"
 
-// A tileset of 3D Tiles (OGC 22-025r4; b3dm: OGC 18-053r2) as a scene.
+// A tileset of 3D Tiles (OGC 22-025r4) as a scene.
 
 namespace bp {
 
@@ -44,68 +42,6 @@ class RestingFile final : public SceneFile {
   SceneFilePtr file_;
   const std::uint64_t size_;
 };
-
-/// What a b3dm holds behind its head and tables. Files beside the tile are those of its glTF.
-class TilePart final : public SceneFile {
- public:
-  TilePart(SceneFilePtr file, std::uint64_t begin, std::uint64_t end)
-      : file_(std::move(file)), begin_(begin), end_(end) {}
-  std::size_t read_at(std::uint64_t offset, std::span<std::byte> buffer) const override {
-    if (offset >= size()) return 0;
-    return file_->read_at(begin_ + offset,
-                          buffer.first(std::size_t(std::min<std::uint64_t>(buffer.size(), size() - offset))));
-  }
-  [[nodiscard]] std::uint64_t size() const override { return end_ - begin_; }
-  [[nodiscard]] std::string name() const override { return file_->name(); }
-  [[nodiscard]] std::string path() const override { return file_->path(); }
-
- private:
-  SceneFilePtr file_;
-  std::uint64_t begin_, end_;
-};
-
-/// The glTF in a b3dm; `place` is moved by RTC_CENTER.
-SceneFilePtr opened_b3dm(const SceneFilePtr& file, const SceneOptions& options, Affine& place) {
-  struct {
-    char magic[4];
-    std::uint32_t version, bytes, features, feature_bytes, batches, batch_bytes;
-  } head{};
-  const std::size_t got = file->read_at(0, std::as_writable_bytes(std::span(&head, 1)));
-  const std::uint64_t features = sizeof head,
-                      begin = features + head.features + head.feature_bytes + head.batches + head.batch_bytes;
-  if (got < sizeof head || head.bytes > file->size() || begin > head.bytes)
-    fail(ErrorCode::bad_input, "{}: promises more bytes than it has; the file is truncated", file->name());
-  if (head.features > 0) {
-    const GltfJson json = read_json(part_of(file, features, head.features), options).json;
-    const GltfObject table(json, file->name(), "");
-    std::array<double, 3> centre{};
-    if (table.has("RTC_CENTER") && json["RTC_CENTER"].is_array()) {
-      centre = table.numbers<3>("RTC_CENTER", {0, 0, 0});
-    } else if (table.has("RTC_CENTER")) {
-      std::array<float, 3> floats{};
-      const std::uint64_t at = table.object("RTC_CENTER").number("byteOffset");
-      if (at + sizeof floats > head.feature_bytes) table.broken("has no bytes for its RTC_CENTER");
-      file->read_at(features + head.features + at, std::as_writable_bytes(std::span(floats)));
-      std::copy(floats.begin(), floats.end(), centre.begin());
-    }
-    Affine moved;
-    for (std::size_t i = 0; i < 3; ++i) moved.m[i][3] = centre[i];
-    place = place * moved;
-  }
-  return std::make_shared<TilePart>(file, begin, head.bytes);
-}
-
-RawSourcePtr open_content(const SceneFilePtr& file, const SceneOptions& options, ContentPlace place) {
-  std::string magic(4, '\0');
-  magic.resize(file->read_at(0, std::as_writable_bytes(std::span(magic))));
-  if (magic == "b3dm") {
-    const SceneFilePtr inner = opened_b3dm(file, options, place.tile);
-    return open_gltf(inner, options, place);
-  }
-  if (magic != "glTF" && !magic.starts_with('{'))
-    fail(ErrorCode::bad_input, "{}: a content that is neither glTF nor b3dm, and no other is read", file->name());
-  return open_gltf(file, options, place);
-}
 
 class TilesetSource final : public RawSource {
  public:
@@ -146,7 +82,7 @@ class TilesetSource final : public RawSource {
  private:
   void enter() {
     file_ = std::make_shared<RestingFile>(contents_.files[at_].path, temp_dir_of(options_));
-    content_ = open_content(file_, options_, contents_.files[at_].place);
+    content_ = open_tile_content(file_, options_, contents_.files[at_].place).triangles;
     has_colors_ = has_colors_ || content_->has_colors();
     has_textures_ = has_textures_ || content_->has_textures();
   }

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "lib/check/tile_finding.h"
 #include "lib/tileset/tileset.h"
 
 /// What must hold of a tileset beyond its schema.
@@ -16,20 +17,25 @@ namespace bp {
 
 /// What is known of the content of a tile.
 struct TileContent {
-  bool found = false;           ///< there, and readable
-  std::string complaint;        ///< why not
-  std::vector<Vec3d> vertices;  ///< in the space of its tile: glTF turned to z up
+  bool found = false;                       ///< there, and readable
+  std::string complaint;                    ///< why not
+  Answer answer = Answer::refuted;          ///< what that means: undecided if a viewer may show it all the same
+  std::vector<Vec3d> vertices;              ///< in the space of its tile: turned to z up
+  std::vector<std::string> not_understood;  ///< what it says that may move or hide and is not read
 };
 /// Reads the content of a tile that has a uri; each is asked for once, depth first, and gone before the next.
 using TileContents = std::function<TileContent(const Tile&)>;
 
 /// One finding per line, with the path of the tile ("root.children[0]"); empty if all holds:
-///   - the version is 1.1; the root says how it refines; errors are finite and not negative;
-///   - the tileset's error is at least the root's; no child's error is above its parent's;
-///   - the corners of a child's box lie in its parent's box, and the content's vertices in its tile's box, each with
-///     its transforms, but for 1e-9 of the box's size: transforms of doubles round;
+///   - the version is 1.0 or 1.1 (else not decided); the root says how it refines; errors are finite and not negative;
+///   - something has content, and an error of 0 keeps no viewer from what lies below a tile without content;
+///   - the tileset's error is at least the root's; no child's error is above its parent's. Errors are scaled as the
+///     transforms scale lengths;
+///   - a child's volumes lie in its parent's, and the content's vertices in its tile's volumes and its own, exactly
+///     (detail/tile_volumes.h). A sphere whose tile is sheared or scaled unevenly is not decided: viewers differ;
 ///   - leaves have no leaf_fault();
-///   - every content is there.
-[[nodiscard]] std::vector<std::string> check_tileset(const Tileset& tileset, const TileContents& content_of);
+///   - every content is there;
+///   - what is not understood is not decided.
+[[nodiscard]] std::vector<TileFinding> check_tileset(const Tileset& tileset, const TileContents& content_of);
 
 }  // namespace bp

@@ -11,6 +11,7 @@
 #include "lib/check/counted.h"
 #include "lib/check/detail/leaf_proof.h"
 #include "lib/check/detail/tile_body.h"
+#include "lib/check/tile_drawn.h"
 #include "lib/core/parallel.h"
 #include "lib/core/vec3.h"
 #include "lib/exact/predicates.h"
@@ -57,11 +58,11 @@ class CoverChecker {
         counts_(tiles.size()),
         below_(tiles.size()),
         octants_(tiles.size()),
+        held_(tiles_held_above(tiles)),
         refused_(tiles.size()) {
     find_below(0);
     for (std::size_t i = 0; i < tiles.size(); ++i) {
-      if (!tiles[i].cell) continue;
-      for (int k = 0; k < 8; ++k) octants_[i][std::size_t(k)] = octant(i, k);
+      if (tiles[i].cell) octants_[i] = children_in_octants(i);
     }
   }
 
@@ -99,16 +100,16 @@ class CoverChecker {
     std::optional<double> leaf_error;  ///< the largest, if those below show nothing but leaves
   };
 
-  /// An eighth of a tile's cell, and the child that it is the cell of, or 0.
-  struct Octant {
-    Bounds3d box;
-    std::size_t child = 0;
-  };
+  /// For each eighth of a tile's cell the child that it is the cell of, or 0.
+  using Octants = std::array<std::uint32_t, 8>;
 
-  [[nodiscard]] Octant octant(std::size_t i, int k) const {
-    Octant out{octant_of(*tiles_[i].cell, k)};
-    for (const std::size_t child : tiles_[i].children) {
-      if (tiles_[child].cell == out.box) out.child = child;
+  [[nodiscard]] Octants children_in_octants(std::size_t i) const {
+    Octants out{};
+    for (int k = 0; k < 8; ++k) {
+      const Bounds3d box = octant_of(*tiles_[i].cell, k);
+      for (const std::size_t child : tiles_[i].children) {
+        if (tiles_[child].cell == box) out[std::size_t(k)] = std::uint32_t(child);
+      }
     }
     return out;
   }
@@ -164,11 +165,15 @@ class CoverChecker {
         [](std::vector<TriangleD>&) {});
   }
 
-  [[nodiscard]] bool fits(std::size_t parent, std::size_t child) const {
+  static constexpr std::size_t kSame = 8, kNowhere = 9, kPlaces = 10;
+  /// The octant of a tile that a child has for its cell; kSame: all of it.
+  [[nodiscard]] std::size_t place_in(std::size_t parent, std::size_t child) const {
     const auto &p = tiles_[parent].cell, &c = tiles_[child].cell;
-    if (p == c) return tiles_[parent].children.size() == 1;
-    if (!p || !c) return false;
-    return std::any_of(octants_[parent].begin(), octants_[parent].end(), [&](const Octant& o) { return o.box == *c; });
+    if (p == c) return kSame;
+    for (int k = 0; p && c && k < 8; ++k) {
+      if (octant_of(*p, k) == *c) return std::size_t(k);
+    }
+    return kNowhere;
   }
 
   [[nodiscard]] bool in_root(const TriangleD& t) const {
@@ -193,7 +198,7 @@ class CoverChecker {
     if (below_[i].first >= end_ || below_[i].last < begin_) return;
     const CoverTile& tile = tiles_[i];
     const bool mine = mine_[i] && i >= begin_ && i < end_;
-    if (mine && !tile.triangles && tile.children.empty()) count(i, shown_by_nothing(i, t));
+    if (mine && !held_[i] && !tile.triangles && tile.children.empty()) count(i, shown_by_nothing(i, t));
     if (mine && tile.triangles && !refused_[i])
       count(i, tile.leaf_error ? compare(i, t) : examine(i, t, bounds, known));
     if (tile.children.empty()) return;
@@ -201,12 +206,14 @@ class CoverChecker {
       return visit(tile.children[0], t, bounds, known);
     if (!tile.cell) return;
     const Bounds3d near = grown(bounds, growth_for(*tile.cell, t));
-    for (const Octant& octant : octants_[i]) {
-      if (!overlap(near, octant.box) || !meets(t, bounds, octant.box)) continue;
-      if (octant.child != 0) {
-        visit(octant.child, t, bounds, known);
-      } else if (mine) {
-        const Verdict verdict = without_child(i, octant.box, t);
+    const bool stays = held_[i] || (tile.adds && tile.triangles && !tile.leaf_error);
+    for (int k = 0; k < 8; ++k) {
+      const Bounds3d octant = octant_of(*tile.cell, k);
+      if (!overlap(near, octant) || !meets(t, bounds, octant)) continue;
+      if (const std::size_t child = octants_[i][std::size_t(k)]; child != 0) {
+        visit(child, t, bounds, known);
+      } else if (mine && !stays) {
+        const Verdict verdict = without_child(i, octant, t);
         count(i, verdict == Verdict::missing ? Verdict::uncovered : verdict);
       }
     }
@@ -278,14 +285,14 @@ class CoverChecker {
     const CoverTile& tile = tiles_[i];
     if (unsound_[i] != 0)
       findings_.push_back({fmt::format("{}: {} is no closed, oriented, embedded 2-manifold", tile.place, tile.uri)});
+    std::array<std::uint64_t, kPlaces> at{};
+    for (const std::size_t child : tile.children) ++at[place_in(i, child)];
     for (const std::size_t child : tile.children) {
-      if (!fits(i, child))
+      const std::size_t place = place_in(i, child);
+      if (place == kNowhere || (place == kSame && tile.children.size() > 1))
         findings_.push_back(
             {fmt::format("{}: its cell is neither its parent's nor an octant of it", tiles_[child].place)});
-      const auto is_twin = [&](std::size_t other) {
-        return other != child && tiles_[other].cell == tiles_[child].cell;
-      };
-      if (std::any_of(tile.children.begin(), tile.children.end(), is_twin))
+      if (place != kNowhere && at[place] > 1)
         findings_.push_back({fmt::format("{}: another child of its parent has the same cell", tiles_[child].place)});
     }
   }
@@ -344,14 +351,15 @@ class CoverChecker {
   std::vector<std::unique_ptr<LeafBody>> leaves_;
   std::vector<std::uint8_t> unsound_;
   std::vector<Counts> counts_;
-  std::vector<Numbers> below_;                  ///< of each tile, itself included
-  std::vector<std::array<Octant, 8>> octants_;  ///< of the cell of each tile
-  std::size_t begin_ = 0, end_ = 0;             ///< tiles of this share
+  std::vector<Numbers> below_;    ///< of each tile, itself included
+  std::vector<Octants> octants_;  ///< of the cell of each tile
+  const std::vector<bool> held_;
+  std::size_t begin_ = 0, end_ = 0;  ///< tiles of this share
   std::atomic<std::uint64_t> astray_{0};
   double scene_edge_ = 0;      ///< the longest of the scene's box, where there are leaves
   std::vector<bool> refused_;  ///< leaves with too large an error
   CoverReport report_;
-  std::vector<CoverFinding>& findings_ = report_.findings;
+  std::vector<TileFinding>& findings_ = report_.findings;
 };
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/check/check_report.h"
+#include "lib/check/tile_finding.h"
 #include "lib/check/tile_part.h"
 #include "lib/core/box.h"
 #include "lib/core/indexed_mesh.h"
@@ -18,7 +18,8 @@
 ///   - for each tile whose cell t meets, t ∩ cell meets no face of the tile's content and lies inside of it;
 ///   - the cells of a tile's children are octants of its own, or its own again; t meets no octant without a child,
 ///     unless all below are leaves, and t has next to nothing there: what a leaf without triangles would be, too.
-/// A tile without a cell answers for all of space; one without content draws nothing, and must have children.
+/// A tile without a cell answers for all of space; one without content draws nothing, and must have children. Below a
+/// tile that is added to (tiles_held_above()) there need be no children.
 ///
 /// A leaf encloses nothing: it is the scene itself in its cell. Each of its triangles must lie within `leaf_error` of a
 /// t ∩ cell and face as t does. Each t ∩ cell must be covered by such triangles, so that its points lie within 3 errors
@@ -44,22 +45,19 @@ struct CoverTile {
   std::string place, uri;                  ///< for findings
   std::optional<std::uint64_t> triangles;  ///< of its content; none: nothing is drawn
   std::optional<Bounds3d> cell;            ///< scene units
-  std::vector<std::size_t> children;       ///< numbers of tiles
+  std::vector<std::size_t> children;       ///< numbers of tiles; they follow their parents
   std::optional<double> leaf_error = {};   ///< a leaf: so far from the scene at most
+  double error = 0;                        ///< geometricError, scene units
+  bool adds = false;                       ///< refined by adding: its content stays beside those below
+  bool is_joint = false;                   ///< no tile of the file: an octant that stands between two of them
 };
 /// Reads the content of a tile that has one, scene units. Called on several threads.
 using CoverContents = std::function<IndexedMesh(std::size_t tile)>;
 
 constexpr std::uint64_t kCoverBytesPerTriangle = 300;  ///< of a content, while it is looked at
 
-/// A line.
-struct CoverFinding {
-  std::string text;
-  Answer answer = Answer::refuted;
-};
-
 struct CoverReport {
-  std::vector<CoverFinding> findings;
+  std::vector<TileFinding> findings;
   double leaf_error = 0;   ///< the largest that leaves were compared with, rounding included; scene units
   std::uint64_t thin = 0;  ///< parts thinner than six errors of which only the corners were found
   std::uint64_t flat = 0;  ///< parts that rounding flattens and the leaf does not show

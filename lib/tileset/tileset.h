@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,11 +21,24 @@ struct TileBox {
   std::array<Vec3d, 3> axes{};
   [[nodiscard]] std::array<Vec3d, 8> corners() const;
 };
-/// The box around `bounds`, axes along x, y, z.
+/// The box around `bounds`, axes along x, y, z. It holds them exactly: half-lengths are rounded up.
 [[nodiscard]] TileBox box_of(const Bounds3d& bounds);
 
+struct TileSphere {
+  Vec3d centre{};
+  double radius = 0;
+};
+
+/// Where something is drawn: viewers cull by it. With a box and a sphere, a viewer may take either. With neither it is
+/// one that is not read, and Tileset::not_understood tells.
+struct TileVolume {
+  std::optional<TileBox> box;
+  std::optional<TileSphere> sphere;
+};
+
 struct Tile {
-  std::optional<TileBox> box;  ///< none: a sphere or a region, whose contents are not looked at
+  TileVolume volume;
+  std::shared_ptr<const TileVolume> content_volume;  ///< of its content alone; null: none is told
   Transform transform = kNoTransform;
   double geometric_error = 0;
   std::string refine;  ///< "ADD", "REPLACE"; empty: the parent's
@@ -38,9 +52,11 @@ struct Tile {
 
 struct Tileset {
   std::string version = "1.1";
-  UpAxis up = UpAxis::z;  ///< of the scene it was made from; ours only (asset.extras.up)
+  UpAxis up = UpAxis::z;          ///< of the scene it was made from; ours only (asset.extras.up)
+  UpAxis content_up = UpAxis::y;  ///< of the glTF in its contents: x, y or z (asset.gltfUpAxis)
   double geometric_error = 0;
-  std::vector<std::string> images;  ///< files that contents share; ours only (asset.extras.images)
+  std::vector<std::string> images;          ///< files that contents share; ours only (asset.extras.images)
+  std::vector<std::string> not_understood;  ///< what it says that may move, hide or cull and is not read; a line each
   Tile root;
 };
 
@@ -49,6 +65,10 @@ template <class F>
 void for_each_tile(const Tileset& tileset, const F& f);
 
 [[nodiscard]] Transform product(const Transform& a, const Transform& b);  ///< first b, then a
+/// The largest factor by which it makes a length longer along one of its axes; 1 if that is so but for rounding.
+[[nodiscard]] double largest_scale(const Transform& m);
+/// Whether lengths keep their proportions, but for rounding: then spheres stay spheres.
+[[nodiscard]] bool keeps_spheres(const Transform& m);
 [[nodiscard]] Vec3d transformed(const Transform& m, const Vec3d& p);
 
 namespace detail {

@@ -52,13 +52,32 @@ Soup cut(const Soup& soup, const Cell& cell) {
   return out;
 }
 
-/// As OBJ; a content is y-up, as glTF is.
-std::string obj_of(const Soup& soup, bool content) {
+/// As glTF, which is y-up. Each triangle is a node, whose matrix holds its corners in double.
+std::string gltf_of(const Soup& soup) {
+  std::string nodes, numbers;
+  for (std::size_t i = 0; i < soup.size(); ++i) {
+    const Triangle& t = soup[i];
+    const auto column = [](const Point& p, const char* last) {
+      return text_of(p[0]) + "," + text_of(p[2]) + "," + text_of(-p[1]) + "," + last;
+    };
+    Point u, v;
+    for (std::size_t k = 0; k < 3; ++k) u[k] = t[1][k] - t[0][k], v[k] = t[2][k] - t[0][k];
+    const char* const comma = i == 0 ? "" : ",";
+    numbers += comma + std::to_string(i);
+    nodes += std::string(comma) + R"({"mesh":0,"matrix":[)" + column(u, "0,") + column(v, "0,") + "0,0,0,0," +
+             column(t[0], "1") + "]}";
+  }
+  return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[)" + numbers + R"(]}],"nodes":[)" + nodes +
+         R"(],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"accessors":[{"bufferView":0,)"
+         R"("componentType":5126,"count":3,"type":"VEC3"}],"bufferViews":[{"buffer":0,"byteLength":36}],)"
+         R"("buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,)"
+         R"(AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
+}
+
+std::string obj_of(const Soup& soup) {
   std::string text;
   for (const Triangle& t : soup) {
-    for (const Point& p : t)
-      text +=
-          "v " + text_of(p[0]) + " " + text_of(content ? p[2] : p[1]) + " " + text_of(content ? -p[1] : p[2]) + "\n";
+    for (const Point& p : t) text += "v " + text_of(p[0]) + " " + text_of(p[1]) + " " + text_of(p[2]) + "\n";
   }
   for (std::size_t i = 0; i < soup.size(); ++i)
     text += "f " + std::to_string(3 * i + 1) + " " + std::to_string(3 * i + 2) + " " + std::to_string(3 * i + 3) + "\n";
@@ -78,8 +97,8 @@ class Maker {
   /// A root, and leaves in the octants that hold a part of the scene, or one in its whole cell.
   Damage make() {
     scene_ = c_.once_in(3) ? Soup{{Point{2, 2, 2}, {14, 2.5, 2}, {3, 3, 3}}} : box({2, 2, 2}, c_);
-    place_.write("s.obj", obj_of(scene_, false));
-    Json root = tile("r.obj", box({1, 1, 1, 15, 15, 15}), kRoot, 8);
+    place_.write("s.obj", obj_of(scene_));
+    Json root = tile("r.gltf", box({1, 1, 1, 15, 15, 15}), kRoot, 8);
     root["refine"] = "REPLACE";
     if (c_.once_in(2)) {
       add_leaf(root, kRoot);
@@ -89,7 +108,7 @@ class Maker {
         add_leaf(root, {x, y, z, x + 8, y + 8, z + 8});
       }
     }
-    Json json = {{"asset", {{"version", "1.1"}, {"extras", {{"up", "z"}}}}}, {"geometricError", real(10)}};
+    Json json = {{"asset", {{"version", "1.1"}, {"extras", {{"up", "z"}}}}}, {"geometricError", real(40)}};
     json["root"] = std::move(root);
     place_.write("tileset.json", raw_numbers(json.dump()));
     return damage_;
@@ -117,7 +136,7 @@ class Maker {
   }
 
   Json tile(const std::string& uri, const Soup& content, const Cell& cell, double error) {
-    place_.write(uri, obj_of(content, true));
+    place_.write(uri, gltf_of(content));
     Json t = {{"boundingVolume", {{"box", {8, 8, 8, 9, 0, 0, 0, 9, 0, 0, 0, 9}}}}, {"geometricError", real(error)}};
     t["content"]["uri"] = uri;
     for (const double x : cell) t["extras"]["cell"].push_back(real(x));
@@ -129,11 +148,11 @@ class Maker {
     if (content.empty()) return add_empty_leaf(root, cell);
     change(content);
     if (content.empty()) content.push_back({});
-    const std::string uri = "l" + std::to_string(leaves_++) + ".obj";
+    const std::string uri = "l" + std::to_string(leaves_++) + ".gltf";
     Json leaf = tile(uri, content, cell, c_.once_in(12) ? wrong(c_.of({1.0, 1e-3, 1e-9, 4e-6})) : kError);
     if (!c_.once_in(40)) leaf["extras"]["leaf"] = true;
     damage_.any = damage_.any || !leaf["extras"].contains("leaf");
-    if (c_.once_in(40)) leaf["children"].push_back(tile("r.obj", box({1, 1, 1, 15, 15, 15}), cell, wrong(0)));
+    if (c_.once_in(40)) leaf["children"].push_back(tile("r.gltf", box({1, 1, 1, 15, 15, 15}), cell, wrong(0)));
     if (c_.once_in(40)) {
       damage_.any = true;
       for (const Triangle& t : content) damage_.hole = damage_.hole || area(t) > 0.1;
@@ -148,7 +167,7 @@ class Maker {
   /// As where the scene has nothing; or none.
   void add_empty_leaf(Json& root, const Cell& cell) {
     if (c_.once_in(2)) return;
-    Json leaf = tile("none.obj", {}, cell, kError);
+    Json leaf = tile("none.gltf", {}, cell, kError);
     leaf.erase("content");
     leaf["extras"]["leaf"] = true;
     root["children"].push_back(std::move(leaf));

@@ -2,29 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <map>
-
 #include "io/tiles/tileset_file.h"
 #include "lib/check/check_proxy.h"
-#include "lib/check/check_tileset.h"
 #include "lib/check/counted.h"
 #include "lib/check/scene_words.h"
-#include "lib/check/tile_cover.h"
-#include "lib/core/error.h"
+#include "lib/check/tile_drawn.h"
+#include "lib/geometry/triangle_totals.h"
 #include "lib/pass/voxelize/empty_scene.h"
-#include "tools/cli/advice.h"
-#include "tools/cli/report.h"
+#include "tools/check/cover_tiles.h"
 
 namespace bp {
 
 namespace {
-
-/// Vertices in the space of its tile.
-IndexedMesh read_content(const std::string& path, const SceneOptions& options) {
-  IndexedMesh mesh = read_mesh(path, options);
-  for (Vec3d& p : mesh.vertices) p = turned(p, UpAxis::y, UpAxis::z);  // glTF to 3D Tiles
-  return mesh;
-}
 
 /// What is wrong with a proxy, in a few words.
 std::string complaint_of(const CheckReport& r) {
@@ -46,106 +35,9 @@ std::string complaint_of(const CheckReport& r) {
   return text.empty() ? "does not hold" : text;
 }
 
-bool has_cells(const Tileset& tileset) {
-  bool any = false;
-  for_each_tile(tileset, [&](const Tile& tile, const std::string&, const Transform&) { any = any || tile.cell; });
-  return any;
-}
-
-/// The tileset as check_cover() wants it, and where its contents lie.
-class CoverTiles {
- public:
-  CoverTiles(const Tileset& tileset, std::string folder, const SceneOptions& options, TilePart part)
-      : up_(tileset.up), folder_(std::move(folder)), options_(options) {
-    for_each_tile(tileset, [&](const Tile& tile, const std::string& place, const Transform& transform) {
-      add(tile, place, transform);
-    });
-    mine_ = tiles_of(part, tiles_);
-  }
-
-  [[nodiscard]] const std::vector<CoverTile>& tiles() const { return tiles_; }
-  [[nodiscard]] bool mine(std::size_t i) const { return mine_[i]; }
-  /// For each tile with a uri, in their order: what is known of it. The number of triangles is noted, and counted. Of
-  /// another part's tile, it is taken to be there: that part tells.
-  [[nodiscard]] TileContent look_at(const Tile& tile, TilesetVerdict& verdict) {
-    while (tiles_[next_].uri.empty()) ++next_;
-    const bool mine = mine_[next_];
-    CoverTile& noted = tiles_[next_++];
-    if (!mine) {
-      noted.triangles = 0;
-      return {true, "", {}};
-    }
-    ++verdict.contents;
-    verdict.leaves += noted.leaf_error.has_value();
-    TileContent known;
-    try {
-      IndexedMesh mesh = read_content(folder_ + tile.uri, options_);
-      noted.triangles = mesh.triangles.size();
-      verdict.triangles += mesh.triangles.size();
-      known.vertices = std::move(mesh.vertices);
-      known.found = true;
-    } catch (const Error& e) {
-      if (e.code() != ErrorCode::bad_input) throw;
-      known.complaint = advised(e);
-    }
-    return known;
-  }
-  /// In the coordinates of the scene.
-  [[nodiscard]] IndexedMesh content(std::size_t i) const {
-    IndexedMesh mesh = read_content(folder_ + tiles_[i].uri, options_);
-    for (Vec3d& p : mesh.vertices) p = to_scene(transforms_[i], p);
-    return mesh;
-  }
-
- private:
-  void add(const Tile& tile, const std::string& place, const Transform& transform) {
-    CoverTile& out = tiles_.emplace_back();
-    out.place = place;
-    out.uri = tile.uri;
-    if (tile.cell) out.cell = moved(*tile.cell, transform);
-    transforms_.push_back(transform);
-    const std::size_t number = tiles_.size() - 1, end = place.rfind(".children[");
-    Place& here = places_[place] = {number, nullptr};
-    if (end != std::string::npos) {
-      const Place& parent = places_.at(place.substr(0, end));
-      tiles_[parent.number].children.push_back(number);
-      here.proven = parent.proven;
-    }
-    if (tile.cell && tile.is_leaf && leaf_fault(tile, here.proven).empty()) {
-      tiles_[number].leaf_error = tile.geometric_error;
-    } else if (!tile.uri.empty()) {
-      here.proven = &tile;
-    }
-  }
-  [[nodiscard]] Vec3d to_scene(const Transform& transform, const Vec3d& p) const {
-    return turned(transformed(transform, p), UpAxis::z, up_);
-  }
-  [[nodiscard]] Bounds3d moved(const Bounds3d& cell, const Transform& transform) const {
-    Transform turn = transform;
-    for (std::size_t i = 12; i < 15; ++i) turn[i] = 0;
-    if (turn != kNoTransform) fail(ErrorCode::bad_input, "a tile with a cell is turned or scaled, which is not read");
-    Bounds3d out;
-    for (const Vec3d& p : {cell.min, cell.max}) out.add(to_scene(transform, p));
-    return out;
-  }
-
-  const UpAxis up_;
-  const std::string folder_;
-  const SceneOptions& options_;
-  std::vector<CoverTile> tiles_;
-  std::vector<bool> mine_;  ///< tiles of this part
-  std::vector<Transform> transforms_;
-  struct Place {
-    std::size_t number = 0;
-    const Tile* proven = nullptr;  ///< with content: itself, or the nearest above
-  };
-  std::map<std::string, Place> places_;
-  std::size_t next_ = 0;  ///< tile to look for a uri at
-};
-
 /// Each content must enclose the whole scene by itself.
-std::vector<CoverFinding> check_whole(const CoverTiles& cover, TriangleSource& scene) {
-  std::vector<CoverFinding> findings;
+std::vector<TileFinding> check_whole(const CoverTiles& cover, TriangleSource& scene) {
+  std::vector<TileFinding> findings;
   for (std::size_t i = 0; i < cover.tiles().size(); ++i) {
     const CoverTile& tile = cover.tiles()[i];
     if (!tile.triangles || !cover.mine(i)) continue;
@@ -159,14 +51,15 @@ std::vector<CoverFinding> check_whole(const CoverTiles& cover, TriangleSource& s
   return findings;
 }
 
-/// Of a whole reading. Where nothing of the tileset is drawn, none was made.
-SceneCounts counts_of(TriangleSource& scene) {
-  if (!scene.counts().has_area()) {
-    scene.rewind();
-    for (std::vector<TriangleD> chunk; scene.read(chunk);) continue;
-  }
-  if (!scene.counts().has_area()) refuse_empty_scene(scene.name(), scene.counts());
-  return scene.counts();
+/// What the contents enclose, and whether a viewer draws them.
+CoverReport check_scene(const CoverTiles& cover, const Tileset& tileset, TriangleSource& scene, const Bounds3d& bounds,
+                        std::uint64_t memory_bytes, TilePart part) {
+  std::vector<TileFinding> findings = check_drawn(cover.tiles(), tileset.geometric_error, bounds);
+  const auto content = [&](std::size_t i) { return cover.content(i); };
+  CoverReport report = cover.has_cells() ? check_cover(cover.tiles(), content, scene, memory_bytes, part)
+                                         : CoverReport{check_whole(cover, scene)};
+  report.findings.insert(report.findings.begin(), findings.begin(), findings.end());
+  return report;
 }
 
 }  // namespace
@@ -179,6 +72,13 @@ std::string TilesetVerdict::doubt() const {
   return undecided > 0 ? counted(undecided, "finding") : partial_scene(scene_counts);
 }
 
+void TilesetVerdict::add(const std::vector<TileFinding>& found) {
+  for (const TileFinding& finding : found) {
+    findings.push_back(finding.text);
+    undecided += finding.answer == Answer::undecided;
+  }
+}
+
 Json TilesetVerdict::part_json() const {
   if (part.of == 1) return nullptr;
   return {{"number", part.number + 1}, {"of", part.of}};
@@ -187,12 +87,16 @@ Json TilesetVerdict::part_json() const {
 std::string TilesetVerdict::text(const std::string& name) const {
   std::string lines;
   for (const std::string& finding : findings) lines += finding + "\n";
+  if (scene && up != UpAxis::z)
+    lines += fmt::format("{}: says that {} is up in the scene, and is compared so\n", name, name_of(up));
   if (scene && leaves > 0)
     lines += fmt::format("{}: {} of the contents enclose nothing: they must be the scene itself, to within {:.3g}\n",
                          name, leaves, tolerance);
   if (scene) lines += left_out_lines(scene_counts, name + ": of the scene, ");
   if (thin > 0)
     lines += fmt::format("{}: of {} thin parts of the scene only the corners were looked for\n", name, thin);
+  if (holes > 0)
+    lines += fmt::format("{}: images of {} may cut holes, which are not looked at\n", name, counted(holes, "content"));
   if (flat > 0) lines += fmt::format("{}: {} parts of the scene that rounding flattens may be missing\n", name, flat);
   const std::string which = part.of == 1 ? "" : fmt::format("part {} of {}: ", part.number + 1, part.of);
   return lines + fmt::format("{}: {}{}, {}, {}{}: {}\n", name, which, counted(tiles, "tile"),
@@ -215,37 +119,41 @@ std::string TilesetVerdict::json(const std::string& name) const {
       {"scene", scene},
       {"skipped", {{"non_finite", scene_counts.non_finite}, {"bad_faces", scene_counts.bad_faces}}},
       {"differing", scene_counts.differing},
+      {"up", name_of(up)},
       {"tolerance", scene && leaves > 0 ? Json(tolerance) : Json(nullptr)},
       {"thin", thin},
       {"flat", flat},
+      {"holes", holes},
       {"findings", findings}};
   return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 TilesetVerdict check_tileset_file(const std::string& path, const std::vector<std::string>& scenes,
-                                  const SceneOptions& options, std::uint64_t memory_bytes, TilePart part) {
-  const Tileset tileset = read_tileset(path);
-  const std::string folder = path.find('/') == std::string::npos ? "" : path.substr(0, path.rfind('/') + 1);
+                                  const SceneOptions& of_tileset, const SceneOptions& options,
+                                  std::uint64_t memory_bytes, TilePart part) {
+  const Tileset tileset = read_tileset(path, of_tileset);
+  const std::string folder = path.find('/') == std::string::npos ? "" : path.substr(0, path.rfind('/'));
   TilesetVerdict verdict;
   verdict.scene = !scenes.empty();
   std::unique_ptr<TriangleSource> scene;
   if (verdict.scene) scene = open_scenes(scenes, options);
   CoverTiles cover(tileset, folder, options, part);
-  verdict.tiles = cover.tiles().size();
+  verdict.tiles = cover.tiles_of_file();
   verdict.part = part;
-  verdict.findings = check_tileset(tileset, [&](const Tile& tile) { return cover.look_at(tile, verdict); });
+  verdict.up = tileset.up;
+  ContentCounts counts;
+  verdict.add(check_tileset(tileset, [&](const Tile& tile) { return cover.look_at(tile, counts); }));
+  verdict.contents = counts.contents, verdict.leaves = counts.leaves;
+  verdict.triangles = counts.triangles, verdict.holes = counts.holes;
   if (!scene) return verdict;
-  const auto content = [&](std::size_t i) { return cover.content(i); };
-  const CoverReport report = has_cells(tileset) ? check_cover(cover.tiles(), content, *scene, memory_bytes, part)
-                                                : CoverReport{check_whole(cover, *scene)};
-  verdict.scene_counts = counts_of(*scene);
+  const Bounds3d bounds = bounds_of(*scene);
+  verdict.scene_counts = scene->counts();
+  if (!verdict.scene_counts.has_area()) refuse_empty_scene(scene->name(), verdict.scene_counts);
+  const CoverReport report = check_scene(cover, tileset, *scene, bounds, memory_bytes, part);
   verdict.tolerance = 3 * report.leaf_error;
   verdict.thin = report.thin;
   verdict.flat = report.flat;
-  for (const CoverFinding& found : report.findings) {
-    verdict.findings.push_back(found.text);
-    verdict.undecided += found.answer == Answer::undecided;
-  }
+  verdict.add(report.findings);
   return verdict;
 }
 

@@ -51,9 +51,9 @@ TilesetInfo tileset_info(const Tileset& tileset, const std::string& path) {
   info.up = name_of(tileset.up);
   info.geometric_error = tileset.geometric_error;
   add_tile(tileset.root, 0, folder_of(path), info);
-  if (tileset.root.box) {
+  if (tileset.root.volume.box) {
     info.bounds.emplace();
-    for (const Vec3d& corner : tileset.root.box->corners())
+    for (const Vec3d& corner : tileset.root.volume.box->corners())
       info.bounds->add(transformed(tileset.root.transform, corner));
   }
   info.provenance = mesh_extras(path).provenance;

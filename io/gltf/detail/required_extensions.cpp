@@ -41,6 +41,11 @@ bool is_known(const std::string& name) {
 
 }  // namespace
 
+bool keeps_triangles(const std::string& extension) {
+  const bool draws_others = extension == "MSFT_lod" || extension == "KHR_techniques_webgl";
+  return is_known(extension) && !draws_others;
+}
+
 void check_required_extensions(const GltfObject& root) {
   for (const GltfJson& name : root.array("extensionsRequired")) {
     if (!name.is_string() || !is_known(name.get<std::string>()))

@@ -49,7 +49,7 @@ Triangles bar() {
 
 std::vector<std::string> texts(const CoverReport& report) {
   std::vector<std::string> lines;
-  for (const CoverFinding& f : report.findings) lines.push_back(f.text);
+  for (const TileFinding& f : report.findings) lines.push_back(f.text);
   return lines;
 }
 

@@ -28,13 +28,13 @@ TEST_CASE("a tileset that is written is read back the same", "[quick][io][lod]")
   Tileset t;
   t.up = UpAxis(GENERATE(range(0, 6)));
   t.geometric_error = 1.0 / 3;
-  t.root.box = TileBox{{0.1, 0.2, 0.3}, {Vec3d{1, 2, 3}, Vec3d{4, 5, 6}, Vec3d{7, 8, 9}}};
+  t.root.volume.box = TileBox{{0.1, 0.2, 0.3}, {Vec3d{1, 2, 3}, Vec3d{4, 5, 6}, Vec3d{7, 8, 9}}};
   t.root.transform[12] = 4.9e5 + 1.0 / 7;
   t.root.geometric_error = 0.3;
   t.root.refine = "REPLACE";
   t.root.children.resize(2);
-  t.root.children[0].box = TileBox{};
-  t.root.children[1].box = TileBox{};
+  t.root.children[0].volume.box = TileBox{};
+  t.root.children[1].volume.box = TileBox{};
   t.root.children[1].uri = "a.glb";
   const TempDir dir;
   t.root.children[1].cell = Bounds3d{{-1.0 / 3, 2, 3}, {4, 5, 1e6 + 1.0 / 7}};
@@ -42,8 +42,8 @@ TEST_CASE("a tileset that is written is read back the same", "[quick][io][lod]")
   CHECK(back.version == "1.1");
   CHECK(back.up == t.up);
   CHECK(back.geometric_error == t.geometric_error);
-  CHECK(back.root.box->centre == t.root.box->centre);
-  CHECK(back.root.box->axes == t.root.box->axes);
+  CHECK(back.root.volume.box->centre == t.root.volume.box->centre);
+  CHECK(back.root.volume.box->axes == t.root.volume.box->axes);
   CHECK(back.root.transform == t.root.transform);
   CHECK(back.root.refine == "REPLACE");
   CHECK(back.root.uri.empty());
@@ -56,7 +56,7 @@ TEST_CASE("a tileset that is written is read back the same", "[quick][io][lod]")
 
 TEST_CASE("names of contents are written percent-encoded and read decoded", "[quick][io][lod]") {
   Tileset t;
-  t.root.box = TileBox{};
+  t.root.volume.box = TileBox{};
   t.root.refine = "REPLACE";
   t.root.uri = "a#b?c%20d \xc3\xbc/0_-1_2.glb";
   const std::string text = tileset_text(t, {});
@@ -77,6 +77,48 @@ TEST_CASE("a tileset may be large", "[quick][io][lod]") {
   const TempDir dir;
   const std::string text = tileset(kBox + R"(, "geometricError": 3)");
   CHECK(complaint(dir, text + std::string(std::size_t(65) << 20, ' ')).empty());
+}
+
+TEST_CASE("a tileset keeps to the memory for documents, its tiles included", "[quick][io][lod]") {
+  const TempDir dir;
+  std::string tiles = kBox + R"(, "geometricError": 3, "children": [)";
+  for (int i = 0; i < 100; ++i) tiles += std::string(i > 0 ? "," : "") + "{" + kBox + R"(, "geometricError": 3})";
+  const std::string path = dir.file("tileset.json", tileset(tiles + "]"));
+  SceneOptions options;
+  options.document.bytes = 101 * kTileBytes;
+  CHECK_THROWS_AS(read_tileset(path, options), NeedsMemory);
+  options.document.bytes *= 4;
+  CHECK(read_tileset(path, options).root.children.size() == 100);
+}
+
+TEST_CASE("what may move, hide or cull and is not read is noted once, with its first place", "[quick][io][lod]") {
+  const TempDir dir;
+  const auto unread = [&](const std::string& root) {
+    const Tileset t = read_tileset(dir.file("tileset.json", tileset(root)));
+    return t.not_understood;
+  };
+  const std::string error = R"(, "geometricError": 3)", odd = R"("wobble": 1, )" + kBox + error;
+  CHECK(unread(kBox + error + R"(, "extras": {"a": 1}, "content": {"uri": "a.glb", "group": 0})").empty());
+  const std::vector<std::string> twice = unread(odd + R"(, "children": [{)" + odd + "}]");
+  REQUIRE(twice.size() == 1);
+  CHECK_THAT(twice[0], Contains("root and 1 more: wobble"));
+  CHECK_THAT(unread(R"("boundingVolume": {"region": [0, 0, 1, 1, 0, 1]})" + error)[0],
+             Contains("root.boundingVolume: region"));
+  CHECK_THAT(unread(kBox + error + R"(, "content": {"uri": "a.glb", "expire": 1})")[0],
+             Contains("root.content: expire"));
+}
+
+TEST_CASE("volumes of tiles and contents are boxes, spheres, or both", "[quick][io][lod]") {
+  const TempDir dir;
+  const std::string ball = R"("boundingVolume": {"sphere": [1, 2, 3, 4]})";
+  const std::string both = R"("boundingVolume": {"sphere": [1, 2, 3, 4], "box": [0,0,0, 1,0,0, 0,1,0, 0,0,1]})";
+  const Tileset t = read_tileset(
+      dir.file("tileset.json", tileset(both + R"(, "geometricError": 3, "content": {"uri": "a.glb", )" + ball + "}")));
+  CHECK(t.root.volume.box);
+  CHECK(t.root.volume.sphere->radius == 4);
+  REQUIRE(t.root.content_volume);
+  CHECK(!t.root.content_volume->box);
+  CHECK(t.root.content_volume->sphere->centre == Vec3d{1, 2, 3});
 }
 
 TEST_CASE("a broken tileset is refused with the place", "[quick][io][lod]") {
@@ -114,6 +156,6 @@ TEST_CASE("a tileset may be of version 1.0, and have volumes that are not looked
   const std::string root = tileset(s2 + R"(, "content": {"url": "a%20b.b3dm"})");
   const Tileset t =
       read_tileset(dir.file("t.json", R"({"extensionsRequired": ["3DTILES_bounding_volume_S2"], )" + root.substr(1)));
-  CHECK(!t.root.box);
+  CHECK(!t.root.volume.box);
   CHECK(t.root.uri == "a b.b3dm");
 }

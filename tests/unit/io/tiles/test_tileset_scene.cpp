@@ -107,6 +107,15 @@ TEST_CASE("contents stand where their tiles and tables say, with z up", "[quick]
   CHECK(only(tile("c.b3dm", 1)) == upright({2.5, 2, 3}));
   const TriangleD lying{{{1, 0, 0}, {2, 0, 0}, {1, 2, 0}}};
   CHECK(only(tile("a.glb", 1), {{"version", "1.0"}, {"gltfUpAxis", "Z"}}) == lying);
+  const TriangleD x_up{{{1, 0, 0}, {1, 0, 1}, {1, 2, 0}}};  // (-z, y, x), as viewers have it
+  CHECK(only(tile("a.glb", 1), {{"version", "1.0"}, {"gltfUpAxis", "X"}}) == x_up);
+  (void)dir.file("inner.json", tileset(tile("a.glb", 1), {{"version", "1.0"}, {"gltfUpAxis", "Z"}}));
+  CHECK(only(tile("inner.json", 1)) == upright({2, 0, 0}));  // the outermost tileset tells
+  CHECK_THAT(complaint_of(dir.file("t.json", tileset(tile("a.glb"), {{"version", "1.0"}, {"gltfUpAxis", "-x"}}))),
+             Contains("neither X nor Y nor Z"));
+  Json far = tile("a.glb");
+  far["transform"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 2};
+  CHECK_THAT(complaint_of(dir.file("t.json", tileset(far))), Contains("last row is not 0 0 0 1"));
   CHECK(only(tile("a.glb", 1), {{"version", "1.1"}, {"extras", {{"up", "y"}}}}) == lying);  // ours: the scene's axes
   CHECK(open_scene(dir.path("t.json"))->up() == UpAxis::y);
 }
@@ -124,6 +133,13 @@ TEST_CASE("tilesets within tilesets are read; a ring of them and a flood of them
     (void)dir.file(fmt::format("{}.json", i),
                    tileset(tile("", 0, {tile(fmt::format("{}.json", i + 1)), tile(fmt::format("{}.json", i + 1))})));
   CHECK_THAT(complaint_of(dir.path("0.json")), Contains("16 deep"));
+  for (int i = 0; i < 14; ++i) {  // each names the next one ten times
+    const Json next = tile(i == 13 ? "sub/a.glb" : fmt::format("many{}.json", i + 1));
+    (void)dir.file(fmt::format("many{}.json", i), tileset(tile("", 0, Json::array_t(10, next))));
+  }
+  CHECK_THAT(complaint_of(dir.path("many0.json")),
+             Contains("stands for 100000000000000 contents in 11111111111111 til"));
+  CHECK(read_all(dir.path("many11.json")).size() == 1000);
   root = tile("sub/a.glb");
   for (int i = 0; i < 70; ++i) root = tile("", 0, Json::array({root}));
   CHECK_THAT(complaint_of(dir.file("t.json", tileset(root))), Contains("lies below 64 tiles"));

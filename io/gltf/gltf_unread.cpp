@@ -1,0 +1,79 @@
+#include "io/gltf/gltf_unread.h"
+
+#include <algorithm>
+#include <set>
+
+namespace bp {
+
+namespace {
+
+/// Names of all extensions, wherever they stand, whether the document declares them or not.
+std::set<std::string> extensions_in(const GltfObject& root) {
+  std::set<std::string> names;
+  for (const GltfJson& name : root.array("extensionsUsed"))
+    names.insert(name.is_string() ? name.get<std::string>() : name.dump());
+  std::vector<const GltfJson*> open{&root.json()};  // no recursion: a file may be as deep as it is long
+  while (!open.empty()) {
+    const GltfJson& json = *open.back();
+    open.pop_back();
+    for (const auto& [key, value] : json.items()) {
+      if (json.is_object() && key == "extras") continue;  // of whoever wrote it
+      if (json.is_object() && key == "extensions" && value.is_object()) {
+        for (const auto& [name, extension] : value.items()) names.insert(name);
+      }
+      if (value.is_structured()) open.push_back(&value);
+    }
+  }
+  return names;
+}
+
+bool requires_extension(const GltfObject& root, const std::string& name) {
+  const GltfJson& required = root.array("extensionsRequired");
+  return std::find(required.begin(), required.end(), name) != required.end();
+}
+
+bool has_rtc_center(const GltfObject& root) {
+  if (!root.has_extension("CESIUM_RTC")) return false;
+  const GltfObject rtc = root.object("extensions").object("CESIUM_RTC");
+  return rtc.numbers<3>("center", {0, 0, 0}) != std::array<double, 3>{};
+}
+
+void look_at_extensions(const GltfObject& root, std::vector<std::string>& lines) {
+  for (const std::string& name : extensions_in(root)) {
+    if (!keeps_triangles(name)) lines.push_back(name + " is not followed here, and may move or hide what is drawn");
+    const bool moves = name == "EXT_mesh_gpu_instancing" || (name == "CESIUM_RTC" && has_rtc_center(root));
+    if (moves && !requires_extension(root, name))
+      lines.push_back(name + " moves what is drawn, and a viewer need not know it: it is not among extensionsRequired");
+  }
+}
+
+void look_at_material(const GltfObject& material, UnreadParts& out) {
+  if (!material.has("alphaMode") || material.text("alphaMode") == "OPAQUE") return;
+  const bool has_image =
+      material.has("pbrMetallicRoughness") && material.object("pbrMetallicRoughness").has("baseColorTexture");
+  if (material.text("alphaMode") == "MASK" && has_image) {
+    out.has_holes = true;
+  } else {
+    out.see_through.push_back(
+        fmt::format("{} has the alphaMode {}, and may be seen through", material.place(), material.text("alphaMode")));
+  }
+}
+
+}  // namespace
+
+UnreadParts gltf_unread(const GltfObject& root) {
+  UnreadParts out;
+  look_at_extensions(root, out.moves);
+  if (!root.array("animations").empty()) out.moves.emplace_back("animations may move what is drawn");
+  if (root.array("scenes").empty()) out.moves.emplace_back("it has no scene, and a viewer need not draw its nodes");
+  for (std::size_t i = 0; i < root.array("nodes").size(); ++i) {
+    const GltfObject node = root.item("nodes", i);
+    const auto m = node.numbers<16>("matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
+    if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1)
+      out.moves.push_back(node.place() + " has a matrix whose last row is not 0 0 0 1");
+  }
+  for (std::size_t i = 0; i < root.array("materials").size(); ++i) look_at_material(root.item("materials", i), out);
+  return out;
+}
+
+}  // namespace bp

@@ -1,0 +1,32 @@
+#pragma once
+#include <memory>
+
+#include "lib/tileset/tileset.h"
+
+/// Does a volume by which viewers cull hold what is drawn? Exact for the numbers of the file: there is no tolerance.
+/// Only where a sphere is scaled or touches a slanted side is a length rounded, to the safe side. Nothing beyond 1e60
+/// is held, or with coordinates below 1e-60.
+namespace bp {
+
+class VolumeProof {
+ public:
+  /// A volume with neither a box nor a sphere holds everything.
+  explicit VolumeProof(const TileVolume& volume);
+  ~VolumeProof();
+  VolumeProof(const VolumeProof&) = delete;
+  VolumeProof& operator=(const VolumeProof&) = delete;
+
+  /// A point of the volume's own space.
+  [[nodiscard]] bool holds(const Vec3d& p) const;
+  /// A volume of a space from which `m` leads here: whatever any of its parts holds.
+  [[nodiscard]] bool holds(const TileVolume& inner, const Transform& m) const;
+
+ private:
+  class Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+/// About how far p lies outside, as a share of the volume's size; 0 inside. For messages.
+[[nodiscard]] double beyond(const TileVolume& volume, const Vec3d& p);
+
+}  // namespace bp
