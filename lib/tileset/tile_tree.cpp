@@ -131,27 +131,41 @@ Tileset TileTree::finish(double diameter) {
   return tileset;
 }
 
-/// `above`: the error of the tile above it. A node without content draws nothing, so a viewer must not stop there: it
-/// is refined whenever that one is.
+/// `above`: the error of the tile above it. A node without content draws nothing, so a viewer must not stop there. On
+/// top of all contents its error is that of drawing nothing. Below one there is none: a viewer may be so far from it,
+/// and so near to the tile above, that it refines that one alone.
 Tile TileTree::tile_of(const Node& node, const Vec3d& parent, double above) const {
   Tile tile;
   const Vec3d from = z_up(parent), to = z_up(node.tile.origin);
   for (std::size_t i = 0; i < 3; ++i) tile.transform[12 + i] = to[i] - from[i];
-  tile.box = box_of(local(node.tile.bounds, node.tile.origin));
+  tile.volume.box = box_of(local(node.tile.bounds, node.tile.origin));
   if (node.cell) tile.cell = local(*node.cell, node.tile.origin);
   tile.geometric_error = node.tile.uri.empty() ? above : node.tile.error_world;
   tile.uri = node.tile.uri;
   tile.is_leaf = node.is_leaf;
-  for (const Node& child : node.children)
-    tile.children.push_back(tile_of(child, node.tile.origin, tile.geometric_error));
+  for (const Node* child : nodes_below(node))
+    tile.children.push_back(tile_of(*child, node.tile.origin, tile.geometric_error));
   if (leaf_error_ && node.children.empty() && !node.is_leaf) {
     Tile& nothing = tile.children.emplace_back();
-    nothing.box = tile.box;
+    nothing.volume = tile.volume;
     nothing.cell = tile.cell;
     nothing.geometric_error = *leaf_error_;
     nothing.is_leaf = true;
   }
   return tile;
+}
+
+/// The tiles below a node: of one with content the nearest that draw something, or end there.
+std::vector<const TileTree::Node*> TileTree::nodes_below(const Node& node) {
+  std::vector<const Node*> below;
+  const auto add = [&](const Node& above, const auto& again) -> void {
+    for (const Node& child : above.children) {
+      const bool is_passed = !node.tile.uri.empty() && child.tile.uri.empty() && !child.children.empty();
+      is_passed ? again(child, again) : below.push_back(&child);
+    }
+  };
+  add(node, add);
+  return below;
 }
 
 /// Relative to `origin`; exact, both being points of the lattice.

@@ -25,7 +25,8 @@ struct TileLeaf {
 };
 
 /// Puts the tiles of all levels together: the root above, each tile above the eight cells that its own is made of; a
-/// level in one mesh is a chain of its own on top.
+/// level in one mesh is a chain of its own on top. Where a cell has no tile, those below stand in its place: below a
+/// content every tile draws something, or the scene has nothing there.
 class TileTree {
  public:
   TileTree(UpAxis up, Cells cells) : up_(up), cells_(cells) {}
@@ -53,6 +54,7 @@ class TileTree {
   using Level = std::map<CellCoord, Node>;
 
   void raise();
+  [[nodiscard]] static std::vector<const Node*> nodes_below(const Node& node);
   [[nodiscard]] Tile tile_of(const Node& node, const Vec3d& parent, double above) const;
   [[nodiscard]] Bounds3d local(const Bounds3d& bounds, const Vec3d& origin) const;
   [[nodiscard]] Vec3d z_up(const Vec3d& p) const;

@@ -124,7 +124,7 @@ void CoverTiles::read(const std::string& path, CoverTile& noted, TileContent& kn
     known.found = true;
     known.vertices = std::move(content.mesh.vertices);
     known.not_understood = std::move(content.unread.moves);
-    if (content.mesh.differing > 0) known.not_understood.push_back(held_twice(content.mesh.differing));
+    if (content.mesh.differing > 0) known.not_understood.push_back("it holds " + held_twice(content.mesh.differing));
     if (noted.leaf_error) return;  // of the scene itself looks are not compared
     for (std::string& line : content.unread.see_through) known.not_understood.push_back(std::move(line));
   } catch (const Unfit& e) {

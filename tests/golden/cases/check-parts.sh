@@ -38,7 +38,7 @@ broken "a leaf of another tile" eval 'cp "$(ls cubes_leaves/*.glb | head -1)" "$
 broken "an error above the parent's" json 'all[-1]["geometricError"] = 1e6'
 broken "a child with a child's cell" json 'all[0]["children"].append(all[0]["children"][0])'
 broken "a child less" json 'all[0]["children"].pop()'
-broken "a grandchild less" json 'next(a for a in all[1:] if len(a.get("children", [])) > 1)["children"].pop(0)'
+broken "a child less of a tile with many" json 'max(all, key=lambda a: len(a.get("children", [])))["children"].pop(0)'
 broken "a tile that draws nothing" json 'del [a for a in all if "content" in a and not a.get("children")][0]["content"]'
 broken "a smaller box" json 'b = all[0]["boundingVolume"]["box"]; b[3:] = [x / 2 for x in b[3:]]'
 sed '/^v /s/^v \([^ ]*\)/v 9\1/' part0.obj > far.obj

@@ -115,11 +115,10 @@ sed -n '/"options"/,/^  }/p; /"bytes_in"/p' report.json
 stat -c %s cube.obj
 [ "$(cat reported/* | wc -c)" = "$(grep -o '"bytes_out": [0-9]*' report.json | grep -o '[0-9]*$')" ] && echo "as many bytes as written"
 
-# Between the levels in one mesh and the tiles there may be nodes without content. A viewer that stopped there would draw nothing: they have the error
-# of the tile above, and are refined with it.
+# Between the levels in one mesh and the tiles there are no nodes without content: a viewer that stopped there would draw nothing.
 bp-plant --triangles 10000 -o small.ply > list
 bplod small.ply --profile 3dtiles --resolution 300 --tile 64 -q -o deep > list
-bpinfo deep/tileset.json | awk '/^depth/ { if ($5 == 0) print "no content:", $NF == error ? "refined with what is above" : "a hole"; error = $NF }'
+bpinfo deep/tileset.json | awk '/^depth/ { ++n; if ($5 == 0) print "a hole" } END { print n, "depths with contents" }'
 # What is printed as the proof can be run as it is.
 cp cube.obj -- "-d it's.obj"
 bplod --faces 12 --resolution 24 -o "-out" -- "-d it's.obj" 2> said > list
