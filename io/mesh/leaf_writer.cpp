@@ -84,7 +84,8 @@ class LeafPrimitive {
 
 class LeafBuilder {
  public:
-  LeafBuilder(const SceneLeaf& leaf, const LeafLooks& looks, UpAxis up) : leaf_(leaf), looks_(looks), up_(up) {}
+  LeafBuilder(const SceneLeaf& leaf, const LeafLooks& looks, UpAxis up)
+      : leaf_(leaf), looks_(looks), up_(up), data_(looks.compression == TileCompression::meshopt) {}
 
   std::string glb(const std::string& name, const std::vector<Provenance>& provenance) {
     Json primitives = Json::array();
@@ -185,7 +186,7 @@ class LeafBuilder {
   const SceneLeaf& leaf_;
   const LeafLooks& looks_;
   const UpAxis up_;
-  GlbData data_{true};
+  GlbData data_;
   Json materials_ = Json::array(), samplers_ = Json::array(), textures_ = Json::array();
   std::vector<std::string> images_;
   bool has_webp_ = false;

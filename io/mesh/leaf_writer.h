@@ -3,6 +3,7 @@
 #include <string>
 
 #include "io/gltf/glb_file.h"
+#include "io/mesh/lod_writer.h"
 #include "lib/core/up_axis.h"
 #include "lib/pass/leaf/scene_leaf.h"
 
@@ -16,6 +17,7 @@ struct LeafLooks {
   const TextureSet* images = nullptr;  ///< null: none
   LeafImageName name_of;
   bool colors = true;  ///< false: grey
+  TileCompression compression = TileCompression::meshopt;
 };
 
 /// A leaf as the content of a tile: as tile_glb(), but positions are float32, and images lie in files of their own,

@@ -299,8 +299,9 @@ void write_parts_glb(std::span<const NamedMesh> parts, OutputFile& out, const Me
   builder.write(*parts.front().mesh, roots, contract_name(options), out);
 }
 
-std::string tile_glb(const NamedMesh& tile, LatticeCoord origin) {
-  GlbBuilder builder(tile.name + ".glb", GlbBuilder::Data::compressed);
+std::string tile_glb(const NamedMesh& tile, LatticeCoord origin, TileCompression compression) {
+  const bool plain = compression == TileCompression::none;
+  GlbBuilder builder(tile.name + ".glb", plain ? GlbBuilder::Data::plain : GlbBuilder::Data::compressed);
   builder.add_tile(tile, origin);
   return builder.tile_bytes(*tile.mesh, tile.mesh->frame.world(origin));
 }

@@ -33,12 +33,17 @@ void write_lod_glb(std::span<const NamedMesh> levels, std::span<const double> co
 /// All meshes as nodes of one scene.
 void write_parts_glb(std::span<const NamedMesh> parts, OutputFile& out, const MeshWriteOptions& options = {});
 
-/// The content of a tile, as the bytes of a GLB: EXT_meshopt_compression and KHR_mesh_quantization, with 16-bit
-/// integers where they hold the mesh, else float32; normals are octahedral, 8 bits. The node has a scale and no offset:
+/// How contents of tiles are stored: with EXT_meshopt_compression and KHR_mesh_quantization, or as plain float32, which
+/// every viewer reads without a decoder.
+enum class TileCompression { meshopt, none };
+
+/// The content of a tile, as the bytes of a GLB. Compressed, positions are 16-bit integers where these hold the mesh,
+/// else float32, and normals are octahedral, 8 bits. The node has a scale and no offset:
 /// vertices are relative to `origin` (asset.extras.tile_origin), which the tile's transform gives back, in double. A
 /// z-up mesh is turned to glTF's y up, which 3D Tiles turns back; unlike in other files of ours, extras.up does not ask
 /// a reader to.
-[[nodiscard]] std::string tile_glb(const NamedMesh& tile, LatticeCoord origin);
+[[nodiscard]] std::string tile_glb(const NamedMesh& tile, LatticeCoord origin,
+                                   TileCompression compression = TileCompression::meshopt);
 
 /// The lattice point of `frame` that lies at `p`. Throws `failed` if there is none.
 [[nodiscard]] LatticeCoord lattice_point(const GridFrame& frame, const Vec3d& p);

@@ -105,7 +105,7 @@ void check_profile(const Args& args, const BuildOptions& o) {
       if (args.given(name) && o.profile != profile)
         fail(ErrorCode::bad_argument, "{} needs --profile {}", name, name_of(profile));
   };
-  needs({"--tile", "--tiles", "--cache", "--leaves"}, LodProfile::tiles);
+  needs({"--tile", "--tiles", "--cache", "--leaves", "--tile-compression"}, LodProfile::tiles);
   needs({"--hulls"}, LodProfile::collision);
   needs({"--margin", "--symmetry"}, LodProfile::cage);
   if (o.is_tileset() && args.given("--origin"))
@@ -208,6 +208,10 @@ void declare_tileset(Args& args, BuildOptions& o) {
               {{"none", false, "the finest level ends the tileset"},
                {"scene", true, "the scene's own triangles and images, for close views"}},
               o.leaves, "what lies below the finest level");
+  args.option("--tile-compression",
+              {{"meshopt", TileCompression::meshopt, "small, with EXT_meshopt_compression"},
+               {"none", TileCompression::none, "plain glTF, for viewers without a decoder"}},
+              o.compression, "how contents are stored");
   args.option(
       "--cache", "DIR", o.cache,
       "keep the results of all jobs in DIR, and take from there what has not changed; a run that was killed goes "
@@ -311,6 +315,7 @@ Json options_json(const BuildOptions& o) {
           {"hulls", o.hulls > 0 ? Json(o.hulls) : Json(nullptr)},
           {"cache", !o.cache.empty()},
           {"leaves", o.leaves ? "scene" : "none"},
+          {"tile_compression", o.compression == TileCompression::none ? "none" : "meshopt"},
           {"tiles", o.tiles ? Json{o.tiles->begin, o.tiles->end} : Json(nullptr)},
           {"explain", o.explain},
           {"scale", optional_json(o.closing.scale)},

@@ -2,6 +2,7 @@
 #include <optional>
 #include <string>
 
+#include "io/mesh/lod_writer.h"
 #include "lib/levels/tile_plan.h"
 #include "tools/cli/common_options.h"
 #include "tools/cli/options/closing.h"
@@ -45,9 +46,10 @@ struct BuildOptions {
   std::int32_t tile_vox = 512;                        ///< edge of a cell of a tileset
   Symmetry symmetry = Symmetry::automatic;            ///< of a cage
   Length margin{kCageMargin, Length::Unit::percent};  ///< of a cage
-  std::int64_t hulls = 0;         ///< of a collision mesh, at most; 0: kMostHulls, or as many as parts
-  std::string cache;              ///< folder of results of earlier builds; empty: none
-  bool leaves = false;            ///< below the finest level are the scene's own triangles
+  std::int64_t hulls = 0;  ///< of a collision mesh, at most; 0: kMostHulls, or as many as parts
+  std::string cache;       ///< folder of results of earlier builds; empty: none
+  TileCompression compression = TileCompression::meshopt;  ///< of a tileset's contents
+  bool leaves = false;                                     ///< below the finest level are the scene's own triangles
   std::optional<JobRange> tiles;  ///< the jobs to do, without a tileset; empty: all, and the tileset
   bool explain = false;           ///< print the plan; do nothing
   Appearance appearance = Appearance::automatic;

@@ -82,7 +82,10 @@ class LeafMaker {
         cells_{build.options.tile_vox},
         unit_(leaf_unit(task.frame.voxel, build.options.tile_vox)),
         names_(looks_.images()) {
-    provenance_ = {make_provenance("bplod", OptionText().add("leaves", "scene").add("tile", build.options.tile_vox))};
+    OptionText text;
+    text.add("leaves", "scene").add("tile", build.options.tile_vox);
+    if (build.options.compression == TileCompression::none) text.add("compression", "none");
+    provenance_ = {make_provenance("bplod", text)};
   }
 
   MadeLeaves run() {
@@ -184,7 +187,7 @@ class LeafMaker {
     KeptLeaf made{cut.bounds, cut.triangles(), ""};
     if (made.triangles == 0) return made;
     const LeafLooks looks{looks_.images(), [this](std::uint32_t image) { return names_(image); },
-                          build_.options.colors()};
+                          build_.options.colors(), build_.options.compression};
     made.content = leaf_glb(build_.options.name + "_" + leaf.name, cut, looks, task_.frame.up, provenance_);
     return made;
   }

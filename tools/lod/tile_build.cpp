@@ -104,7 +104,7 @@ CutFiles cut_files(const Build& build, const CutLevel& cut, std::size_t level) {
     mesh.provenance = {provenance};
     if (build.looks() != nullptr)
       mesh.texture = level_texture(build, mesh, {0, 0, scale}, *build.looks(), build.texture_memory());
-    return tile_glb({folder + "_" + name_of(cell), &mesh}, at);
+    return tile_glb({folder + "_" + name_of(cell), &mesh}, at, build.options.compression);
   };
   if (build.looks() != nullptr) {
     files.add_to_key = [&build, cells = Cells{build.options.tile_vox}, frame = cut.frame, scale = cut.scale_world](
@@ -244,7 +244,8 @@ void make_whole(const Shop& shop, TilePyramid& pyramid, LodOptions lod, const Le
   }
   if (cut == 0 && !build.tells_time && !are_kept(input, *shop.results)) tell_time(shop, made.scene, 1);
   const auto encode = [&](std::size_t number, const LatticeMesh& mesh, const Vec3d& origin) {
-    return tile_glb({level_name(build.options.name, number), &mesh}, lattice_point(mesh.frame, origin));
+    return tile_glb({level_name(build.options.name, number), &mesh}, lattice_point(mesh.frame, origin),
+                    build.options.compression);
   };
   const WholeLevels whole = make_whole_levels(std::move(input), build.backends,
                                               build.level_steps([&] { return input_hash; }), encode, shop.results);
