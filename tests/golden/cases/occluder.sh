@@ -33,7 +33,7 @@ bplod house.obj --profile occluder --resolution 512 --up z -o fine -q > /dev/nul
 bpcheck --inside house.obj fine/house_occluder.glb -j 1 --memory 64M 2>&1 | sed -n 's/[0-9]* MiB/N MiB/g; /hidden/p'
 bpcheck --inside house.obj fine/house_occluder.glb -j 1 --memory 64M 2> said > /dev/null
 least=$(grep -o 'at least [0-9]*' said | grep -o '[0-9]*')
-bpcheck --inside house.obj fine/house_occluder.glb -j 1 --memory "${least}M" | tail -1
+bpcheck --inside house.obj fine/house_occluder.glb -j 1 --memory "${least}M" -q | tail -1
 rm -r fine said
 # A wall of the scene is gone: the same file is refuted, with places.
 write_house ruin.obj inner floor
