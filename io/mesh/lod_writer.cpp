@@ -190,7 +190,7 @@ class GlbBuilder {
 
   std::size_t add_tile_positions(const LatticeMesh& mesh, const std::vector<std::uint32_t>& order,
                                  const TilePlace& place) {
-    if (place.reach() > kShortInteger) {
+    if (!data_.is_compressed() || place.reach() > kShortInteger) {
       const auto at = [&](LatticeCoord v) { return place.at<float>(v); };
       return add_positions(Positions<float>(mesh, order, 12, at), 12, kGltfFloat, order.size());
     }
