@@ -120,7 +120,8 @@ void fill_report(bp::Report& report, const Options& o, const bp::StreamHeader& h
         fmt::format("the voxel size was rounded from {} to {}, so that every vertex of a proxy is an exact double",
                     c.voxel_asked, header.frame.voxel));
   }
-  if (const std::string text = bp::skipped(c.scene); !text.empty()) report.note(text, o.common);
+  if (const std::string text = bp::reading_note(c.scene, header.frame.voxel); !text.empty())
+    report.note(text, o.common);
   if (c.open_columns > 0) {
     report.notes.push_back(fmt::format(
         "{} columns cross an open or inconsistently oriented surface; the flood decided there", c.open_columns));

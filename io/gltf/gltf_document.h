@@ -119,8 +119,8 @@ class GltfDocument {
   /// these.
   Accessor morphed(const GltfObject& primitive, const char* name, const Accessor& vectors,
                    const std::vector<double>& weights);
-  /// An accessor of vectors that were computed, kept in scratch.
-  Accessor keep_vectors(const std::vector<double>& numbers);
+  /// An accessor of vectors that were computed, kept in scratch. `off`: how far rounding may have moved a number.
+  Accessor keep_vectors(const std::vector<double>& numbers, double off);
   /// Where image i lies.
   ImagePlace image(std::uint64_t i);
   /// All buffers that accessors have named so far, in one file.

@@ -217,12 +217,23 @@ std::vector<ScenePose> gltf_poses(const SceneFilePtr& file, const SceneOptions& 
   return PoseFinder(file, options).find(per_second);
 }
 
+namespace {
+
+double largest_of(const std::vector<double>& numbers) {
+  double largest = 0;
+  for (const double x : numbers) largest = std::max(largest, std::abs(x));
+  return largest;
+}
+
+}  // namespace
+
 Accessor GltfDocument::morphed(const GltfObject& primitive, const char* name, const Accessor& vectors,
                                const std::vector<double>& weights) {
   const std::size_t targets = std::min(primitive.array("targets").size(), weights.size());
   if (targets == 0) return vectors;
   check_memory("the vertices of a morph target", vectors.count * 3 * 3 * sizeof(double));
   std::vector<double> sums = read_numbers(bytes_, vectors);
+  double largest = largest_of(sums);
   for (std::size_t t = 0; t < targets; ++t) {
     const GltfObject target = primitive.item("targets", t);
     if (weights[t] == 0 || !target.has(name)) continue;
@@ -231,8 +242,9 @@ Accessor GltfDocument::morphed(const GltfObject& primitive, const char* name, co
       target.broken(fmt::format("moves {} of {} vertices", changes.count, vectors.count));
     const std::vector<double> by = read_numbers(bytes_, changes);
     for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += weights[t] * by[i];
+    largest += std::abs(weights[t]) * largest_of(by);
   }
-  return keep_vectors(sums);
+  return keep_vectors(sums, double(targets + 2) * 0x1p-52 * largest);  // each target adds two roundings
 }
 
 }  // namespace bp

@@ -1,13 +1,64 @@
 #pragma once
+#include <algorithm>
+#include <cmath>
+
 #include "lib/core/coords.h"
 #include "lib/core/up_axis.h"
 
 namespace bp {
 
+/// A sum in double, from left to right, and a bound of what rounding has changed: 0 if it is exact. The error of a
+/// product is a double, unless it underflows, and so is that of a sum.
+struct RoundedSum {
+  double value = 0, off = 0;
+
+  /// `off_a`: a may be off by so much.
+  void add_product(double a, double off_a, double b, double off_b) {
+    const double product = a * b;
+    off += std::abs(std::fma(a, b, -product)) + std::abs(a) * off_b + off_a * (std::abs(b) + off_b);
+    if (std::abs(product) < 0x1p-900 && a != 0 && b != 0) off += 0x1p-1000;
+    add(product);
+  }
+  void add(double x) {
+    const double sum = value + x, part = sum - value;
+    off += std::abs((value - (sum - part)) + (x - part));
+    value = sum;
+  }
+  /// With the rounding of the bound itself.
+  [[nodiscard]] double bound() const { return off * (1 + 0x1p-40); }
+};
+
+/// A point, and how far it may be off along each axis.
+struct PlacedPoint {
+  Vec3d point{};
+  double off = 0;
+};
+
 /// Affine map of points, in double: rows of a 3 x 4 matrix. A product of scale and translation alone applies exactly
 /// wherever the result is a double, since the terms of the other axes are zeros.
 struct Affine {
   std::array<std::array<double, 4>, 3> m{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+  /// How far each number may be from that of the map that a file describes. Products keep account of it.
+  std::array<std::array<double, 4>, 3> off{};
+
+  /// All numbers may be off by this share of them.
+  void blur(double share) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < 4; ++j) off[i][j] += share * std::abs(m[i][j]);
+    }
+  }
+  /// As operator(), of a point that may be off by `off_p` along each axis.
+  [[nodiscard]] PlacedPoint place(const Vec3d& p, double off_p) const {
+    PlacedPoint out;
+    for (std::size_t i = 0; i < 3; ++i) {
+      RoundedSum sum;
+      for (std::size_t j = 0; j < 3; ++j) sum.add_product(m[i][j], off[i][j], p[j], off_p);
+      sum.add(m[i][3]);
+      out.point[i] = sum.value;
+      out.off = std::max(out.off, sum.bound() + off[i][3] * (1 + 0x1p-40));
+    }
+    return out;
+  }
 
   [[nodiscard]] Vec3d operator()(const Vec3d& p) const {
     return {((m[0][0] * p[0] + m[0][1] * p[1]) + m[0][2] * p[2]) + m[0][3],
@@ -19,9 +70,15 @@ struct Affine {
     Affine product;
     for (std::size_t i = 0; i < 3; ++i) {
       for (std::size_t j = 0; j < 4; ++j) {
-        product.m[i][j] = (a.m[i][0] * b.m[0][j] + a.m[i][1] * b.m[1][j]) + a.m[i][2] * b.m[2][j];
+        RoundedSum sum;
+        for (std::size_t k = 0; k < 3; ++k) sum.add_product(a.m[i][k], a.off[i][k], b.m[k][j], b.off[k][j]);
+        if (j == 3) {
+          sum.add(a.m[i][3]);
+          sum.off += a.off[i][3];
+        }
+        product.m[i][j] = sum.value;
+        product.off[i][j] = sum.bound();
       }
-      product.m[i][3] += a.m[i][3];
     }
     return product;
   }
@@ -52,7 +109,8 @@ struct Affine {
   return a;
 }
 
-/// Translation after rotation (a quaternion x y z w of any length but 0) after scale.
+/// Translation after rotation (a quaternion x y z w of any length but 0) after scale. A quaternion that turns nothing
+/// leaves all numbers exact; of others a number of the rotation has some 10 roundings, of terms up to 2.
 [[nodiscard]] inline Affine affine_of(const Vec3d& t, const std::array<double, 4>& q, const Vec3d& s) {
   const double x = q[0], y = q[1], z = q[2], w = q[3], square = x * x + y * y + z * z + w * w;
   const double two = square > 0 ? 2 / square : 0;
@@ -64,6 +122,10 @@ struct Affine {
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) a.m[i][j] = r[i][j] * s[j];
     a.m[i][3] = t[i];
+  }
+  if (x == 0 && y == 0 && z == 0) return a;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) a.off[i][j] = 0x1p-48 * std::abs(s[j]);
   }
   return a;
 }

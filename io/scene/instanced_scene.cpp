@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -159,10 +160,12 @@ class InstancedSource final : public RawSource {
   void rewind() override {
     node_ = 0;
     instances_ = 0;
+    rounding_ = {};
     bad_faces_ = scene_.bad_faces;
     enter_node();
   }
   [[nodiscard]] std::uint64_t instances() const override { return instances_; }
+  [[nodiscard]] Rounding rounding() const override { return rounding_; }
   [[nodiscard]] std::optional<UpAxis> up() const override { return scene_.up; }
   [[nodiscard]] std::size_t levels() const override { return scene_.levels; }
   [[nodiscard]] UnreadParts unread() const override { return scene_.unread; }
@@ -196,6 +199,7 @@ class InstancedSource final : public RawSource {
     open_ = false;
   }
   void place();
+  [[nodiscard]] PlacedPoint placed(const Primitive& p, std::uint64_t vertex);
   void count_triangles(const Primitive& p);
   void add_triangle(std::vector<TriangleD>& out, std::vector<TriangleColors>* colors,
                     std::vector<TriangleTexture>* textures);
@@ -212,10 +216,11 @@ class InstancedSource final : public RawSource {
   bool open_ = false;  // the members below are those of this primitive in this instance
   std::uint64_t triangle_ = 0, triangles_ = 0, first_index_ = 0;
   Affine transform_;
-  bool mirrored_ = false;
-  std::vector<std::uint64_t> window_;  // indices from window_begin_ on
+  bool mirrored_ = false, stays_ = true;  // its transform does; it moves nothing
+  std::vector<std::uint64_t> window_;     // indices from window_begin_ on
   std::uint64_t window_begin_ = 0;
   std::uint64_t instances_ = 0;
+  Rounding rounding_;
 };
 
 // Finds the next primitive that holds triangles, through instances and nodes.
@@ -252,6 +257,16 @@ void InstancedSource::place() {
     transform_ = transform_ * affine_of(t, q, s);
   }
   mirrored_ = transform_.mirrors();
+  stays_ = transform_.m == Affine().m && transform_.off == Affine().off;
+}
+
+/// Integers that stand for [-1, 1] are divided, which rounds once.
+PlacedPoint InstancedSource::placed(const Primitive& p, std::uint64_t vertex) {
+  const Vec3d point = elements_.vector<3>(p.positions, vertex);
+  double off = p.positions.off;
+  if (const double share = p.positions.share + (p.positions.normalized ? 0x1p-53 : 0); share > 0)
+    off += share * std::max({std::abs(point[0]), std::abs(point[1]), std::abs(point[2])});
+  return stays_ ? PlacedPoint{point, off} : transform_.place(point, off);
 }
 
 void InstancedSource::count_triangles(const Primitive& p) {
@@ -288,13 +303,19 @@ void InstancedSource::add_triangle(std::vector<TriangleD>& out, std::vector<Tria
   }
   if (mirrored_) std::swap(corner[1], corner[2]);
   TriangleD triangle;
+  double off = 0, largest = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     if (corner[k] >= p.positions.count) {
       ++bad_faces_;
       return;
     }
-    triangle[k] = transform_(elements_.vector<3>(p.positions, corner[k]));
+    const PlacedPoint placed_corner = placed(p, corner[k]);
+    triangle[k] = placed_corner.point;
+    off = std::max(off, placed_corner.off);
+    for (const double x : triangle[k]) largest = std::max(largest, std::abs(x));
   }
+  // A share that is no more than a few roundings of the numbers themselves says most about other triangles.
+  if (off > 0) rounding_.see(off, largest, std::max(0x1p-50, 4 * p.positions.share));
   out.push_back(triangle);
   if (colors != nullptr) colors->push_back({color_of(p, corner[0]), color_of(p, corner[1]), color_of(p, corner[2])});
   if (textures != nullptr) textures->push_back(texture_of(p, corner));

@@ -32,6 +32,8 @@ struct Accessor {
   std::uint64_t replaced_count = 0;  ///< elements that stand elsewhere ("sparse"): their numbers, rising, and values
   std::uint64_t replaced_numbers = 0, replaced_values = 0;  ///< addresses; values are packed
   ComponentType number_type = ComponentType::u32;
+  /// A number may be off, from what the file stands for, by this share of the largest of its element, and by `off`.
+  double share = 0, off = 0;
 };
 
 /// All numbers of all elements.

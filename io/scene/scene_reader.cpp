@@ -63,12 +63,14 @@ IndexedMesh mesh_of(const std::string& name, RawSource& raw, const SceneOptions&
     check_limit(name, options.mesh, before, mesh, raw, batch);
   }
   mesh.up = raw.up();
+  mesh.rounding = raw.rounding();
   met.triangles = mesh.triangles.size();
   met.kept_degenerate = met.degenerate;
   met.bad_faces += raw.bad_faces();
   met.differing = raw.differing();
   met.instances = raw.instances();
   mesh.bad_faces = met.bad_faces, mesh.differing = met.differing;
+  met.rounding = raw.rounding();
   return mesh;
 }
 
@@ -150,6 +152,7 @@ class FilteredScene final : public TriangleSource {
     counts_.instances = raw_->instances();
     counts_.animations = raw_->animations();
     counts_.differing = raw_->differing();
+    counts_.rounding = raw_->rounding();
     const SceneCounts& c = counts_;  // at the end; whoever names a file of points wants them enclosed
     if (!some_parts_ && batch_->triangles.empty() && c.triangles + c.degenerate + c.non_finite + c.bad_faces == 0 &&
         raw_->points() > 0)

@@ -71,12 +71,14 @@ class TilesetSource final : public RawSource {
     rest();
     at_ = 0;
     bad_faces_ = instances_ = animations_ = differing_ = 0;
+    rounding_ = {};
   }
   [[nodiscard]] bool has_colors() const override { return has_colors_; }
   [[nodiscard]] bool has_textures() const override { return has_textures_; }
   [[nodiscard]] std::uint64_t instances() const override { return instances_; }
   [[nodiscard]] std::size_t animations() const override { return animations_; }
   [[nodiscard]] std::uint64_t differing() const override { return differing_; }
+  [[nodiscard]] Rounding rounding() const override { return rounding_; }
   [[nodiscard]] std::optional<UpAxis> up() const override { return contents_.up; }
 
  private:
@@ -91,6 +93,7 @@ class TilesetSource final : public RawSource {
     instances_ += content_->instances();
     animations_ += content_->animations();
     differing_ += content_->differing();
+    rounding_.add(content_->rounding());
     rest();
     ++at_;
   }
@@ -107,6 +110,7 @@ class TilesetSource final : public RawSource {
   RawSourcePtr content_;
   bool has_colors_ = false, has_textures_ = false;
   std::uint64_t instances_ = 0, animations_ = 0, differing_ = 0;
+  Rounding rounding_;
 };
 
 }  // namespace

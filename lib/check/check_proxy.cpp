@@ -8,6 +8,7 @@
 #include "lib/check/detail/convex.h"
 #include "lib/check/detail/distance.h"
 #include "lib/check/detail/enclosure.h"
+#include "lib/check/detail/gap.h"
 #include "lib/check/detail/hidden.h"
 #include "lib/check/detail/inside.h"
 #include "lib/check/detail/surface.h"
@@ -97,6 +98,17 @@ void measure_distances(const Surface& surface, const SceneMemory& scene, const C
   if (!all.empty()) bound_largest(all, tree, *report.proxy_to_scene);
 }
 
+/// Asks again of all that was read, once it is known by how much it may be off.
+void check_rounding(const WeldedMesh& mesh, const Surface& surface, TriangleSource& scene, const CheckOptions& options,
+                    CheckReport& report) {
+  const ClearanceQuestion question{report.scene_counts.rounding, report.proxy_off, options.margin_world,
+                                   options.max_examples};
+  if (!question.any() || report.touching.count > 0) return;
+  ClearanceReport found = check_clearance(mesh, surface, scene, question);
+  report.within_rounding = std::move(found.within);
+  if (report.too_near.count == 0) report.perhaps_near = std::move(found.within_margin);
+}
+
 void check_scene(const WeldedMesh& mesh, const Surface& surface, TriangleSource& scene, const CheckOptions& options,
                  CheckReport& report) {
   SceneMemory memory(options);
@@ -113,8 +125,12 @@ void check_scene(const WeldedMesh& mesh, const Surface& surface, TriangleSource&
   report.too_near = e.too_near, report.perhaps_near = e.perhaps_near;
   report.scene_volume = e.volume;
   report.bent = e.bent, report.bent_open = e.bent_open;
+  check_rounding(mesh, surface, scene, options, report);
   measure_distances(surface, memory, options, report);
 }
+
+/// Of a voxel: voxels that a triangle touches are found with vertices that are rounded to 2^-16 (lib/voxel).
+constexpr double kMostHiddenOff = 0x1p-20;
 
 void check_scene_around(const WeldedMesh& mesh, const Surface& surface, TriangleSource& scene,
                         const CheckOptions& options, CheckReport& report) {
@@ -128,27 +144,32 @@ void check_scene_around(const WeldedMesh& mesh, const Surface& surface, Triangle
   report.touching = inside.touching, report.swallowed = inside.swallowed, report.outside_parts = inside.outside;
   report.unsettled_parts = inside.unsettled;
   report.undecidable_scene = inside.undecidable;
+  check_rounding(mesh, surface, scene, options, report);
   if (report.inside() || !options.hidden) return;
   const auto& [recipe, walls, free_of_scene] = *options.hidden;
-  if (free_of_scene && report.touching.count + report.swallowed.count + report.undecidable_scene.count > 0) return;
+  if (free_of_scene && (report.free_of_scene() != Answer::proven || report.undecidable_scene.count > 0)) return;
   const HiddenReport hidden =
       check_hidden(mesh, surface, *walls, recipe, options.max_examples, options.scene_memory_bytes);
+  const double off = walls->counts().rounding.most + report.proxy_off;
   report.asks_hidden = true;
   report.recipe = recipe;
   report.hidden_unknown = hidden.undecided, report.hidden_bytes = hidden.memory_bytes;
   report.exposed = hidden.exposed;
+  if (off > kMostHiddenOff * recipe.frame.voxel && report.hidden_unknown.empty())
+    report.hidden_unknown = fmt::format("coordinates are read to within {:.2g}, too much for these voxels", off);
 }
 
 void check_scene_in_parts(const WeldedMesh& mesh, TriangleSource& scene, const CheckOptions& options,
                           CheckReport& report) {
   report.has_scene = true;
   if (!report.sides_decided) return;
-  const ConvexReport convex = check_convex(mesh, scene, options.max_examples);
+  const ConvexReport convex = check_convex(mesh, scene, options.max_examples, report.proxy_off);
   report.scene_name = scene.name();
   report.scene_counts = scene.counts();
   report.scene_triangles = convex.triangles;
   report.not_held = convex.not_held, report.perhaps_not_held = convex.perhaps_not_held;
   report.undecidable_scene = convex.undecidable;
+  report.within_rounding = convex.within_rounding;
 }
 
 }  // namespace
@@ -158,6 +179,7 @@ CheckReport check_proxy(const IndexedMesh& proxy, TriangleSource* scene, const C
   WeldedMesh mesh = weld(proxy, options.max_examples, report);
   check_topology(mesh, options.max_examples, report);
   measure(mesh, report);
+  report.proxy_off = most_off(mesh.points, proxy.rounding);
   const Surface surface(mesh);
   report.self_intersections = surface.self_intersections(options.max_examples, options.convex);
   report.sides_decided = report.closed() && report.oriented();

@@ -93,6 +93,11 @@ struct CheckReport {
   std::uint64_t bent = 0;             ///< polygons of the scene that are not flat, each tested as its fan
   std::uint64_t bent_open = 0;        ///< those that are not proven to be enclosed over other diagonals, too
 
+  // What was rounded as it was read (lib/core/triangle_source.h, detail/gap.h).
+  double proxy_off = 0;     ///< a point of the proxy may be off by so much, scene units
+  Finding within_rounding;  ///< index: scene triangle that is no farther from the proxy than both may be off; other:
+                            ///< such a triangle of the proxy
+
   // The least distance between both (gap.h).
   double margin = 0;                ///< asked for, scene units; 0: not asked
   std::optional<double> least_gap;  ///< between scene and proxy, if a margin is asked for; in doubles
@@ -140,8 +145,9 @@ struct CheckReport {
   [[nodiscard]] Answer enclosure() const {
     if (!has_scene || !sides_decided || !place_unknown.empty()) return Answer::undecided;
     if (touching.count + outside.count + not_held.count > 0) return Answer::refuted;
-    return undecidable_scene.count + perhaps_not_held.count > 0 || scene_counts.is_partial() ? Answer::undecided
-                                                                                             : Answer::proven;
+    return undecidable_scene.count + perhaps_not_held.count + within_rounding.count > 0 || scene_counts.is_partial()
+               ? Answer::undecided
+               : Answer::proven;
   }
   /// No point of the scene is nearer to the proxy's surface than `margin`.
   [[nodiscard]] Answer keeps_margin() const {
@@ -159,12 +165,13 @@ struct CheckReport {
     if (undecidable_scene.count > 0 || scene_counts.is_partial())
       return Answer::undecided;  // what is left out may be what hides a part
     if (outside_parts.count > 0) return Answer::refuted;
-    return unsettled_parts.count > 0 ? Answer::undecided : Answer::proven;
+    return unsettled_parts.count + within_rounding.count > 0 ? Answer::undecided : Answer::proven;
   }
-  /// Asked on the way: no triangle of the scene meets the proxy's solid.
-  [[nodiscard]] Answer freedom() const {
+  /// Part of insideness(): the solid of the proxy meets no scene triangle.
+  [[nodiscard]] Answer free_of_scene() const {
     if (!place_unknown.empty()) return Answer::undecided;
-    return touching.count + swallowed.count == 0 ? Answer::proven : Answer::refuted;
+    if (touching.count + swallowed.count > 0) return Answer::refuted;
+    return within_rounding.count > 0 ? Answer::undecided : Answer::proven;
   }
   [[nodiscard]] bool inside() const { return insideness() == Answer::proven; }
   /// Only if asks_hidden.

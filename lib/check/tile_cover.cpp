@@ -28,7 +28,7 @@ constexpr double kMostLeafError = 0x1p-18;  // of the longest edge of the scene'
 constexpr double kFlat = 0x1p-22;           // the same: what float32 rounds away in a tile four times as long
 
 /// Of a triangle in the cell of a tile. The last two: where nothing is drawn, in the cell or an octant of it.
-enum class Verdict { fine, thin, flat, touching, outside, undecided, missing, bare, uncovered, count };
+enum class Verdict { fine, thin, flat, touching, outside, undecided, rounded, missing, bare, uncovered, count };
 
 /// The content of a leaf, which is the scene itself.
 struct LeafBody {
@@ -271,7 +271,7 @@ class CoverChecker {
   [[nodiscard]] Verdict examine(std::size_t i, const TriangleD& t, const Bounds3d& bounds, KnownInside& known) const {
     switch (bodies_[i]->side_of(t, bounds, tiles_[i].cell, known)) {
       case TileBody::Side::inside:
-        return Verdict::fine;
+        return bodies_[i]->keeps_clear(t, tiles_[i].cell, rounding_.of(t)) ? Verdict::fine : Verdict::rounded;
       case TileBody::Side::touching:
         return Verdict::touching;
       case TileBody::Side::outside:
@@ -297,13 +297,14 @@ class CoverChecker {
     }
   }
 
+  /// How coordinates were rounded is known once all of them were read.
   /// The file chose the errors of leaves and the cells. What rounding is, only the scene tells. Leaves with larger
   /// errors are refused, and compared with nothing.
   void judge_errors(TriangleSource& scene) {
     const auto is_leaf = [](const CoverTile& tile) { return tile.leaf_error.has_value(); };
-    if (std::none_of(tiles_.begin(), tiles_.end(), is_leaf)) return;
     const Bounds3d bounds = bounds_of(scene);
-    if (bounds.empty()) return;
+    rounding_ = scene.counts().rounding;
+    if (bounds.empty() || std::none_of(tiles_.begin(), tiles_.end(), is_leaf)) return;
     double farthest = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       scene_edge_ = std::max(scene_edge_, bounds.max[k] - bounds.min[k]);
@@ -317,7 +318,7 @@ class CoverChecker {
 
   void judge_error(std::size_t i, const TriangleD& farthest, double most) {
     const double error = leaf_error(*tiles_[i].cell, farthest, *tiles_[i].leaf_error);
-    report_.leaf_error = std::max(report_.leaf_error, error);
+    report_.leaf_error = std::max(report_.leaf_error, error + rounding_.most);
     refused_[i] = error > most;
     if (refused_[i] && mine_[i])
       findings_.push_back({fmt::format("{}: {} is compared to within {:.3g}; rounding of this scene is {:.3g} at most",
@@ -340,6 +341,7 @@ class CoverChecker {
     add(Verdict::touching, "is touched by");
     add(Verdict::outside, "leaves outside");
     add(Verdict::undecided, "cannot be decided for", Answer::undecided);
+    add(Verdict::rounded, "is as near as coordinates may be off to", Answer::undecided);
     add(Verdict::bare, "draws nothing for");
     add(Verdict::uncovered, "has no child for");
   }
@@ -357,6 +359,7 @@ class CoverChecker {
   std::size_t begin_ = 0, end_ = 0;  ///< tiles of this share
   std::atomic<std::uint64_t> astray_{0};
   double scene_edge_ = 0;      ///< the longest of the scene's box, where there are leaves
+  Rounding rounding_;          ///< of the scene
   std::vector<bool> refused_;  ///< leaves with too large an error
   CoverReport report_;
   std::vector<TileFinding>& findings_ = report_.findings;

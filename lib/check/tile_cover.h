@@ -35,6 +35,10 @@
 /// common segment (exact predicates say which edges meet which triangle, intervals where) must miss the grown cell. So
 /// "holds" is a proof, and a tile is blamed unjustly only if a triangle and a face nearly coincide where the cell ends.
 ///
+/// Where the scene's coordinates or those of a content were rounded when they were read (lib/core/triangle_source.h), t ∩ cell
+/// keeps clear of the content's faces by as much as both may be off; else, or where that is more than half of what
+/// cells are grown by, the answer is "not decided". A leaf is compared with the scene as read.
+///
 /// Each statement is about one tile: the scene in its cell, its content, the cells of its children, and whether
 /// children have contents. That t leaves the root's cell is a statement about the root. So a check may be done in parts
 /// (tile_part.h), each of which sees all tiles and the whole scene: the findings of the parts together are those of one
@@ -66,7 +70,7 @@ struct CoverReport {
 /// No findings if all holds; tiles[0] is the root. Of a part, the findings about its tiles; of the content of others it
 /// counts only whether they have one. Besides, each content must hold as a mesh
 /// (check_proxy). Contents are read once, as many at a time, in the order of their numbers, as fit memory_bytes (one at
-/// least); for each such share of them the scene is read once, from its start, and once before if there are leaves.
+/// least); for each such share of them the scene is read once, from its start, and once before.
 /// Parallel; the result depends neither on threads nor on memory. Passes on what the contents and the scene throw.
 [[nodiscard]] CoverReport check_cover(const std::vector<CoverTile>& tiles, const CoverContents& content_of,
                                       TriangleSource& scene, std::uint64_t memory_bytes = std::uint64_t(1) << 30,

@@ -33,7 +33,7 @@ Json json_of(const std::optional<SampledDistance>& d) {
 Json scene_json(const CheckReport& r) {
   if (!r.has_scene) return nullptr;
   const SceneCounts& c = r.scene_counts;
-  return {
+  Json scene = {
       {"name", r.scene_name},
       {"triangles", r.scene_triangles},
       {"without_area", c.kept_degenerate},
@@ -43,6 +43,8 @@ Json scene_json(const CheckReport& r) {
       {"not_flat", {{"polygons", r.bent}, {"not_proven_over_other_diagonals", r.bent_open}}},
       {"instances", c.instances},
       {"animations", c.animations}};
+  if (c.rounding.any()) scene["rounding"] = c.rounding.most;
+  return scene;
 }
 
 Json verdict_of(const CheckReport& r) {
@@ -65,7 +67,7 @@ Json answers_of(const CheckReport& r) {
   Json a = {{"mesh", to_string(r.soundness())}, {"outward", to_string(outward)}};
   if (r.has_scene)
     a[r.wants_inside ? "inside" : "encloses"] = to_string(r.wants_inside ? r.insideness() : r.enclosure());
-  if (r.wants_inside && r.sides_decided) a["free_of_scene"] = to_string(r.freedom());
+  if (r.wants_inside && r.sides_decided) a["free_of_scene"] = to_string(r.free_of_scene());
   if (r.margin > 0) a["margin"] = to_string(r.keeps_margin());
   if (r.asks_hidden) a["hidden"] = to_string(r.hiddenness());
   return a;

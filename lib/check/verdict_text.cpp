@@ -65,7 +65,7 @@ std::string inside_rows(const CheckReport& r) {
   const auto add = [&](const char* question, Answer answer) {
     if (!other || answer == Answer::proven) text += row(question, answer, scene_doubt(r));
   };
-  if (r.sides_decided) add("free of the scene", r.freedom());
+  if (r.sides_decided) add("free of the scene", r.free_of_scene());
   add("strictly inside the scene", r.insideness());
   if (!r.asks_hidden) return text;
   if (r.hiddenness() != Answer::proven) return text + row("hidden from outside", r.hiddenness(), hidden_doubt(r));
@@ -93,6 +93,7 @@ std::string scene_lines(const CheckReport& r) {
   const SceneCounts& c = r.scene_counts;
   std::string text = fmt::format("scene {}: {}\n", r.scene_name, bp::counted(r.scene_triangles, "triangle"));
   text += left_out_lines(c, "  ");
+  if (c.rounding.most > 0) text += fmt::format("  coordinates are read to within {:.2g}\n", c.rounding.most);
   if (c.kept_degenerate > 0)
     text += fmt::format(
         "  {} without area: {}\n", bp::counted(c.kept_degenerate, "triangle"),

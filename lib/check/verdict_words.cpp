@@ -43,6 +43,9 @@ constexpr FindingText kFindings[] = {
      "scene_triangle", "triangle"},
     {&CheckReport::perhaps_near, "perhaps_near",
      "[scene triangle is|scene triangles are] as near as the margin, to the last digits", "scene_triangle", "triangle"},
+    {&CheckReport::within_rounding, "within_rounding",
+     "[scene triangle is|scene triangles are] as near to the proxy as coordinates may be off", "scene_triangle",
+     "triangle"},
     {&CheckReport::swallowed, "swallowed", "[scene triangle lies|scene triangles lie] inside the proxy",
      "scene_triangle", nullptr},
     {&CheckReport::outside_parts, "outside_parts",
@@ -87,8 +90,17 @@ std::string counted(const Finding& f, const FindingText& t) {
 
 /// Of questions that were not asked, which no report mentions.
 bool is_unasked(const CheckReport& r, const FindingText& t) {
+  if (t.finding == &CheckReport::within_rounding) return !r.scene_counts.rounding.any() && r.proxy_off == 0;
   return r.margin == 0 && (t.finding == &CheckReport::too_near || t.finding == &CheckReport::perhaps_near);
 }
+
+namespace {
+
+double most_off(const CheckReport& r) {
+  return r.scene_counts.rounding.most + r.proxy_off;
+}
+
+}  // namespace
 
 /// Why the question about the scene is not decided.
 std::string scene_doubt(const CheckReport& r) {
@@ -96,6 +108,9 @@ std::string scene_doubt(const CheckReport& r) {
   if (!r.sides_decided) return kNoOutside;
   if (r.undecidable_scene.count > 0) return "the scene has coordinates that are too large or too small";
   if (r.scene_counts.is_partial()) return partial_scene(r.scene_counts);
+  if (r.within_rounding.count > 0)
+    return fmt::format("coordinates are read to within {:.2g}, and the proxy is as near to {} as that", most_off(r),
+                       bp::counted(r.within_rounding.count, "triangle"));
   if (r.perhaps_not_held.count > 0) return "parts overlap too little where the scene passes from one to another";
   return r.scene_closed ? "the scene is of parts that overlap or touch" : "the scene is open, so it has no inside";
 }
@@ -106,8 +121,10 @@ std::string hidden_doubt(const CheckReport& r) {
 
 /// Why the margin is not decided.
 std::string margin_doubt(const CheckReport& r) {
-  return r.undecidable_scene.count > 0 || r.scene_counts.is_partial() || !r.place_unknown.empty()
-             ? scene_doubt(r)
+  if (r.undecidable_scene.count > 0 || r.scene_counts.is_partial() || !r.place_unknown.empty()) return scene_doubt(r);
+  return most_off(r) > 0
+             ? fmt::format("coordinates are read to within {:.2g}, and the least distance is the margin to within that",
+                           most_off(r))
              : "the least distance is the margin, to the last digits";
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lib/core/grid_frame.h"
+#include "lib/core/triangle_source.h"
 
 /// A whole mesh in memory, scene units: what bpcheck and bpinfo read (proxies; scenes are streamed instead).
 namespace bp {
@@ -17,6 +18,7 @@ struct IndexedMesh {
   std::optional<UpAxis> up;               ///< if its file tells
   std::uint64_t bad_faces = 0;            ///< faces of its file that are no triangles here: SceneCounts::bad_faces
   std::uint64_t differing = 0;            ///< SceneCounts::differing
+  Rounding rounding;                      ///< of the vertices, against those of its file
 };
 
 }  // namespace bp

@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -13,6 +15,42 @@
 /// scene is known to lib/.
 namespace bp {
 
+/// How far coordinates in memory may be from those that their file stands for: along each axis, a corner of a triangle
+/// whose largest coordinate is m is off by at most share * m + offset. Two numbers, so that one triangle far away says
+/// nothing about those near the origin. Both are 0 where the file's numbers were taken as they are (docs/bounding.md).
+struct Rounding {
+  double share = 0;
+  double offset = 0;  ///< scene units
+  double most = 0;    ///< the largest distance that a point was off by at most, scene units: for messages
+
+  [[nodiscard]] bool any() const { return share > 0 || offset > 0; }
+  void add(const Rounding& r) {
+    share = std::max(share, r.share), offset = std::max(offset, r.offset), most = std::max(most, r.most);
+  }
+  /// Notes that a coordinate of a triangle is off by `bound`. Up to `most_share` of the triangle's largest coordinate
+  /// it is taken as a share.
+  void see(double bound, double largest, double most_share) {
+    if (bound == 0) return;
+    most = std::max(most, kRoundUp * kDiagonal * bound);
+    if (bound <= most_share * largest) {
+      share = std::max(share, kRoundUp * (bound / largest));
+    } else {
+      offset = std::max(offset, bound);
+    }
+  }
+  /// No point of the triangle is off by more than this, as a distance in scene units.
+  [[nodiscard]] double of(const TriangleD& t) const {
+    double largest = 0;
+    for (const Vec3d& p : t) largest = std::max({largest, std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
+    return of(largest);
+  }
+  [[nodiscard]] double of(double largest) const { return kRoundUp * kDiagonal * (share * largest + offset); }
+
+ private:
+  static constexpr double kDiagonal = 1.7320508075688774;  // of a cube of edge 1, rounded up
+  static constexpr double kRoundUp = 1 + 0x1p-40;          // covers the rounding of the bound itself
+};
+
 /// What a source met on its way. Skipped triangles are counted, never silently lost.
 struct SceneCounts {
   std::uint64_t triangles = 0;        ///< delivered
@@ -24,10 +62,12 @@ struct SceneCounts {
   std::uint64_t differing = 0;   ///< meshes that a file holds twice, and not alike; the compressed one is delivered
   std::uint64_t instances = 0;   ///< mesh instances met (1 for formats without a scene graph)
   std::uint64_t animations = 0;  ///< that the files have; none is followed
+  Rounding rounding;             ///< of coordinates; final once all triangles were read
   void add(const SceneCounts& c) {
     triangles += c.triangles, non_finite += c.non_finite;
     degenerate += c.degenerate, kept_degenerate += c.kept_degenerate;
     bad_faces += c.bad_faces, differing += c.differing, instances += c.instances, animations += c.animations;
+    rounding.add(c.rounding);
   }
   [[nodiscard]] bool has_area() const { return triangles > kept_degenerate; }
   /// Whether the files hold surfaces that were not delivered, or perhaps not as other programs read them.

@@ -124,6 +124,17 @@ std::string memory_hint(const std::vector<CheckReport>& verdicts, const MemorySh
                      (memory.limit_with(bytes - memory.bytes) >> 20) + 1);
 }
 
+std::string rounding_hint(const std::string& scene, const std::vector<CheckReport>& verdicts) {
+  const bool is_open = std::any_of(verdicts.begin(), verdicts.end(), [](const CheckReport& r) {
+    return r.answer() == Answer::undecided && r.within_rounding.count > 0;
+  });
+  if (!is_open) return "";
+  return fmt::format(
+      "{} may stick out by what reading has rounded: write the scene as PLY, OBJ, COLLADA or AC3D, which are read in "
+      "double, and make a proxy of that; or make one that keeps a distance (bplod --profile cage --margin)",
+      scene);
+}
+
 std::string fit_hint(const std::string& content) {
   if (mode_of(extras_of(content)) != "fit") return "";
   return fmt::format(

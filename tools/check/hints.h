@@ -38,4 +38,7 @@ namespace bp {
 /// The same as enclosure_hint() of a content of a tileset.
 [[nodiscard]] std::string fit_hint(const std::string& content);
 
+/// What helps where a question is open because coordinates were rounded when they were read; else empty.
+[[nodiscard]] std::string rounding_hint(const std::string& scene, const std::vector<CheckReport>& verdicts);
+
 }  // namespace bp

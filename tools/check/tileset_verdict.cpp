@@ -29,6 +29,9 @@ std::string complaint_of(const CheckReport& r) {
   add(!r.embedded(), "meets itself in " + counted(r.self_intersections.count, "place"));
   add(r.touching.count > 0, "is touched by " + counted(r.touching.count, "triangle") + " of the scene");
   add(r.outside.count > 0, "leaves " + counted(r.outside.count, "triangle") + " of the scene outside");
+  add(r.within_rounding.count > 0, "cannot be decided: it is as near to " +
+                                       counted(r.within_rounding.count, "triangle") +
+                                       " of the scene as coordinates may be off");
   add(r.undecidable_scene.count > 0, "cannot be decided: coordinates are too large");
   add(r.differing > 0, "holds " + held_twice(r.differing));
   add(r.scene_counts.is_partial(), "cannot be decided: " + partial_scene(r.scene_counts));

@@ -45,4 +45,15 @@ std::string skipped(const SceneCounts& c) {
   return text;
 }
 
+std::string reading_note(const SceneCounts& c, double voxel) {
+  constexpr double kSinglePrecision = 0x1p-30;  // of a coordinate: far more than doubles are rounded by, and less than
+                                                // what float32 is
+  const std::string text = skipped(c);
+  if (c.rounding.share < kSinglePrecision || c.rounding.most < voxel / 256) return text;
+  return fmt::format(
+      "{}{}coordinates of this format are read in single precision, here to within {:.2g}: bpcheck proves only what "
+      "keeps that distance; PLY, OBJ, COLLADA and AC3D are read in double",
+      text, text.empty() ? "" : "; ", c.rounding.most);
+}
+
 }  // namespace bp

@@ -18,5 +18,8 @@ namespace bp {
 [[nodiscard]] std::string file_name(const std::string& path);
 /// "12 degenerate triangles, 1 bad face"; empty if nothing was skipped.
 [[nodiscard]] std::string skipped(const SceneCounts& counts);
+/// The same, and how far coordinates may be off where they are read in single precision, if that is above a 256th of a
+/// voxel; empty if there is nothing to tell.
+[[nodiscard]] std::string reading_note(const SceneCounts& counts, double voxel);
 
 }  // namespace bp

@@ -95,6 +95,8 @@ std::string mesh_text(const MeshInfo& info, const std::string& name) {
   if (c.degenerate + c.non_finite + c.bad_faces > 0) {
     s += fmt::format("skipped     {} degenerate, {} not finite, {} broken\n", c.degenerate, c.non_finite, c.bad_faces);
   }
+  if (c.rounding.share > 0x1p-30)  // single precision
+    s += fmt::format("read        to within {:.2g} of the file's coordinates\n", c.rounding.most);
   if (!t.bounds.empty()) {
     s += fmt::format("bounds      {} to {}, diagonal {:.6g}\n", point(t.bounds.min), point(t.bounds.max),
                      t.bounds.diagonal());
@@ -120,6 +122,7 @@ Json mesh_json(const MeshInfo& info) {
   if (info.vertices) j["vertices"] = *info.vertices;
   j["instances"] = c.instances;
   j["skipped"] = {{"degenerate", c.degenerate}, {"non_finite", c.non_finite}, {"bad_faces", c.bad_faces}};
+  if (c.rounding.any()) j["rounding"] = c.rounding.most;
   if (!t.bounds.empty()) {
     j["bounds"] = {{"min", t.bounds.min}, {"max", t.bounds.max}};
     j["area"] = t.area;

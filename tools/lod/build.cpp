@@ -160,15 +160,15 @@ void Build::make_room(VoxelizedScene& scene) {
 }
 
 void Build::note_scene(const VoxelizedScene& scene, std::optional<UpAxis> up_told) {
-  if (const std::string text = skipped(scene.counts.scene); !text.empty()) note(text);
+  note(reading_note(scene.counts.scene, scene.header.frame.voxel));
   note(up_note(size_.bounds, options.voxels.tell_up() || up_told));
   for (const std::string& path : options.voxels.scenes) {
-    const bool occluder = options.profile == LodProfile::occluder;
-    if (!options.colors() && !occluder) break;
+    if (!options.colors() && options.profile != LodProfile::occluder) break;
     for (const std::string& file : missing_materials(path))
       note(fmt::format("{}: {} is not there, {}", path, file,
-                       occluder ? "so nobody knows what is glass: all of the scene is taken for walls"
-                                : "and its colours are lost"));
+                       options.profile == LodProfile::occluder
+                           ? "so nobody knows what is glass: all of the scene is taken for walls"
+                           : "and its colours are lost"));
   }
   note(voxel_note(options, size_));
   note(origin_note(options, scene.header));

@@ -10,7 +10,12 @@ constexpr std::size_t kEach = 4;  // joints of a vertex in one pair of attribute
 
 void add(Affine& sum, double weight, const Affine& joint) {
   for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 4; ++j) sum.m[i][j] += weight * joint.m[i][j];
+    for (std::size_t j = 0; j < 4; ++j) {
+      RoundedSum number{sum.m[i][j], sum.off[i][j]};
+      number.add_product(weight, 0, joint.m[i][j], joint.off[i][j]);
+      sum.m[i][j] = number.value;
+      sum.off[i][j] = number.bound();
+    }
   }
 }
 
@@ -81,6 +86,10 @@ Affine GltfSkin::blend(const std::vector<Shares>& shares, std::uint64_t vertex) 
   for (auto& row : sum.m) {
     for (double& x : row) x /= all;
   }
+  for (auto& row : sum.off) {
+    for (double& x : row) x /= all;
+  }
+  sum.blur(0x1p-48);  // the sum of at most 16 weights, and the division
   return sum;
 }
 
@@ -88,20 +97,27 @@ template <class Move>
 Accessor GltfSkin::moved(const GltfObject& attributes, const Accessor& vectors, const Move& move) const {
   const std::vector<Shares> shares = shares_of(attributes, vectors.count);
   std::vector<double> numbers = doc_.numbers(vectors, "the vertices of a skin");
+  double off = 0;
   for (std::uint64_t v = 0; v < vectors.count; ++v) {
     double* const p = &numbers[3 * v];
-    const Vec3d to = move(blend(shares, v), Vec3d{p[0], p[1], p[2]});
-    std::copy(to.begin(), to.end(), p);
+    const PlacedPoint to = move(blend(shares, v), Vec3d{p[0], p[1], p[2]});
+    off = std::max(off, to.off);
+    std::copy(to.point.begin(), to.point.end(), p);
   }
-  return doc_.keep_vectors(numbers);
+  return doc_.keep_vectors(numbers, off);
 }
 
 Accessor GltfSkin::points(const GltfObject& attributes, const Accessor& positions) const {
-  return moved(attributes, positions, [](const Affine& joints, const Vec3d& p) { return joints(p); });
+  return moved(attributes, positions, [&](const Affine& joints, const Vec3d& p) {
+    const double largest = std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
+    return joints.place(p, positions.off + (positions.normalized ? 0x1p-53 * largest : 0));
+  });
 }
 
 Accessor GltfSkin::normals(const GltfObject& attributes, const Accessor& normals) const {
-  return moved(attributes, normals, [](const Affine& joints, const Vec3d& n) { return joints.normal(n); });
+  return moved(attributes, normals, [](const Affine& joints, const Vec3d& n) {
+    return PlacedPoint{joints.normal(n), 0};
+  });
 }
 
 }  // namespace bp

@@ -114,8 +114,9 @@ std::uint64_t GltfDocument::keep(std::span<const std::byte> plain) {
   return bytes_->add(part_of(view_of(scratch_, file_->name(), begin + plain.size()), begin, plain.size()));
 }
 
-Accessor GltfDocument::keep_vectors(const std::vector<double>& numbers) {
+Accessor GltfDocument::keep_vectors(const std::vector<double>& numbers, double off) {
   Accessor out;
+  out.off = off;
   out.components = 3;
   out.count = numbers.size() / out.components;
   out.type = ComponentType::f64;

@@ -86,6 +86,29 @@ std::vector<std::vector<TriangleD>> corners_of(const WeldedMesh& mesh, const std
   return corners;
 }
 
+/// All of a scene, in parallel: `check` is what finds things in a batch.
+template <class Check>
+void for_each_batch(TriangleSource& scene, std::size_t max_examples, ConvexReport& report, const Check& check) {
+  scene.rewind();
+  std::uint64_t read = 0;
+  pipeline<ConvexBatch>(
+      4 * thread_count(),
+      [&](ConvexBatch& batch) {
+        batch.first = read;
+        if (!scene.read(batch.triangles)) return false;
+        read += batch.triangles.size();
+        return true;
+      },
+      check,
+      [&](ConvexBatch& batch) {
+        report.triangles += batch.triangles.size();
+        report.not_held.append(batch.result.not_held, max_examples);
+        report.perhaps_not_held.append(batch.result.perhaps_not_held, max_examples);
+        report.within_rounding.append(batch.result.within_rounding, max_examples);
+        report.undecidable.append(batch.result.undecidable, max_examples);
+      });
+}
+
 void check_batch(const WeldedMesh& mesh, const std::vector<Part>& parts, const ConvexCover& cover,
                  std::size_t max_examples, ConvexBatch& batch) {
   std::uint32_t last = 0;  // neighbours in the scene mostly lie in the same part
@@ -124,27 +147,24 @@ Finding nonconvex_parts(const WeldedMesh& mesh, std::size_t max_examples) {
   return found;
 }
 
-ConvexReport check_convex(const WeldedMesh& mesh, TriangleSource& scene, std::size_t max_examples) {
+ConvexReport check_convex(const WeldedMesh& mesh, TriangleSource& scene, std::size_t max_examples, double proxy_off) {
   const std::vector<Part> parts = parts_of(mesh);
   const ConvexCover cover(corners_of(mesh, parts));
   ConvexReport report;
-  scene.rewind();
-  std::uint64_t read = 0;
-  pipeline<ConvexBatch>(
-      4 * thread_count(),
-      [&](ConvexBatch& batch) {
-        batch.first = read;
-        if (!scene.read(batch.triangles)) return false;
-        read += batch.triangles.size();
-        return true;
-      },
-      [&](ConvexBatch& batch) { check_batch(mesh, parts, cover, max_examples, batch); },
-      [&](ConvexBatch& batch) {
-        report.triangles += batch.triangles.size();
-        report.not_held.append(batch.result.not_held, max_examples);
-        report.perhaps_not_held.append(batch.result.perhaps_not_held, max_examples);
-        report.undecidable.append(batch.result.undecidable, max_examples);
-      });
+  for_each_batch(scene, max_examples, report,
+                 [&](ConvexBatch& batch) { check_batch(mesh, parts, cover, max_examples, batch); });
+  const Rounding rounding = scene.counts().rounding;
+  if ((!rounding.any() && proxy_off == 0) || report.not_held.count + report.perhaps_not_held.count > 0) return report;
+  ConvexReport again;
+  for_each_batch(scene, max_examples, again, [&](ConvexBatch& batch) {
+    for (std::size_t i = 0; i < batch.triangles.size(); ++i) {
+      const TriangleD& t = batch.triangles[i];
+      if (std::all_of(t.begin(), t.end(), [](const Vec3d& p) { return in_predicate_domain(p); }) &&
+          cover.covers(t, rounding.of(t) + proxy_off) != Answer::proven)
+        batch.result.within_rounding.add({batch.first + i, 0, t[0]}, max_examples);
+    }
+  });
+  report.within_rounding = std::move(again.within_rounding);
   return report;
 }
 

@@ -46,7 +46,7 @@ double largest(const Vec3d& v) {
 
 /// Each cut may add 8 roundings and a corner; the middle of a piece adds one rounding for each corner.
 ConvexCover::Local ConvexCover::Local::after(int cuts) const {
-  return {origin, far, 10 * (cuts + 1) * kUnitRoundoff * far};
+  return {origin, far, off + 10 * (cuts + 1) * kUnitRoundoff * far};
 }
 
 /// Scene units: it holds the point that p stands for.
@@ -169,14 +169,19 @@ bool ConvexCover::take_from(std::vector<Piece>& pieces, std::uint32_t part, cons
          });
 }
 
-Answer ConvexCover::covers(const TriangleD& t) const {
+Answer ConvexCover::covers(const TriangleD& t, double moved) const {
   std::vector<Piece> pieces(1);
   double far = 0;
   for (const Vec3d& p : t) {
     pieces[0].corners.push_back(p - t[0]);
     far = std::max(far, largest(pieces[0].corners.back()));
   }
-  const Local local{t[0], far};
+  const Local local{t[0], far, moved};
+  const auto holds_all = [&](std::uint32_t part) {
+    return std::all_of(pieces[0].corners.begin(), pieces[0].corners.end(),
+                       [&](const Vec3d& p) { return holds(part, p, local.after(0), 1); });
+  };
+  if (moved > 0 && visit(bounds_of(t), holds_all)) return Answer::proven;  // a cut would ask for more
   for (std::size_t taken = 0; !pieces.empty(); ++taken) {
     const Piece& piece = pieces.back();
     if (taken == kMostPieces || piece.cuts > kMostCuts) return Answer::undecided;

@@ -18,8 +18,9 @@ class ConvexCover {
   /// both `proven` and `refuted` are certain. Not decided is what parts cover that overlap by less than some 1e-13 of
   /// their size for each of a few cuts, and what must be cut into more than kMostPieces to see it. Coordinates are
   /// taken relative to the triangle, so that its distance from the origin does not matter. Safe to call from several
-  /// threads.
-  [[nodiscard]] Answer covers(const TriangleD& t) const;
+  /// threads. `moved`: so it is wherever the triangle's corners, and the planes of the parts, come to lie within that
+  /// distance.
+  [[nodiscard]] Answer covers(const TriangleD& t, double moved = 0) const;
 
   /// Calls f(part) for each part whose box meets `box`, until f returns true. Returns whether it did.
   template <class F>

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/core/parallel.h"
 #include "lib/core/vec3.h"
+#include "lib/exact/predicates.h"
 
 namespace bp {
 
@@ -115,6 +117,66 @@ double gap_within(const TriangleD& t, const TriangleBvh& surface, double most) {
     return false;
   });
   return least;
+}
+
+namespace {
+
+struct ClearanceBatch {
+  std::uint64_t first = 0;
+  std::vector<TriangleD> triangles;
+  ClearanceReport result;
+};
+
+void look_at(const WeldedMesh& mesh, const Surface& surface, std::uint64_t number, const TriangleD& t, double distance,
+             std::size_t max_examples, Finding& found) {
+  if (distance == 0) return;
+  const GapAnswer gap = keeps_gap(t, surface.bvh(), distance);
+  if (gap.answer != Answer::proven) found.add({number, mesh.number[surface.triangle(gap.item)], t[0]}, max_examples);
+}
+
+/// Corners beyond the domain of exact predicates are a finding of their own.
+void check_clearance_of(const WeldedMesh& mesh, const Surface& surface, const ClearanceQuestion& question,
+                        ClearanceBatch& batch) {
+  for (std::size_t i = 0; i < batch.triangles.size(); ++i) {
+    const TriangleD& t = batch.triangles[i];
+    if (!std::all_of(t.begin(), t.end(), [](const Vec3d& p) { return in_predicate_domain(p); })) continue;
+    const double off = question.off(t);
+    look_at(mesh, surface, batch.first + i, t, off, question.max_examples, batch.result.within);
+    if (question.margin > 0)
+      look_at(mesh, surface, batch.first + i, t, question.margin + off, question.max_examples,
+              batch.result.within_margin);
+  }
+}
+
+}  // namespace
+
+ClearanceReport check_clearance(const WeldedMesh& mesh, const Surface& surface, TriangleSource& scene,
+                                const ClearanceQuestion& question) {
+  ClearanceReport all;
+  if (surface.bvh().empty()) return all;
+  scene.rewind();
+  std::uint64_t read = 0;
+  pipeline<ClearanceBatch>(
+      4 * thread_count(),
+      [&](ClearanceBatch& batch) {
+        batch.first = read;
+        if (!scene.read(batch.triangles)) return false;
+        read += batch.triangles.size();
+        return true;
+      },
+      [&](ClearanceBatch& batch) { check_clearance_of(mesh, surface, question, batch); },
+      [&](ClearanceBatch& batch) {
+        all.within.append(batch.result.within, question.max_examples);
+        all.within_margin.append(batch.result.within_margin, question.max_examples);
+      });
+  return all;
+}
+
+double most_off(const std::vector<Vec3d>& points, const Rounding& rounding) {
+  double most = 0;
+  if (!rounding.any()) return most;
+  for (const Vec3d& p : points) most = std::max(most, rounding.of({p, p, p}));
+  return most;
 }
 
 }  // namespace bp

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "lib/check/detail/gap.h"
 #include "lib/exact/triangle_intersection.h"
 #include "lib/exact/triangle_part.h"
 
@@ -30,6 +31,21 @@ TileBody::TileBody(const IndexedMesh& content, std::size_t number) : number_(num
   closed_ = report.closed() && report.oriented();
   if (closed_) report.inverted_components = inverted_components(mesh_, *surface_, 1);
   sound_ = report.holds();
+  off_ = most_off(mesh_.points, content.rounding);
+}
+
+bool TileBody::keeps_clear(const TriangleD& t, const std::optional<Bounds3d>& cell, double scene_off) const {
+  const double off = scene_off + off_;
+  if (off == 0) return true;
+  if (!cell) return keeps_gap(t, surface_->bvh(), off).answer == Answer::proven;
+  const double growth = growth_for(*cell, t);
+  if (off > growth / 2) return false;
+  const std::vector<Vec3d> part = TrianglePart(t, grown(*cell, growth)).corners();
+  for (std::size_t k = 2; k < part.size(); ++k) {
+    const GapAnswer gap = keeps_gap({part[0], part[k - 1], part[k]}, surface_->bvh(), off + rounding_of(*cell, t));
+    if (gap.answer != Answer::proven) return false;
+  }
+  return true;
 }
 
 TileBody::Side TileBody::side_of(const TriangleD& t, const Bounds3d& bounds, const std::optional<Bounds3d>& cell,

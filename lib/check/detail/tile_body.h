@@ -49,6 +49,9 @@ class TileBody {
   /// Where t lies, of which only what is in the cell counts; in no cell: all of t. `bounds`: of t.
   [[nodiscard]] Side side_of(const TriangleD& t, const Bounds3d& bounds, const std::optional<Bounds3d>& cell,
                              KnownInside& known) const;
+  /// Of a triangle that lies inside: what is in the cell does so, too, in the file, where each of its points may be off
+  /// by `scene_off`, and the content's by as much as its reader says.
+  [[nodiscard]] bool keeps_clear(const TriangleD& t, const std::optional<Bounds3d>& cell, double scene_off) const;
 
  private:
   [[nodiscard]] Side side_of_part(const TriangleD& t, const Bounds3d& cell, double growth, KnownInside& known) const;
@@ -60,6 +63,7 @@ class TileBody {
   WeldedMesh mesh_;
   std::optional<Surface> surface_;
   bool closed_ = false, sound_ = false;
+  double off_ = 0;  ///< of the content
 };
 
 }  // namespace bp

@@ -1,0 +1,104 @@
+// Scenes and proxies whose coordinates were rounded when they were read.
+#include "lib/check/tile_cover.h"
+#include "tests/catch.h"
+#include "tests/unit/check/meshes.h"
+
+using namespace bp;
+using namespace bp::test;
+
+namespace {
+
+/// A scene whose reader says how it rounded, once all was read.
+class RoundedSource final : public VectorSource {
+ public:
+  RoundedSource(std::vector<TriangleD> triangles, Rounding rounding)
+      : VectorSource(std::move(triangles)), rounding_(rounding) {}
+  bool read(std::vector<TriangleD>& out) override {
+    const bool more = VectorSource::read(out);
+    counts_ = VectorSource::counts();
+    if (!more) counts_.rounding = rounding_;
+    return more;
+  }
+  [[nodiscard]] const SceneCounts& counts() const override { return counts_; }
+
+ private:
+  Rounding rounding_;
+  SceneCounts counts_;
+};
+
+CheckReport check_rounded(const IndexedMesh& proxy, const IndexedMesh& scene, Rounding rounding,
+                          const CheckOptions& options = {}) {
+  RoundedSource source(triangles_of(scene), rounding);
+  return check_proxy(proxy, &source, options);
+}
+
+}  // namespace
+
+TEST_CASE("a proxy holds around a rounded scene only if it keeps clear of it", "[quick][check][rounding]") {
+  const IndexedMesh scene = cube(1);
+  CHECK(check_rounded(cube(1.01), scene, {}).answer() == Answer::proven);
+  CHECK(check_rounded(cube(1.01), scene, {0, 0.005, 0.005}).answer() == Answer::proven);
+  const CheckReport open = check_rounded(cube(1.01), scene, {0, 0.006, 0.006});
+  CHECK(open.answer() == Answer::undecided);
+  CHECK(open.within_rounding.count == 12);
+  CHECK(check_rounded(cube(1.01), scene, {0.005, 0, 0}).answer() == Answer::proven);
+  CHECK(check_rounded(cube(1.01), scene, {0.006, 0, 0}).answer() == Answer::undecided);
+  CHECK(check_rounded(cube(0.99), scene, {0, 0.1, 0.1}).answer() == Answer::refuted);
+}
+
+TEST_CASE("a stray triangle far away changes nothing near the origin", "[quick][check][rounding]") {
+  const Rounding single{0x1p-20, 0, 0};
+  IndexedMesh scene = join(cube(1), cube(1, {1e6, 0, 0}));
+  const IndexedMesh near = cube(1.01), loose = cube(11, {1e6, 0, 0}), tight = cube(1.01, {1e6, 0, 0});
+  CHECK(check_rounded(join(near, loose), scene, single).answer() == Answer::proven);
+  const CheckReport open = check_rounded(join(near, tight), scene, single);
+  CHECK(open.answer() == Answer::undecided);
+  CHECK(open.within_rounding.count == 12);
+}
+
+TEST_CASE("a rounded proxy must keep clear of an exact scene", "[quick][check][rounding]") {
+  IndexedMesh proxy = cube(1.01);
+  proxy.rounding.offset = 0.005;
+  CHECK(check_rounded(proxy, cube(1), {}).answer() == Answer::proven);
+  proxy.rounding.offset = 0.006;
+  CHECK(check_rounded(proxy, cube(1), {}).answer() == Answer::undecided);
+}
+
+TEST_CASE("a margin is kept only if it is kept by as much as coordinates may be off", "[quick][check][rounding]") {
+  CheckOptions options;
+  options.margin_world = 0.5;
+  CHECK(check_rounded(cube(1.52), cube(1), {0, 0.01, 0.01}, options).answer() == Answer::proven);
+  const CheckReport open = check_rounded(cube(1.51), cube(1), {0, 0.01, 0.01}, options);
+  CHECK(open.keeps_margin() == Answer::undecided);
+  CHECK(open.enclosure() == Answer::proven);
+}
+
+TEST_CASE("an inner proxy and convex parts keep clear, too", "[quick][check][rounding]") {
+  CheckOptions inside, convex;
+  inside.inside = convex.convex = true;
+  CHECK(check_rounded(cube(0.99), cube(1), {0, 0.005, 0.005}, inside).answer() == Answer::proven);
+  CHECK(check_rounded(cube(0.99), cube(1), {0, 0.006, 0.006}, inside).answer() == Answer::undecided);
+  const IndexedMesh parts = join(box({-1.1, -1.1, -1.1}, {0.5, 1.1, 1.1}), box({-0.5, -1.1, -1.1}, {1.1, 1.1, 1.1}));
+  CHECK(check_rounded(parts, cube(1), {}, convex).answer() == Answer::proven);
+  CHECK(check_rounded(parts, cube(1), {0, 0.001, 0.001}, convex).answer() == Answer::proven);
+  CHECK(check_rounded(parts, cube(1), {0, 0.2, 0.2}, convex).answer() == Answer::undecided);
+}
+
+TEST_CASE("tiles keep clear of what a rounded scene has in their cells", "[quick][check][rounding]") {
+  const auto answer = [](const std::optional<Bounds3d>& cell, double offset) {
+    CoverTile root;
+    root.place = "root", root.uri = "a.glb";
+    root.triangles = 12;
+    root.cell = cell;
+    RoundedSource scene(triangles_of(cube(1)), {0, offset, offset});
+    const CoverReport report = check_cover(
+        {root}, [](std::size_t) { return cube(1.01); }, scene);
+    return report.findings.empty() ? Answer::proven : report.findings[0].answer;
+  };
+  const Bounds3d cell{{-2, -2, -2}, {2, 2, 2}};
+  CHECK(answer(cell, 0) == Answer::proven);
+  CHECK(answer(cell, 1e-10) == Answer::proven);
+  CHECK(answer(cell, 1e-6) == Answer::undecided);  // more than cells are grown by
+  CHECK(answer({}, 0.005) == Answer::proven);
+  CHECK(answer({}, 0.006) == Answer::undecided);
+}
