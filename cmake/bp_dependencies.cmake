@@ -2,6 +2,7 @@
 find_package(Threads REQUIRED)
 find_package(TBB REQUIRED)
 find_package(assimp REQUIRED)
+find_package(pugixml REQUIRED)
 find_package(meshoptimizer REQUIRED)
 find_package(fmt REQUIRED)
 find_package(nlohmann_json REQUIRED)

@@ -1,25 +1,26 @@
-#include <assimp/DefaultIOSystem.h>
 #include <assimp/material.h>
 #include <assimp/scene.h>
 
 #include <algorithm>
-#include <assimp/IOStream.hpp>
 #include <assimp/Importer.hpp>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <new>
 #include <utility>
 
 #include "io/files/kept_files.h"
+#include "io/scene/detail/assimp_files.h"
 #include "io/scene/detail/assimp_textures.h"
 #include "io/scene/detail/child_process.h"
+#include "io/scene/detail/exact/exact_scene.h"
 #include "io/scene/detail/foreign_format.h"
 #include "io/scene/instanced_scene.h"
 #include "lib/core/error.h"
 
 // Every format that has no reader of its own, through Assimp. Its importers are not made for broken files (they crash,
 // loop, or take all memory), so they run in a child process. The child leaves each mesh once in a scratch file, as
-// packed float32 positions (Assimp's own precision) and triangles, and sends back the places where the meshes stand.
+// packed positions and triangles, and sends back the places where the meshes stand.
 // Its memory goes with it; from there on the scene is streamed as glTF is. No step of postprocessing: polygons become
 // fans as everywhere, points and lines are dropped, and node transforms are composed in double.
 
@@ -34,6 +35,10 @@ std::string remedy_for(const std::string& name) {
   const std::string way = foreign_way(name);
   return way.empty() ? "convert it to GLB, PLY or OBJ" : way;
 }
+
+/// Assimp keeps coordinates and matrices as float32, and its importers compute in it: sixteen roundings are allowed for
+/// each number. None of them is known to take more.
+constexpr double kImporterShare = 16 * 0x1p-24;
 
 constexpr std::uint64_t kAnswerCopies = 4;  // of what the child sends, and what is made of it
 
@@ -70,6 +75,8 @@ struct MeshRecord {
   std::uint64_t positions = 0, vertices = 0, indices = 0, triangles = 0;  // addresses in the scratch file, and counts
   std::uint64_t colors = Accessor::kZeros;                                // address; kZeros: the vertices have none
   std::array<double, 3> base_color{1, 1, 1};
+  bool is_exact = false;  // positions are doubles; else float32
+  double off = 0;         // of such doubles
   TextureRecord texture;
 };
 struct NodeRecord {
@@ -123,60 +130,12 @@ Summary unpacked(const std::string& bytes, const std::string& name) {
 // --- In the child
 // --------------------------------------------------------------------------------------------------------
 
-class SceneStream final : public Assimp::IOStream {
- public:
-  explicit SceneStream(SceneFilePtr file) : file_(std::move(file)) {}
-  std::size_t Read(void* buffer, std::size_t size, std::size_t count) override {
-    if (size == 0) return 0;
-    const std::size_t got = file_->read_at(at_, {static_cast<std::byte*>(buffer), size * count});
-    at_ += got;
-    return got / size;
-  }
-  std::size_t Write(const void*, std::size_t, std::size_t) override { return 0; }
-  aiReturn Seek(std::size_t offset, aiOrigin origin) override {
-    const std::uint64_t from = origin == aiOrigin_SET ? 0 : origin == aiOrigin_CUR ? at_ : file_->size();
-    if (from + offset > file_->size()) return aiReturn_FAILURE;
-    at_ = from + offset;
-    return aiReturn_SUCCESS;
-  }
-  [[nodiscard]] std::size_t Tell() const override { return std::size_t(at_); }
-  [[nodiscard]] std::size_t FileSize() const override { return std::size_t(file_->size()); }
-  void Flush() override {}
-
- private:
-  SceneFilePtr file_;
-  std::uint64_t at_ = 0;
-};
-
-/// The scene under the name that Assimp is given; other names (materials, parts) are files beside it, and are noted.
-class SceneFileSystem final : public Assimp::DefaultIOSystem {
- public:
-  SceneFileSystem(SceneFilePtr file, std::string name, std::string& parts)
-      : file_(std::move(file)), name_(std::move(name)), parts_(parts) {}
-  bool Exists(const char* name) const override { return name == name_ || is_file(name); }
-  Assimp::IOStream* Open(const char* name, const char* mode) override {
-    if (name == name_) return new SceneStream(file_);
-    Assimp::IOStream* const part = is_file(name) ? DefaultIOSystem::Open(name, mode) : nullptr;
-    if (part != nullptr) parts_.append(name).push_back('\0');
-    return part;
-  }
-
- private:
-  /// A pipe would be waited for, and a device has no end.
-  static bool is_file(const char* name) {
-    std::error_code unknown;
-    return std::filesystem::is_regular_file(name, unknown);
-  }
-
-  SceneFilePtr file_;
-  std::string name_;
-  std::string& parts_;
-};
-
 class SceneUnloader {
  public:
-  SceneUnloader(ScratchFile& scratch, const SceneOptions& options)
+  /// `exact`: what is known better than Assimp knows it; may be null.
+  SceneUnloader(ScratchFile& scratch, const SceneOptions& options, const ExactScene* exact)
       : scratch_(scratch),
+        exact_(exact),
         colors_(options.colors),
         walls_only_(options.walls_only),
         wants_textures_(options.textures != nullptr),
@@ -184,6 +143,7 @@ class SceneUnloader {
   Summary unload(const aiScene& scene) {
     for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
       add_mesh(*scene.mMeshes[i], walls_only_ && see_through(*scene.mMeshes[i], scene));
+      add_positions(*scene.mMeshes[i], exact_ == nullptr ? nullptr : exact_mesh(*exact_, *scene.mMeshes[i], i));
       if (colors_) add_colors(*scene.mMeshes[i], scene);
       if (wants_textures_) summary_.meshes.back().texture = textures_.unload(*scene.mMeshes[i], scene);
     }
@@ -196,22 +156,37 @@ class SceneUnloader {
  private:
   struct Pending {
     const aiNode* node;
+    const ExactNode* exact;  // null: not known
     Affine parent;
   };
-  static Affine affine(const aiMatrix4x4& m) {
-    return {{{{m.a1, m.a2, m.a3, m.a4}, {m.b1, m.b2, m.b3, m.b4}, {m.c1, m.c2, m.c3, m.c4}}}};
-  }
+  static Affine affine(const aiMatrix4x4& m);
   static bool see_through(const aiMesh& mesh, const aiScene& scene);
   void add_mesh(const aiMesh& mesh, bool passed_over);
+  void add_positions(const aiMesh& mesh, const ExactMesh* exact);
   void add_colors(const aiMesh& mesh, const aiScene& scene);
   void add_face(const aiFace& face, unsigned vertices, std::vector<std::uint32_t>& indices);
   void add_nodes(const aiNode& root);
 
   ScratchFile& scratch_;
+  const ExactScene* const exact_;
   const bool colors_, walls_only_, wants_textures_;
   TextureUnloader textures_;
   Summary summary_;
 };
+
+/// A matrix that only swaps and turns axes is exact. The zeros of others may be sines and cosines that were rounded.
+Affine SceneUnloader::affine(const aiMatrix4x4& m) {
+  Affine a;
+  a.m = {{{m.a1, m.a2, m.a3, m.a4}, {m.b1, m.b2, m.b3, m.b4}, {m.c1, m.c2, m.c3, m.c4}}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double sum = std::abs(a.m[i][0]) + std::abs(a.m[i][1]) + std::abs(a.m[i][2]);
+    const double largest = std::max({std::abs(a.m[i][0]), std::abs(a.m[i][1]), std::abs(a.m[i][2])});
+    const bool exact = sum == 1 && largest == 1;
+    for (std::size_t j = 0; j < 3; ++j) a.off[i][j] = exact ? 0 : kImporterShare * largest;
+    a.off[i][3] = kImporterShare * std::abs(a.m[i][3]);
+  }
+  return a;
+}
 
 bool SceneUnloader::see_through(const aiMesh& mesh, const aiScene& scene) {
   float opacity = 1;
@@ -221,15 +196,23 @@ bool SceneUnloader::see_through(const aiMesh& mesh, const aiScene& scene) {
 
 // One that is passed over keeps its number, and has no triangles.
 void SceneUnloader::add_mesh(const aiMesh& mesh, bool passed_over) {
-  static_assert(sizeof(aiVector3D) == 3 * sizeof(float), "positions are written as they lie");
   MeshRecord record;
   record.vertices = mesh.mNumVertices;
-  record.positions = scratch_.append(std::as_bytes(std::span(mesh.mVertices, mesh.mNumVertices)));
   std::vector<std::uint32_t> indices;
   for (unsigned i = 0; i < mesh.mNumFaces && !passed_over; ++i) add_face(mesh.mFaces[i], mesh.mNumVertices, indices);
   record.indices = scratch_.append(std::as_bytes(std::span(indices)));
   record.triangles = indices.size() / 3;
   summary_.meshes.push_back(record);
+}
+
+// Of the mesh that was added last.
+void SceneUnloader::add_positions(const aiMesh& mesh, const ExactMesh* exact) {
+  static_assert(sizeof(aiVector3D) == 3 * sizeof(float), "positions are written as they lie");
+  MeshRecord& record = summary_.meshes.back();
+  record.is_exact = exact != nullptr;
+  record.off = record.is_exact ? exact->off : 0;
+  record.positions = scratch_.append(record.is_exact ? std::as_bytes(std::span(exact->positions))
+                                                     : std::as_bytes(std::span(mesh.mVertices, mesh.mNumVertices)));
 }
 
 // Of the mesh that was added last. Where a format knows no materials, Assimp invents a grey one.
@@ -257,14 +240,30 @@ void SceneUnloader::add_face(const aiFace& face, unsigned vertices, std::vector<
 }
 
 void SceneUnloader::add_nodes(const aiNode& root) {
-  std::vector<Pending> stack{{&root, Affine()}};
+  std::vector<Pending> stack{{&root, exact_ == nullptr ? nullptr : &exact_->root, Affine()}};
   while (!stack.empty()) {
-    const Pending next = stack.back();
+    Pending next = stack.back();
     stack.pop_back();
-    const Affine transform = next.parent * affine(next.node->mTransformation);
+    if (next.exact != nullptr && !is_rounded(*next.exact, *next.node)) next.exact = nullptr;
+    const Affine transform =
+        next.parent * (next.exact != nullptr ? next.exact->transform : affine(next.node->mTransformation));
     for (unsigned k = 0; k < next.node->mNumMeshes; ++k)
       summary_.nodes.push_back({transform, std::uint64_t(next.node->mMeshes[k])});
-    for (unsigned k = next.node->mNumChildren; k-- > 0;) stack.push_back({next.node->mChildren[k], transform});
+    for (unsigned k = next.node->mNumChildren; k-- > 0;)
+      stack.push_back({next.node->mChildren[k], next.exact == nullptr ? nullptr : &next.exact->children[k], transform});
+  }
+}
+
+/// None if there is no room for it: then what Assimp says must do.
+std::optional<ExactScene> read_exactly(const SceneFile& file, const std::string& extension) {
+  const bool collada = extension == "dae", ac3d = extension == "ac" || extension == "acc" || extension == "ac3d";
+  if (!collada && !ac3d) return {};
+  try {
+    std::string text(file.size(), '\0');
+    file.read_at(0, std::as_writable_bytes(std::span(text)));
+    return collada ? exact_collada(std::move(text)) : exact_ac3d(text);
+  } catch (const std::bad_alloc&) {
+    return {};
   }
 }
 
@@ -277,6 +276,7 @@ std::string import(const SceneFilePtr& file, const std::string& extension, Scrat
                                 [](char a, char b) { return a == (b >= 'A' && b <= 'Z' ? char(b + 32) : b); });
   const std::string name = named ? path : path + suffix;
   std::string parts;  // outlives the importer
+  const std::optional<ExactScene> exact = read_exactly(*file, extension);
   Assimp::Importer importer;
   importer.SetIOHandler(new SceneFileSystem(file, name, parts));
   const aiScene* const scene = importer.ReadFile(name, 0);
@@ -285,7 +285,7 @@ std::string import(const SceneFilePtr& file, const std::string& extension, Scrat
     fail(ErrorCode::bad_input, "{}: cannot be read: {}; repair it, or {}", file->name(), importer.GetErrorString(),
          remedy_for(file->name()));
   }
-  Summary summary = SceneUnloader(scratch, options).unload(*scene);
+  Summary summary = SceneUnloader(scratch, options, exact ? &*exact : nullptr).unload(*scene);
   summary.parts = std::move(parts);
   return packed(summary);
 }
@@ -298,7 +298,10 @@ Primitive primitive_of(const MeshRecord& mesh) {
   p.positions.components = 3;
   p.positions.count = mesh.vertices;
   p.positions.address = mesh.positions;
-  p.positions.stride = 3 * sizeof(float);
+  p.positions.type = mesh.is_exact ? ComponentType::f64 : ComponentType::f32;
+  p.positions.stride = 3 * bytes_of(p.positions.type);
+  p.positions.share = mesh.is_exact ? 0 : kImporterShare;
+  p.positions.off = mesh.off;
   p.indices = Accessor();
   p.indices->type = ComponentType::u32;
   p.indices->count = 3 * mesh.triangles;

@@ -1,0 +1,64 @@
+#pragma once
+#include <assimp/DefaultIOSystem.h>
+
+#include <assimp/IOStream.hpp>
+#include <filesystem>
+#include <string>
+#include <utility>
+
+#include "io/scene/scene_file.h"
+
+/// Files as Assimp wants them.
+namespace bp {
+
+class SceneStream final : public Assimp::IOStream {
+ public:
+  explicit SceneStream(SceneFilePtr file) : file_(std::move(file)) {}
+  std::size_t Read(void* buffer, std::size_t size, std::size_t count) override {
+    if (size == 0) return 0;
+    const std::size_t got = file_->read_at(at_, {static_cast<std::byte*>(buffer), size * count});
+    at_ += got;
+    return got / size;
+  }
+  std::size_t Write(const void*, std::size_t, std::size_t) override { return 0; }
+  aiReturn Seek(std::size_t offset, aiOrigin origin) override {
+    const std::uint64_t from = origin == aiOrigin_SET ? 0 : origin == aiOrigin_CUR ? at_ : file_->size();
+    if (from + offset > file_->size()) return aiReturn_FAILURE;
+    at_ = from + offset;
+    return aiReturn_SUCCESS;
+  }
+  [[nodiscard]] std::size_t Tell() const override { return std::size_t(at_); }
+  [[nodiscard]] std::size_t FileSize() const override { return std::size_t(file_->size()); }
+  void Flush() override {}
+
+ private:
+  SceneFilePtr file_;
+  std::uint64_t at_ = 0;
+};
+
+/// The scene under the name that Assimp is given; other names (materials, parts) are files beside it, and are noted.
+class SceneFileSystem final : public Assimp::DefaultIOSystem {
+ public:
+  SceneFileSystem(SceneFilePtr file, std::string name, std::string& parts)
+      : file_(std::move(file)), name_(std::move(name)), parts_(parts) {}
+  bool Exists(const char* name) const override { return name == name_ || is_file(name); }
+  Assimp::IOStream* Open(const char* name, const char* mode) override {
+    if (name == name_) return new SceneStream(file_);
+    Assimp::IOStream* const part = is_file(name) ? DefaultIOSystem::Open(name, mode) : nullptr;
+    if (part != nullptr) parts_.append(name).push_back('\0');
+    return part;
+  }
+
+ private:
+  /// A pipe would be waited for, and a device has no end.
+  static bool is_file(const char* name) {
+    std::error_code unknown;
+    return std::filesystem::is_regular_file(name, unknown);
+  }
+
+  SceneFilePtr file_;
+  std::string name_;
+  std::string& parts_;
+};
+
+}  // namespace bp
