@@ -73,9 +73,9 @@ struct InstancedScene {
   std::vector<Primitive> primitives;
   std::vector<InstanceArray> arrays;
   std::vector<MeshNode> nodes;
-  std::optional<UpAxis> up;     ///< if the file tells
-  std::size_t levels = 1;       ///< that the file has, of which this is one
-  std::size_t animations = 0;   ///< that the file has; none is followed
+  std::optional<UpAxis> up;    ///< if the file tells
+  std::size_t levels = 1;      ///< that the file has, of which this is one
+  std::size_t animations = 0;  ///< that the file has; none is followed
   UnreadParts unread;
   std::uint64_t bad_faces = 0;  ///< met before, while the scene was put together
   std::uint64_t differing = 0;  ///< SceneCounts::differing

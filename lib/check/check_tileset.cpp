@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/check/detail/tile_volumes.h"
+#include "lib/check/tile_volumes.h"
 
 namespace bp {
 

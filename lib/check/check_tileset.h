@@ -32,7 +32,7 @@ using TileContents = std::function<TileContent(const Tile&)>;
 ///   - the tileset's error is at least the root's; no child's error is above its parent's. Errors are scaled as the
 ///     transforms scale lengths;
 ///   - a child's volumes lie in its parent's, and the content's vertices in its tile's volumes and its own, exactly
-///     (detail/tile_volumes.h). A sphere whose tile is sheared or scaled unevenly is not decided: viewers differ;
+///     (tile_volumes.h). A sphere whose tile is sheared or scaled unevenly is not decided: viewers differ;
 ///   - leaves have no leaf_fault();
 ///   - every content is there;
 ///   - what is not understood is not decided.

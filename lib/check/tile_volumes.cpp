@@ -1,4 +1,4 @@
-#include "lib/check/detail/tile_volumes.h"
+#include "lib/check/tile_volumes.h"
 
 #include <algorithm>
 #include <cmath>
