@@ -70,7 +70,8 @@ Json views_of(const Buffer& buffer) {
   return Json::array({positions, normals, indices});
 }
 
-Json document_of(const LatticeMesh& mesh, const Buffer& buffer, const GltfPlace& place, const MeshWriteOptions& options) {
+Json document_of(const LatticeMesh& mesh, const Buffer& buffer, const GltfPlace& place,
+                 const MeshWriteOptions& options) {
   const Json primitive{{"attributes", {{"POSITION", 0}, {"NORMAL", 1}}}, {"indices", 2}, {"material", 0}};
   Json doc, node{{"name", "proxy"}, {"mesh", 0}};
   place.place(node);

@@ -1,6 +1,8 @@
 #pragma once
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <memory>
 
 #include "lib/core/coords.h"
 #include "lib/core/up_axis.h"
@@ -34,17 +36,46 @@ struct PlacedPoint {
   double off = 0;
 };
 
+/// How far each number of a 3 x 4 matrix may be off. Scenes have many transforms, and most of them are exact: these
+/// take a pointer for it.
+class MatrixBounds {
+ public:
+  MatrixBounds() = default;
+  MatrixBounds(MatrixBounds&&) noexcept = default;
+  MatrixBounds& operator=(MatrixBounds&&) noexcept = default;
+  MatrixBounds(const MatrixBounds& o) : all_(o.all_ ? std::make_unique<Numbers>(*o.all_) : nullptr) {}
+  MatrixBounds& operator=(const MatrixBounds& o) { return *this = MatrixBounds(o); }
+  ~MatrixBounds() = default;
+
+  [[nodiscard]] double operator()(std::size_t i, std::size_t j) const { return all_ ? (*all_)[i][j] : 0; }
+  void set(std::size_t i, std::size_t j, double off) {
+    if (off == (*this)(i, j)) return;
+    if (!all_) all_ = std::make_unique<Numbers>();
+    (*all_)[i][j] = off;
+  }
+  void add(std::size_t i, std::size_t j, double off) { set(i, j, (*this)(i, j) + off); }
+  [[nodiscard]] bool any() const {
+    return all_ && std::any_of(all_->begin(), all_->end(), [](const auto& row) {
+             return std::any_of(row.begin(), row.end(), [](double off) { return off != 0; });
+           });
+  }
+
+ private:
+  using Numbers = std::array<std::array<double, 4>, 3>;
+  std::unique_ptr<Numbers> all_;  // null: all are 0
+};
+
 /// Affine map of points, in double: rows of a 3 x 4 matrix. A product of scale and translation alone applies exactly
 /// wherever the result is a double, since the terms of the other axes are zeros.
 struct Affine {
   std::array<std::array<double, 4>, 3> m{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
   /// How far each number may be from that of the map that a file describes. Products keep account of it.
-  std::array<std::array<double, 4>, 3> off{};
+  MatrixBounds off{};
 
   /// All numbers may be off by this share of them.
   void blur(double share) {
     for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t j = 0; j < 4; ++j) off[i][j] += share * std::abs(m[i][j]);
+      for (std::size_t j = 0; j < 4; ++j) off.add(i, j, share * std::abs(m[i][j]));
     }
   }
   /// As operator(), of a point that may be off by `off_p` along each axis.
@@ -52,10 +83,10 @@ struct Affine {
     PlacedPoint out;
     for (std::size_t i = 0; i < 3; ++i) {
       RoundedSum sum;
-      for (std::size_t j = 0; j < 3; ++j) sum.add_product(m[i][j], off[i][j], p[j], off_p);
+      for (std::size_t j = 0; j < 3; ++j) sum.add_product(m[i][j], off(i, j), p[j], off_p);
       sum.add(m[i][3]);
       out.point[i] = sum.value;
-      out.off = std::max(out.off, sum.bound() + off[i][3] * (1 + 0x1p-40));
+      out.off = std::max(out.off, sum.bound() + off(i, 3) * (1 + 0x1p-40));
     }
     return out;
   }
@@ -71,13 +102,13 @@ struct Affine {
     for (std::size_t i = 0; i < 3; ++i) {
       for (std::size_t j = 0; j < 4; ++j) {
         RoundedSum sum;
-        for (std::size_t k = 0; k < 3; ++k) sum.add_product(a.m[i][k], a.off[i][k], b.m[k][j], b.off[k][j]);
+        for (std::size_t k = 0; k < 3; ++k) sum.add_product(a.m[i][k], a.off(i, k), b.m[k][j], b.off(k, j));
         if (j == 3) {
           sum.add(a.m[i][3]);
-          sum.off += a.off[i][3];
+          sum.off += a.off(i, 3);
         }
         product.m[i][j] = sum.value;
-        product.off[i][j] = sum.bound();
+        product.off.set(i, j, sum.bound());
       }
     }
     return product;
@@ -125,7 +156,7 @@ struct Affine {
   }
   if (x == 0 && y == 0 && z == 0) return a;
   for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) a.off[i][j] = 0x1p-48 * std::abs(s[j]);
+    for (std::size_t j = 0; j < 3; ++j) a.off.set(i, j, 0x1p-48 * std::abs(s[j]));
   }
   return a;
 }

@@ -80,8 +80,24 @@ struct MeshRecord {
   TextureRecord texture;
 };
 struct NodeRecord {
-  Affine transform;
+  using Numbers = std::array<std::array<double, 4>, 3>;
+  Numbers m{}, off{};  // of the transform
   std::uint64_t mesh = 0;
+
+  NodeRecord() = default;
+  NodeRecord(const Affine& transform, std::uint64_t shown) : m(transform.m), mesh(shown) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < 4; ++j) off[i][j] = transform.off(i, j);
+    }
+  }
+  [[nodiscard]] Affine transform() const {
+    Affine a;
+    a.m = m;
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < 4; ++j) a.off.set(i, j, off[i][j]);
+    }
+    return a;
+  }
 };
 struct Summary {
   std::uint64_t bytes = 0, bad_faces = 0;  // of the scratch file; faces whose corners do not exist
@@ -182,8 +198,8 @@ Affine SceneUnloader::affine(const aiMatrix4x4& m) {
     const double sum = std::abs(a.m[i][0]) + std::abs(a.m[i][1]) + std::abs(a.m[i][2]);
     const double largest = std::max({std::abs(a.m[i][0]), std::abs(a.m[i][1]), std::abs(a.m[i][2])});
     const bool exact = sum == 1 && largest == 1;
-    for (std::size_t j = 0; j < 3; ++j) a.off[i][j] = exact ? 0 : kImporterShare * largest;
-    a.off[i][3] = kImporterShare * std::abs(a.m[i][3]);
+    for (std::size_t j = 0; j < 3; ++j) a.off.set(i, j, exact ? 0 : kImporterShare * largest);
+    a.off.set(i, 3, kImporterShare * std::abs(a.m[i][3]));
   }
   return a;
 }
@@ -248,7 +264,7 @@ void SceneUnloader::add_nodes(const aiNode& root) {
     const Affine transform =
         next.parent * (next.exact != nullptr ? next.exact->transform : affine(next.node->mTransformation));
     for (unsigned k = 0; k < next.node->mNumMeshes; ++k)
-      summary_.nodes.push_back({transform, std::uint64_t(next.node->mMeshes[k])});
+      summary_.nodes.emplace_back(transform, std::uint64_t(next.node->mMeshes[k]));
     for (unsigned k = next.node->mNumChildren; k-- > 0;)
       stack.push_back({next.node->mChildren[k], next.exact == nullptr ? nullptr : &next.exact->children[k], transform});
   }
@@ -330,7 +346,7 @@ InstancedScene scene_of(const Summary& summary, SceneFilePtr bytes, const std::s
   }
   for (const NodeRecord& node : summary.nodes) {
     if (node.mesh < summary.meshes.size() && summary.meshes[node.mesh].triangles > 0)
-      scene.nodes.push_back({node.transform, std::uint32_t(node.mesh), std::uint32_t(node.mesh + 1), {}});
+      scene.nodes.push_back({node.transform(), std::uint32_t(node.mesh), std::uint32_t(node.mesh + 1), {}});
   }
   return scene;
 }

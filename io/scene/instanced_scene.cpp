@@ -257,7 +257,7 @@ void InstancedSource::place() {
     transform_ = transform_ * affine_of(t, q, s);
   }
   mirrored_ = transform_.mirrors();
-  stays_ = transform_.m == Affine().m && transform_.off == Affine().off;
+  stays_ = transform_.m == Affine().m && !transform_.off.any();
 }
 
 /// Integers that stand for [-1, 1] are divided, which rounds once.

@@ -177,7 +177,8 @@ class ContentFinder {
     if (!is_regular_file(found.path)) {
       if (missing_++ == 0) first_missing_ = found.path;
     } else if (found.is_tileset) {
-      const CountedJson tileset = read_json(open_scene_file(found.path, temp_dir_of(options_), NamedBy::file), options_, held_);
+      const CountedJson tileset =
+          read_json(open_scene_file(found.path, temp_dir_of(options_), NamedBy::file), options_, held_);
       held_ += tileset.bytes;
       add_tileset(GltfObject(tileset.json, found.path, ""), found.path, found.place);
       held_ -= tileset.bytes;

@@ -169,14 +169,17 @@ void TilesetFolder::write(const std::string& name, const std::string& bytes) {
   if (!same) written_.push_back(name);
 }
 
-/// What is there of earlier tilesets.
+/// What is there of earlier tilesets. What another program's tileset names is not ours to remove, nor is any file that
+/// ours names and that we did not make.
 std::vector<std::string> TilesetFolder::names_before() {
   std::vector<std::string> names = names_from(partial_ + kMoving);
   const std::string tileset = path_ + "/" + kTileset;
-  if (!was_made_here(tileset)) return names;  // what another tileset names is not ours to remove
+  if (!fs::exists(tileset)) return names;
   try {
     const std::vector<std::string> contents = contents_of(tileset);
-    names.insert(names.end(), contents.begin(), contents.end());
+    if (!was_made_here(tileset)) return names;
+    std::copy_if(contents.begin(), contents.end(), std::back_inserter(names),
+                 [&](const std::string& name) { return names_image(name) || was_made_here(path_ + "/" + name); });
   } catch (const Error& e) {  // then nothing is known to be its
     complaint_ = e.what();
   }
@@ -243,8 +246,7 @@ void TilesetFolder::take_back(const std::vector<std::string>& moved_before) {
 void TilesetFolder::remove_others(const std::vector<std::string>& before) const {
   for (const std::string& name : before) {
     if (std::binary_search(names_.begin(), names_.end(), name)) continue;
-    const std::string path = path_ + "/" + name;
-    if (names_image(name) || was_made_here(path)) (void)remove_file(path);
+    (void)remove_file(path_ + "/" + name);
     std::error_code ignored;
     const fs::path folder = fs::path(name).parent_path();
     if (!folder.empty()) fs::remove(path_ / folder, ignored);  // if it is empty now

@@ -103,7 +103,11 @@ void check_rounding(const WeldedMesh& mesh, const Surface& surface, TriangleSour
                     CheckReport& report) {
   const ClearanceQuestion question{report.scene_counts.rounding, report.proxy_off, options.margin_world,
                                    options.max_examples};
-  if (!question.any() || report.touching.count > 0) return;
+  if (!question.any()) return;
+  if (report.touching.count + report.outside.count + report.swallowed.count + report.outside_parts.count > 0) {
+    report.misplaced = any_misplaced(surface, scene, question, report.wants_inside);
+    return;
+  }
   ClearanceReport found = check_clearance(mesh, surface, scene, question);
   report.within_rounding = std::move(found.within);
   if (report.too_near.count == 0) report.perhaps_near = std::move(found.within_margin);
@@ -159,8 +163,8 @@ void check_scene_around(const WeldedMesh& mesh, const Surface& surface, Triangle
     report.hidden_unknown = fmt::format("coordinates are read to within {:.2g}, too much for these voxels", off);
 }
 
-void check_scene_in_parts(const WeldedMesh& mesh, TriangleSource& scene, const CheckOptions& options,
-                          CheckReport& report) {
+void check_scene_in_parts(const WeldedMesh& mesh, const Surface& surface, TriangleSource& scene,
+                          const CheckOptions& options, CheckReport& report) {
   report.has_scene = true;
   if (!report.sides_decided) return;
   const ConvexReport convex = check_convex(mesh, scene, options.max_examples, report.proxy_off);
@@ -170,6 +174,8 @@ void check_scene_in_parts(const WeldedMesh& mesh, TriangleSource& scene, const C
   report.not_held = convex.not_held, report.perhaps_not_held = convex.perhaps_not_held;
   report.undecidable_scene = convex.undecidable;
   report.within_rounding = convex.within_rounding;
+  const ClearanceQuestion question{report.scene_counts.rounding, report.proxy_off, 0, options.max_examples};
+  if (question.any() && report.not_held.count > 0) report.misplaced = any_misplaced(surface, scene, question, false);
 }
 
 }  // namespace
@@ -188,7 +194,7 @@ CheckReport check_proxy(const IndexedMesh& proxy, TriangleSource* scene, const C
   if (options.convex && report.sides_decided) report.nonconvex_parts = nonconvex_parts(mesh, options.max_examples);
   if (scene == nullptr) return report;
   if (options.convex) {
-    check_scene_in_parts(mesh, *scene, options, report);
+    check_scene_in_parts(mesh, surface, *scene, options, report);
   } else {
     (options.inside ? check_scene_around : check_scene)(mesh, surface, *scene, options, report);
   }

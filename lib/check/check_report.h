@@ -98,6 +98,8 @@ struct CheckReport {
   Finding within_rounding;  ///< index: scene triangle that is no farther from the proxy than both may be off; other:
                             ///< such a triangle of the proxy
 
+  bool misplaced = false;  ///< where anything was rounded: a corner of the scene is on the wrong side of the proxy, and
+                           ///< farther from it than both may be off
   // The least distance between both (gap.h).
   double margin = 0;                ///< asked for, scene units; 0: not asked
   std::optional<double> least_gap;  ///< between scene and proxy, if a margin is asked for; in doubles
@@ -144,7 +146,7 @@ struct CheckReport {
   /// Strict: every scene triangle, boundary included, lies in the open interior of the proxy.
   [[nodiscard]] Answer enclosure() const {
     if (!has_scene || !sides_decided || !place_unknown.empty()) return Answer::undecided;
-    if (touching.count + outside.count + not_held.count > 0) return Answer::refuted;
+    if (touching.count + outside.count + not_held.count > 0) return surely(Answer::refuted);
     return undecidable_scene.count + perhaps_not_held.count + within_rounding.count > 0 || scene_counts.is_partial()
                ? Answer::undecided
                : Answer::proven;
@@ -152,25 +154,29 @@ struct CheckReport {
   /// No point of the scene is nearer to the proxy's surface than `margin`.
   [[nodiscard]] Answer keeps_margin() const {
     if (!place_unknown.empty()) return Answer::undecided;
-    if (too_near.count > 0) return Answer::refuted;
+    if (too_near.count > 0) return surely(Answer::refuted);
     return perhaps_near.count + undecidable_scene.count > 0 || scene_counts.is_partial() ? Answer::undecided
                                                                                          : Answer::proven;
+  }
+  /// Where reading has rounded coordinates, a NO about places is sure only if a corner shows it from farther away.
+  [[nodiscard]] Answer surely(Answer as_read) const {
+    return scene_counts.rounding.most + proxy_off > 0 && !misplaced ? Answer::undecided : as_read;
   }
   [[nodiscard]] bool encloses() const { return enclosure() == Answer::proven; }
   [[nodiscard]] bool convex() const { return sides_decided && nonconvex_parts.count == 0; }
   /// Strict: the solid of the proxy meets no scene triangle, and every path to it from far away crosses the scene.
   [[nodiscard]] Answer insideness() const {
     if (!has_scene || !sides_decided || !place_unknown.empty()) return Answer::undecided;
-    if (touching.count + swallowed.count > 0) return Answer::refuted;
+    if (touching.count + swallowed.count > 0) return surely(Answer::refuted);
     if (undecidable_scene.count > 0 || scene_counts.is_partial())
       return Answer::undecided;  // what is left out may be what hides a part
-    if (outside_parts.count > 0) return Answer::refuted;
+    if (outside_parts.count > 0) return surely(Answer::refuted);
     return unsettled_parts.count + within_rounding.count > 0 ? Answer::undecided : Answer::proven;
   }
   /// Part of insideness(): the solid of the proxy meets no scene triangle.
   [[nodiscard]] Answer free_of_scene() const {
     if (!place_unknown.empty()) return Answer::undecided;
-    if (touching.count + swallowed.count > 0) return Answer::refuted;
+    if (touching.count + swallowed.count > 0) return surely(Answer::refuted);
     return within_rounding.count > 0 ? Answer::undecided : Answer::proven;
   }
   [[nodiscard]] bool inside() const { return insideness() == Answer::proven; }
@@ -182,10 +188,16 @@ struct CheckReport {
   }
   /// As a mesh, without the scene.
   [[nodiscard]] Answer soundness() const {
-    const bool fine = bad_faces.count + non_finite_vertices.count + boundary_edges.count == 0 && !empty() && sound() &&
-                      oriented() && manifold() && embedded() && outward() && nonconvex_parts.count == 0;
-    if (!fine) return Answer::refuted;
-    return undecidable_vertices.count + differing > 0 ? Answer::undecided : Answer::proven;
+    if (empty() || bad_faces.count + non_finite_vertices.count > 0) return Answer::refuted;
+    if (!sound() || !embedded() || !outward() || nonconvex_parts.count > 0) return Answer::refuted;
+    const Answer edges =
+        all_of(all_of(on_edges(boundary_edges.count == 0), on_edges(oriented())), on_edges(manifold()));
+    return undecidable_vertices.count + differing > 0 ? all_of(edges, Answer::undecided) : edges;
+  }
+  /// Triangles at undecidable vertices are left out of all counts of edges: what is missing there is no failure then.
+  [[nodiscard]] Answer on_edges(bool fine) const {
+    if (fine) return Answer::proven;
+    return undecidable_vertices.count > 0 ? Answer::undecided : Answer::refuted;
   }
   /// Of all that was asked.
   [[nodiscard]] Answer answer() const {

@@ -35,9 +35,9 @@
 /// common segment (exact predicates say which edges meet which triangle, intervals where) must miss the grown cell. So
 /// "holds" is a proof, and a tile is blamed unjustly only if a triangle and a face nearly coincide where the cell ends.
 ///
-/// Where the scene's coordinates or those of a content were rounded when they were read (lib/core/triangle_source.h), t ∩ cell
-/// keeps clear of the content's faces by as much as both may be off; else, or where that is more than half of what
-/// cells are grown by, the answer is "not decided". A leaf is compared with the scene as read.
+/// Where the scene's coordinates or those of a content were rounded when they were read (lib/core/triangle_source.h), t
+/// ∩ cell keeps clear of the content's faces by as much as both may be off; else, or where that is more than half of
+/// what cells are grown by, the answer is "not decided". A leaf is compared with the scene as read.
 ///
 /// Each statement is about one tile: the scene in its cell, its content, the cells of its children, and whether
 /// children have contents. That t leaves the root's cell is a statement about the root. So a check may be done in parts

@@ -159,14 +159,19 @@ std::string verdict_text(const CheckReport& r, const std::string& proxy_name) {
                                  r.components, r.components == 1 ? "" : "s");
   if (r.genus) text += fmt::format(", genus {}", *r.genus);
   text.append("\n").append(scene_lines(r));
-  text += row("closed", r.closed()) + row("oriented", r.oriented()) + row("2-manifold", r.manifold());
+  for (const auto& [question, fine] :
+       {std::pair{"closed", r.closed()}, {"oriented", r.oriented()}, {"2-manifold", r.manifold()}})
+    text += row(question, r.on_edges(fine), "the proxy has coordinates that are too large or too small");
   text += row("free of self-intersections", r.embedded());
   text += row("facing outwards",
               !r.sides_decided ? Answer::undecided
               : r.outward()    ? Answer::proven
                                : Answer::refuted,
               kNoOutside);
-  text += row("no degenerate triangles", r.readable() && r.sound());
+  text += row("no degenerate triangles",
+              r.sound() && r.bad_faces.count + r.non_finite_vertices.count == 0 && !r.empty() ? r.on_edges(r.readable())
+                                                                                              : Answer::refuted,
+              "the proxy has coordinates that are too large or too small");
   if (r.wants_convex) text += row("each part convex", r.convex());
   text += enclosure_row(r);
   for (const FindingText& t : finding_texts())

@@ -108,6 +108,11 @@ std::string scene_doubt(const CheckReport& r) {
   if (!r.sides_decided) return kNoOutside;
   if (r.undecidable_scene.count > 0) return "the scene has coordinates that are too large or too small";
   if (r.scene_counts.is_partial()) return partial_scene(r.scene_counts);
+  const std::uint64_t wrong = r.touching.count + r.outside.count + r.not_held.count + r.swallowed.count +
+                              r.outside_parts.count + r.too_near.count;
+  if (most_off(r) > 0 && wrong > 0)
+    return fmt::format("coordinates are read to within {:.2g}, and only as read is anything on the wrong side",
+                       most_off(r));
   if (r.within_rounding.count > 0)
     return fmt::format("coordinates are read to within {:.2g}, and the proxy is as near to {} as that", most_off(r),
                        bp::counted(r.within_rounding.count, "triangle"));

@@ -44,8 +44,7 @@ void declare(Args& args, CheckRun& o) {
       "--margin", "LENGTH", [&o](const std::string& text) { o.margin = parse_margin(text); },
       "prove also that the proxy keeps this distance from the scenes: scene units, or a percentage of the "
       "scenes' diagonal");
-  args.flag("--claimed", o.claimed,
-            "prove what the proxy's file claims of itself, and say what it does not claim (docs/contracts.md)");
+  args.flag("--claimed", o.claimed, "prove what the proxy's file claims of itself, and say what it does not claim");
   args.option(
       "--part", "K/N", [&o](const std::string& text) { o.part = parse_part(text); },
       "check part K of N parts of a tileset, for machines that share the work; if all N hold, the tileset holds");

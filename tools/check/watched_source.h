@@ -14,16 +14,13 @@ class WatchedSource : public TriangleSource {
   WatchedSource(TriangleSource& source, Progress& progress) : source_(source), progress_(progress) {}
   bool read(std::vector<TriangleD>& out) override {
     const bool more = source_.read(out);
-    progress_.add(out.size());
-    for (const TriangleD& t : out) {
-      for (const Vec3d& p : t) bounds_.add(p);
-    }
+    watch(out);
     return more;
   }
   bool read_faces(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors,
                   std::vector<std::uint8_t>& inner_edges) override {
     const bool more = source_.read_faces(out, colors, inner_edges);
-    progress_.add(out.size());
+    watch(out);
     return more;
   }
   void rewind() override { source_.rewind(); }
@@ -33,6 +30,13 @@ class WatchedSource : public TriangleSource {
   [[nodiscard]] std::string name() const override { return source_.name(); }
 
  private:
+  void watch(const std::vector<TriangleD>& triangles) {
+    progress_.add(triangles.size());
+    for (const TriangleD& t : triangles) {
+      for (const Vec3d& p : t) bounds_.add(p);
+    }
+  }
+
   TriangleSource& source_;
   Progress& progress_;
   Bounds3d bounds_;

@@ -11,10 +11,10 @@ constexpr std::size_t kEach = 4;  // joints of a vertex in one pair of attribute
 void add(Affine& sum, double weight, const Affine& joint) {
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 4; ++j) {
-      RoundedSum number{sum.m[i][j], sum.off[i][j]};
-      number.add_product(weight, 0, joint.m[i][j], joint.off[i][j]);
+      RoundedSum number{sum.m[i][j], sum.off(i, j)};
+      number.add_product(weight, 0, joint.m[i][j], joint.off(i, j));
       sum.m[i][j] = number.value;
-      sum.off[i][j] = number.bound();
+      sum.off.set(i, j, number.bound());
     }
   }
 }
@@ -86,8 +86,8 @@ Affine GltfSkin::blend(const std::vector<Shares>& shares, std::uint64_t vertex) 
   for (auto& row : sum.m) {
     for (double& x : row) x /= all;
   }
-  for (auto& row : sum.off) {
-    for (double& x : row) x /= all;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 4; ++j) sum.off.set(i, j, sum.off(i, j) / all);
   }
   sum.blur(0x1p-48);  // the sum of at most 16 weights, and the division
   return sum;

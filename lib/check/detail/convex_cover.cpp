@@ -44,7 +44,8 @@ double largest(const Vec3d& v) {
 
 }  // namespace
 
-/// Each cut may add 8 roundings and a corner; the middle of a piece adds one rounding for each corner.
+/// Each cut may add 8 roundings and a corner; the middle of a piece adds one rounding for each corner. One bound serves
+/// a whole search: a corner that an early cut left as deep as was asked then must be deep enough after the last one.
 ConvexCover::Local ConvexCover::Local::after(int cuts) const {
   return {origin, far, off + 10 * (cuts + 1) * kUnitRoundoff * far};
 }
@@ -104,14 +105,13 @@ bool ConvexCover::is_bare(const Vec3d& p, const Local& local) const {
 /// towards its middle in steps that double.
 bool ConvexCover::shows_bare(const Piece& piece, const Local& frame) const {
   constexpr int kMostHalvings = 48;
-  const Local local = frame.after(piece.cuts);
   Vec3d middle{};
   for (const Vec3d& p : piece.corners) middle = middle + (1.0 / double(piece.corners.size())) * p;
   for (const Vec3d& p : piece.corners) {
-    if (is_bare(p, local)) return true;
+    if (is_bare(p, frame)) return true;
     double step = 1;
     for (int i = 0; i < kMostHalvings; ++i, step /= 2) {
-      if (is_bare(p + step * (middle - p), local)) return true;
+      if (is_bare(p + step * (middle - p), frame)) return true;
     }
   }
   return false;
@@ -119,14 +119,13 @@ bool ConvexCover::shows_bare(const Piece& piece, const Local& frame) const {
 
 /// Of those that hold the first corner well, one that holds most others.
 std::uint32_t ConvexCover::best_part(const Piece& piece, const Local& frame) const {
-  const Local local = frame.after(piece.cuts);
   std::uint32_t best = kNoPart;
   std::size_t most = 0;
   const Vec3d& first = piece.corners[0];
-  visit(box_around(first, local), [&](std::uint32_t part) {
-    if (!holds(part, first, local, kCornerDepth)) return false;
+  visit(box_around(first, frame), [&](std::uint32_t part) {
+    if (!holds(part, first, frame, kCornerDepth)) return false;
     std::size_t held = 1;
-    for (std::size_t k = 1; k < piece.corners.size(); ++k) held += holds(part, piece.corners[k], local, 1) ? 1 : 0;
+    for (std::size_t k = 1; k < piece.corners.size(); ++k) held += holds(part, piece.corners[k], frame, 1) ? 1 : 0;
     if (held > most || (held == most && part < best)) most = held, best = part;
     return false;
   });
@@ -135,16 +134,15 @@ std::uint32_t ConvexCover::best_part(const Piece& piece, const Local& frame) con
 
 /// Takes the last piece away and puts back what of it is not within the part. False if the part does not take its
 /// first corner.
-bool ConvexCover::take_from(std::vector<Piece>& pieces, std::uint32_t part, const Local& frame) const {
+bool ConvexCover::take_from(std::vector<Piece>& pieces, std::uint32_t part, int most_cuts, const Local& frame) const {
   Piece piece = std::move(pieces.back());
   pieces.pop_back();
   std::vector<double> depth;
   for (const Plane& plane : parts_[part]) {
     depth.clear();
-    const Local local = frame.after(piece.cuts);
     bool whole = true;
     for (const Vec3d& p : piece.corners) {
-      const Plane::Height height = plane.height(p, local);
+      const Plane::Height height = plane.height(p, frame);
       depth.push_back(-height.value - kCutDepth * height.error);
       whole = whole && -height.value > height.error;
     }
@@ -164,30 +162,33 @@ bool ConvexCover::take_from(std::vector<Piece>& pieces, std::uint32_t part, cons
     pieces.push_back(std::move(beyond));
     piece = std::move(within);
   }
-  return piece.cuts <= kMostCuts && std::all_of(piece.corners.begin(), piece.corners.end(), [&](const Vec3d& p) {
-           return holds(part, p, frame.after(piece.cuts), 1);
-         });
+  return piece.cuts <= most_cuts && std::all_of(piece.corners.begin(), piece.corners.end(),
+                                                [&](const Vec3d& p) { return holds(part, p, frame, 1); });
 }
 
 Answer ConvexCover::covers(const TriangleD& t, double moved) const {
-  std::vector<Piece> pieces(1);
+  constexpr int kFewCuts = 32;  // the fewer may be made, the less is lost to rounding
   double far = 0;
-  for (const Vec3d& p : t) {
-    pieces[0].corners.push_back(p - t[0]);
-    far = std::max(far, largest(pieces[0].corners.back()));
-  }
+  for (const Vec3d& p : t) far = std::max(far, largest(p - t[0]));
   const Local local{t[0], far, moved};
   const auto holds_all = [&](std::uint32_t part) {
-    return std::all_of(pieces[0].corners.begin(), pieces[0].corners.end(),
-                       [&](const Vec3d& p) { return holds(part, p, local.after(0), 1); });
+    return std::all_of(t.begin(), t.end(), [&](const Vec3d& p) { return holds(part, p - t[0], local.after(0), 1); });
   };
   if (moved > 0 && visit(bounds_of(t), holds_all)) return Answer::proven;  // a cut would ask for more
+  const Answer answer = covers_by(t, kFewCuts, local.after(kFewCuts));
+  return answer == Answer::undecided ? covers_by(t, kMostCuts, local.after(kMostCuts)) : answer;
+}
+
+/// With so many cuts of a piece, one after the other.
+Answer ConvexCover::covers_by(const TriangleD& t, int most_cuts, const Local& frame) const {
+  std::vector<Piece> pieces(1);
+  for (const Vec3d& p : t) pieces[0].corners.push_back(p - t[0]);
   for (std::size_t taken = 0; !pieces.empty(); ++taken) {
     const Piece& piece = pieces.back();
-    if (taken == kMostPieces || piece.cuts > kMostCuts) return Answer::undecided;
-    const std::uint32_t part = best_part(piece, local);
-    if (part == kNoPart) return shows_bare(piece, local) ? Answer::refuted : Answer::undecided;
-    if (!take_from(pieces, part, local)) return Answer::undecided;
+    if (taken == kMostPieces || piece.cuts > most_cuts) return Answer::undecided;
+    const std::uint32_t part = best_part(piece, frame);
+    if (part == kNoPart) return shows_bare(piece, frame) ? Answer::refuted : Answer::undecided;
+    if (!take_from(pieces, part, most_cuts, frame)) return Answer::undecided;
   }
   return Answer::proven;
 }

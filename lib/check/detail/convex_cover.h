@@ -59,7 +59,8 @@ class ConvexCover {
   [[nodiscard]] bool is_bare(const Vec3d& p, const Local& local) const;
   [[nodiscard]] bool shows_bare(const Piece& piece, const Local& frame) const;
   [[nodiscard]] std::uint32_t best_part(const Piece& piece, const Local& frame) const;
-  bool take_from(std::vector<Piece>& pieces, std::uint32_t part, const Local& frame) const;
+  bool take_from(std::vector<Piece>& pieces, std::uint32_t part, int most_cuts, const Local& frame) const;
+  [[nodiscard]] Answer covers_by(const TriangleD& t, int most_cuts, const Local& frame) const;
 
   std::vector<std::vector<Plane>> parts_;
   TriangleBvh boxes_;

@@ -172,6 +172,23 @@ ClearanceReport check_clearance(const WeldedMesh& mesh, const Surface& surface, 
   return all;
 }
 
+bool any_misplaced(const Surface& surface, TriangleSource& scene, const ClearanceQuestion& question, bool inside) {
+  constexpr double kRoundings = 1 + 1e-9;  // of a distance in doubles
+  if (surface.bvh().empty()) return false;
+  scene.rewind();
+  for (std::vector<TriangleD> chunk; scene.read(chunk);) {
+    const bool found = std::any_of(chunk.begin(), chunk.end(), [&](const TriangleD& t) {
+      const double off = question.off(t) * kRoundings;
+      return std::any_of(t.begin(), t.end(), [&](const Vec3d& p) {
+        return in_predicate_domain(p) && (surface.winding(p) >= 1) == inside &&
+               surface.bvh().nearest(p).distance_squared > off * off;
+      });
+    });
+    if (found) return true;
+  }
+  return false;
+}
+
 double most_off(const std::vector<Vec3d>& points, const Rounding& rounding) {
   double most = 0;
   if (!rounding.any()) return most;

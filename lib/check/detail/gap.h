@@ -45,6 +45,11 @@ struct ClearanceReport {
 [[nodiscard]] ClearanceReport check_clearance(const WeldedMesh& mesh, const Surface& surface, TriangleSource& scene,
                                               const ClearanceQuestion& question);
 
+/// Whether a corner of the scene lies on the wrong side of the surface, outside of it or, with `inside`, within it, and
+/// farther from it than both may be off: so it is in the file, too. Reads the scene from its start.
+[[nodiscard]] bool any_misplaced(const Surface& surface, TriangleSource& scene, const ClearanceQuestion& question,
+                                 bool inside);
+
 /// The largest distance that a point of the mesh may be off by.
 [[nodiscard]] double most_off(const std::vector<Vec3d>& points, const Rounding& rounding);
 

@@ -256,6 +256,18 @@ TEST_CASE("coordinates that are not numbers, faces out of range and magnitudes o
   CHECK_FALSE(check(bad).holds());
 }
 
+TEST_CASE("what is left out at a vertex that cannot be decided is no hole", "[quick][check]") {
+  IndexedMesh sound = box({0, 0, 0}, {1, 1, 1}), crossed = sound;
+  sound.vertices[7][0] = 1 + 1e-12;
+  CHECK(check(sound).answer() == Answer::proven);
+  sound.vertices[0] = {5e-324, 0, 0};  // the domain ends at 1e-90
+  CHECK(check(sound).boundary_edges.count > 0);
+  CHECK(check(sound).answer() == Answer::undecided);
+  crossed.vertices[0] = {5e-324, 0, 0};
+  crossed.triangles.push_back(crossed.triangles.back());
+  CHECK(check(crossed).answer() == Answer::refuted);  // a triangle is there twice, whatever the rest is
+}
+
 TEST_CASE("faces that a reader had to leave out refute a proxy, and data that differ leave it undecided",
           "[quick][check]") {
   IndexedMesh m = cube(1);

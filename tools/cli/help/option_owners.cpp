@@ -64,6 +64,7 @@ constexpr OptionOfTools kOptionsOfTools[] = {
     {"--symmetry", "bplod"},
     {"--temp", "bpvox, bpscale, bpclose, bpmesh, bpcheck, bpdeform and bplod"},
     {"--tile", "bplod"},
+    {"--tile-compression", "bplod"},
     {"--tiles", "bplod"},
     {"--up", "bpvox, bplod and bpinfo"},
     {"--view", "bpinfo"},

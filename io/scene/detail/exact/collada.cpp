@@ -164,7 +164,7 @@ constexpr double kTurnRounding = 0x1p-46;  // a sine, a cosine, a unit vector, a
 
 void blur_linear(Affine& a) {
   for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) a.off[i][j] = kTurnRounding;
+    for (std::size_t j = 0; j < 3; ++j) a.off.set(i, j, kTurnRounding);
   }
 }
 

@@ -88,8 +88,8 @@ Glb written(const LatticeMesh& mesh, Writer writer, const Vec3d& origin = {}) {
   OutputFile out(dir.path("m.glb"), true);
   const NamedMesh named{"m", &mesh};
   if (writer == Writer::mesh) write_mesh(mesh, out, MeshFormat::glb, {origin});
-  if (writer == Writer::levels) write_lod_glb({&named, 1}, {}, out, origin);
-  if (writer == Writer::parts) write_parts_glb({&named, 1}, out, origin);
+  if (writer == Writer::levels) write_lod_glb({&named, 1}, {}, out, {origin});
+  if (writer == Writer::parts) write_parts_glb({&named, 1}, out, {origin});
   out.commit();
   CHECK(soup(read_mesh(dir.path("m.glb"))).size() == mesh.triangles.size());
   return glb(dir.path("m.glb"));
