@@ -16,16 +16,16 @@ CoverTile tile(const std::string& place, const std::string& uri, std::vector<std
 }
 
 /// Three levels, each with content.
-std::vector<CoverTile> good() {
+std::vector<CoverTile> drawn_tiles() {
   return {tile("root", "r", {1}, 4), tile("a", "a", {2, 3}, 2), tile("b", "b", {}, 0), tile("c", "c", {}, 0)};
 }
 
-const Bounds3d kScene{{0, 0, 0}, {3, 4, 12}};  // a diagonal of 13
+const Bounds3d kDrawnScene{{0, 0, 0}, {3, 4, 12}};  // a diagonal of 13
 
 /// Of each finding its tile; "?" before those that are not decided.
-std::string found(const std::vector<CoverTile>& tiles, double error = 13) {
+std::string undrawn(const std::vector<CoverTile>& tiles, double error = 13) {
   std::string all;
-  for (const TileFinding& f : check_drawn(tiles, error, kScene))
+  for (const TileFinding& f : check_drawn(tiles, error, kDrawnScene))
     all += (f.answer == Answer::undecided ? "?" : "") + f.text.substr(0, f.text.find(':')) + " ";
   return all;
 }
@@ -33,53 +33,53 @@ std::string found(const std::vector<CoverTile>& tiles, double error = 13) {
 }  // namespace
 
 TEST_CASE("a viewer that tolerates an error as large as the scene may draw nothing", "[quick][check][tileset]") {
-  CHECK(found(good()).empty());
-  CHECK(found(good(), 12.9) == "?tileset ");
-  CHECK(found(good(), 11.9) == "tileset ");
-  std::vector<CoverTile> tiles = good();
+  CHECK(undrawn(drawn_tiles()).empty());
+  CHECK(undrawn(drawn_tiles(), 12.9) == "?tileset ");
+  CHECK(undrawn(drawn_tiles(), 11.9) == "tileset ");
+  std::vector<CoverTile> tiles = drawn_tiles();
   tiles[0].uri.clear();
-  CHECK(found(tiles) == "root ");
+  CHECK(undrawn(tiles) == "root ");
   tiles[0].error = 12.5;
-  CHECK(found(tiles) == "?root ");
+  CHECK(undrawn(tiles) == "?root ");
   tiles[0].error = 13;
-  CHECK(found(tiles).empty());
+  CHECK(undrawn(tiles).empty());
   tiles[1].uri.clear();
-  CHECK(found(tiles) == "a ");
+  CHECK(undrawn(tiles) == "a ");
   tiles[1].is_joint = true;  // no viewer meets it
-  CHECK(found(tiles).empty());
+  CHECK(undrawn(tiles).empty());
 }
 
 TEST_CASE("a tile without content must have the error of what the scene has in its cell", "[quick][check][tileset]") {
-  std::vector<CoverTile> tiles = good();
+  std::vector<CoverTile> tiles = drawn_tiles();
   tiles[1].uri.clear();
   tiles[1].cell = Bounds3d{{0, 0, 10.5}, {8, 8, 16}};  // 3 x 4 x 1.5 of the scene
   tiles[1].error = 3.9;
-  CHECK(found(tiles) == "a ");
+  CHECK(undrawn(tiles) == "a ");
   tiles[1].error = 5;
-  CHECK(found(tiles) == "?a ");
+  CHECK(undrawn(tiles) == "?a ");
   tiles[1].error = 5.3;
-  CHECK(found(tiles).empty());
+  CHECK(undrawn(tiles).empty());
   tiles[1].cell = Bounds3d{{8, 8, 8}, {16, 16, 16}};  // none
   tiles[1].error = 0;
-  CHECK(found(tiles).empty());
+  CHECK(undrawn(tiles).empty());
 }
 
 TEST_CASE("where no tile has a cell, what is replaced has a content below", "[quick][check][tileset]") {
-  std::vector<CoverTile> tiles = good();
+  std::vector<CoverTile> tiles = drawn_tiles();
   tiles[2].uri.clear();
-  CHECK(found(tiles).empty());
+  CHECK(undrawn(tiles).empty());
   tiles[3].uri.clear();
-  CHECK(found(tiles) == "root a ");
+  CHECK(undrawn(tiles) == "root a ");
   tiles[1].adds = true;  // stays
-  CHECK(found(tiles).empty());
+  CHECK(undrawn(tiles).empty());
   CHECK(tiles_held_above(tiles) == std::vector<bool>{false, false, true, true});
   tiles[1].adds = false;
   tiles[0].adds = true;
-  CHECK(found(tiles).empty());
+  CHECK(undrawn(tiles).empty());
   CHECK(tiles_held_above(tiles) == std::vector<bool>{false, true, true, true});
   tiles[0].adds = false;
   tiles[3].cell = Bounds3d{{0, 0, 0}, {1, 1, 1}};  // which is for check_cover() to tell
-  CHECK(found(tiles).empty());
+  CHECK(undrawn(tiles).empty());
 }
 
 TEST_CASE("below a tile that is added to, tiles may be missing and draw nothing", "[quick][check][tileset]") {
