@@ -240,6 +240,8 @@ def tower(s, rand, x, y):
 def main():
     scenes = {"house": house, "truck": truck, "figure": figure, "engine": engine, "city": city, "office": office}
     names = sys.argv[2:] or list(scenes)
+    if {"-h", "--help"} & set(sys.argv[1:]):
+        return print(__doc__)
     if len(sys.argv) < 2 or sys.argv[1].startswith("-") or not set(names) <= set(scenes):
         sys.exit(__doc__)
     folder = Path(sys.argv[1])

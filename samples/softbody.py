@@ -167,6 +167,9 @@ def main(scene, cage, folder, frames="48"):
 
 
 if __name__ == "__main__":
+    if {"-h", "--help"} & set(sys.argv[1:]):
+        print(__doc__)
+        sys.exit()
     if len(sys.argv) not in (4, 5):
         sys.exit(__doc__)
     try:

@@ -105,6 +105,8 @@ class Town:
 
 
 def main():
+    if {"-h", "--help"} & set(sys.argv[1:]):
+        return print(__doc__)
     if len(sys.argv) < 2 or sys.argv[1].startswith("-"):
         sys.exit(__doc__)
     folder, houses = Path(sys.argv[1]), int(sys.argv[2]) if len(sys.argv) > 2 else 64
