@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <filesystem>
 #include <span>
+#include <string_view>
 
 #include "io/files/file.h"
 #include "io/scene/scene_format.h"
@@ -16,6 +18,24 @@ namespace bp {
 namespace {
 
 constexpr std::size_t kNamed = 5;
+
+/// Endings of volumes in formats that no tool of the suite writes, without a dot.
+constexpr std::array<std::string_view, 21> kForeignVolumes = {"binvox", "vox",  "npy", "npz",  "vdb", "nvdb", "nii",
+                                                              "nrrd",   "nhdr", "mhd", "mha",  "vti", "vtk",  "vtu",
+                                                              "tif",    "tiff", "h5",  "hdf5", "qb",  "kvx",  "schem"};
+
+/// The ending of a name in small letters, without a dot.
+std::string ending_of(const std::filesystem::path& path) {
+  std::string text = path.extension().string();
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  return text.empty() ? text : text.substr(1);
+}
+
+/// The name of a packed file without the ending of the packer: "a.nii" of "a.nii.gz".
+std::filesystem::path unpacked(std::filesystem::path path) {
+  const std::string ending = ending_of(path);
+  return ending == "gz" || ending == "zst" ? path.replace_extension() : path;
+}
 
 /// Their names, sorted.
 std::vector<std::string> meshes_in(const std::string& folder) {
@@ -74,6 +94,11 @@ void check_stream_name(const std::string& output) {
   if (!scene_format_of(output).empty())
     fail(ErrorCode::bad_argument, "{}: this would be a stream of voxels, not a mesh; bpmesh makes meshes of streams",
          output);
+  std::filesystem::path path = unpacked(output);
+  const std::string ending = ending_of(path);
+  if (std::find(kForeignVolumes.begin(), kForeignVolumes.end(), ending) != kForeignVolumes.end())
+    fail(ErrorCode::bad_argument, "{}: this would be a stream of voxels, not a file of format {}; name it {}", output,
+         ending, path.replace_extension("bpv").string());
 }
 
 }  // namespace bp

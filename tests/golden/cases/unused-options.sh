@@ -26,6 +26,7 @@ try bpcheck cube.obj cube.obj --convex --inside
 try bpcheck cube.obj --inside
 # Voxels are no mesh, whatever the file is called.
 try bpvox cube.obj -o cube.glb
+for ending in binvox vox npy vdb nii NII.gz; do try bpvox cube.obj -o cube.$ending; done
 try bpclose cube.bpv --scale 1vx -o cube.PLY
 # What goes together does.
 try bplod cube.obj -o made --profile collision --appearance off --resolution 10 | cut -f 1
