@@ -46,6 +46,7 @@ try bplod cube.obj -o proxy.glb
 try bplod cube.obj -o levels/.glb
 
 try bplod cube.obj -o out --profile tiles
+for word in unreal Unity godot physics lod hlod nanite cesium; do try bplod cube.obj -o out --profile $word; done
 try bplod cube.obj --output-folder out
 try bpvox cube.obj out.bpv
 try bplod cube.obj out

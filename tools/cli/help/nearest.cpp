@@ -1,7 +1,9 @@
 #include "tools/cli/help/nearest.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <string_view>
 
 namespace bp {
 
@@ -29,6 +31,25 @@ std::string lowered(std::string text) {
   return text;
 }
 
+/// A word of other programs, and the word of an option that does the same here.
+struct Synonym {
+  std::string_view foreign, own;
+};
+
+constexpr std::array<Synonym, 20> kSynonyms = {
+    {{"unreal", "collision"},  {"unity", "collision"},    {"godot", "collision"},  {"collider", "collision"},
+     {"physics", "collision"}, {"hulls", "collision"},    {"glb", "gltf"},         {"lod", "gltf"},
+     {"lods", "gltf"},         {"hlod", "gltf"},          {"nanite", "gltf"},      {"imposter", "gltf"},
+     {"impostor", "gltf"},     {"cesium", "3dtiles"},     {"cesiumjs", "3dtiles"}, {"tileset", "3dtiles"},
+     {"culling", "occluder"},  {"occlusion", "occluder"}, {"deform", "cage"},      {"lattice", "cage"}}};
+
+/// The word among `words` that does what `text` means in other programs; empty if there is none.
+std::string synonym(const std::string& text, const std::vector<std::string>& words) {
+  for (const Synonym& s : kSynonyms)
+    if (s.foreign == text && std::find(words.begin(), words.end(), s.own) != words.end()) return std::string(s.own);
+  return "";
+}
+
 /// A word that holds the other, as "3dtiles" does "tiles"; letters of options without their dashes.
 std::string containing(const std::string& text, const std::vector<std::string>& words) {
   constexpr std::size_t kFewest = 4;
@@ -52,7 +73,8 @@ std::string nearest_word(const std::string& slip, const std::vector<std::string>
   const std::string text = lowered(slip);
   const std::size_t dashes = std::min(text.find_first_not_of('-'), text.size()), letters = text.size() - dashes;
   if (letters < 2 || text.size() > kLongest) return "";
-  std::string nearest;
+  std::string nearest = synonym(text, words);
+  if (!nearest.empty()) return nearest;
   std::size_t least = letters / kLettersPerChange + 1;  // exclusive
   for (const std::string& word : words) {
     if (word.starts_with(text)) return word;
