@@ -123,8 +123,10 @@ void fill_report(bp::Report& report, const Options& o, const bp::StreamHeader& h
   if (const std::string text = bp::reading_note(c.scene, header.frame.voxel); !text.empty())
     report.note(text, o.common);
   if (c.open_columns > 0) {
-    report.notes.push_back(fmt::format(
-        "{} columns cross an open or inconsistently oriented surface; the flood decided there", c.open_columns));
+    report.note(fmt::format("{} columns of voxels cross an open or inconsistently oriented surface; the flood decided "
+                            "there, and elsewhere the inside may be missing; --fill flood needs no orientation",
+                            c.open_columns),
+                o.common);
   }
 }
 

@@ -247,7 +247,9 @@ void SceneBuilder::add_primitive(const GltfObject& p, const Moved& moved) {
   const std::uint64_t mode = p.number("mode", kTriangles);
   if (mode > kFan) p.broken(fmt::format("has the unknown mode {}", mode));
   const GltfObject attributes = p.object("attributes");
-  if (mode < kTriangles || !attributes.has("POSITION")) return;  // points and lines
+  if (!attributes.has("POSITION")) return;
+  if (mode == 0) scene_.points += root_.item("accessors", attributes.number("POSITION")).number("count", 0);
+  if (mode < kTriangles) return;  // points and lines
   if (walls_only_ && p.has("material") && materials_.see_through(p.number("material"))) return;
   Primitive primitive;
   const bool plain = doc_.unpack(p);  // its triangles are no strip then

@@ -171,6 +171,7 @@ class InstancedSource final : public RawSource {
   [[nodiscard]] UnreadParts unread() const override { return scene_.unread; }
   [[nodiscard]] std::size_t animations() const override { return scene_.animations; }
   [[nodiscard]] std::uint64_t differing() const override { return scene_.differing; }
+  [[nodiscard]] std::uint64_t points() const override { return scene_.points; }
 
  private:
   static constexpr std::size_t kWindow = 3 * 1024;  // indices at a time: whole triangles, within a cache block

@@ -39,3 +39,14 @@ try bpvox partly.obj --voxel 0.125 -o partly.bp
 try bpvox partly.obj --voxel 0.125 -q --report quiet.json -o quiet.bp
 grep skipped quiet.json
 files
+
+# A GLB of points is a point cloud.
+points='{"asset":{"version":"2.0"},"buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],"bufferViews":[{"buffer":0,"byteLength":36}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}],"meshes":[{"primitives":[{"attributes":{"POSITION":0},"mode":0}]}],"nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}],"scene":0}'
+echo "$points" > points.gltf
+try bpvox points.gltf -o points.bpv
+
+# A winding that does not close is told.
+write_cube turned.obj
+awk '/^f / && !n++ { print $1, $2, $4, $3; next } { print }' turned.obj > mixed.obj
+try bpvox mixed.obj --resolution 16 --fill winding -o mixed.bpv
+try bpvox mixed.obj --resolution 16 -o flooded.bpv
