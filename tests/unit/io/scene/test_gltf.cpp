@@ -78,10 +78,18 @@ TEST_CASE("glTF strips, fans and plain corners become triangles", "[quick][io]")
     d.node({{"mesh", d.mesh(d.floats({kQuad[0], kQuad[1], kQuad[2], kQuad[0], kQuad[2], kQuad[3]}))}});
     CHECK(read_glb(d) == kQuadFan);
   }
-  SECTION("points and lines") {
-    d.node({{"mesh", d.mesh(d.quad(), -1, 0)}, {"children", {1}}});
+  SECTION("lines") {
     d.node({{"mesh", d.mesh(d.quad(), -1, 3)}});
     CHECK(read_glb(d).empty());
+  }
+  SECTION("points alone, which are no surface") {
+    d.node({{"mesh", d.mesh(d.quad(), -1, 0)}});
+    CHECK_THROWS_WITH(read_glb(d), Contains("4 points; a point cloud needs a surface first"));
+  }
+  SECTION("points beside triangles") {
+    d.node({{"mesh", d.mesh(d.quad(), -1, 0)}, {"children", {1}}});
+    d.node({{"mesh", d.mesh(d.quad(), -1, 5)}});
+    CHECK(read_glb(d) == std::vector<TriangleD>{a, b});
   }
 }
 
@@ -304,7 +312,7 @@ TEST_CASE("a description that needs more than it may take is refused with the fi
   CHECK_THAT(complaint(), Contains("its JSON takes") && Contains("leaves 1 MiB for it"));
   options.document.bytes = std::uint64_t(64) << 20;
   options.memory_bytes = std::uint64_t(1) << 20;
-  CHECK_THAT(complaint(), Contains("the list of its nodes takes 5 MiB, and the limit on memory leaves 2 MiB"));
+  CHECK_THAT(complaint(), Contains("the list of its nodes takes 3 MiB, and the limit on memory leaves 2 MiB"));
   options.memory_bytes = std::uint64_t(4) << 20;
   CHECK(complaint() == "40000 triangles");
 }
