@@ -134,6 +134,29 @@ TextureImage decode_tga(std::span<const std::byte> bytes, const std::string& nam
   return std::move(*image);
 }
 
+/// Images that are not read here, by their first bytes.
+const char* foreign_image(std::span<const std::byte> bytes) {
+  struct Foreign {
+    std::string_view magic;
+    const char* name;
+  };
+  using namespace std::string_view_literals;
+  constexpr std::array<Foreign, 9> kKnown{{{"\xABKTX 20\xBB", "it is KTX2"},
+                                           {"\xABKTX 11\xBB", "it is KTX"},
+                                           {"DDS ", "it is DDS"},
+                                           {"II*\0"sv, "it is TIFF"},
+                                           {"MM\0*"sv, "it is TIFF"},
+                                           {"\x76\x2F\x31\x01", "it is OpenEXR"},
+                                           {"8BPS", "it is a Photoshop file"},
+                                           {"GIF8", "it is GIF"},
+                                           {"BM", "it is BMP"}}};
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  for (const auto& [magic, name] : kKnown) {
+    if (text.starts_with(magic)) return name;
+  }
+  return nullptr;
+}
+
 enum class ImageKind { png, jpeg, webp, tga };
 
 ImageKind kind_of(std::span<const std::byte> bytes, const std::string& name) {
@@ -144,6 +167,8 @@ ImageKind kind_of(std::span<const std::byte> bytes, const std::string& name) {
   if (begins(0, "\xFF\xD8")) return ImageKind::jpeg;
   if (begins(0, "RIFF") && begins(8, "WEBP")) return ImageKind::webp;
   if (tga_size(bytes)) return ImageKind::tga;
+  if (const char* const foreign = foreign_image(bytes))
+    broken(name, fmt::format("{}, and PNG, JPEG, WebP and TGA are read", foreign).c_str());
   broken(name, "it is no PNG, JPEG, WebP or TGA");
 }
 

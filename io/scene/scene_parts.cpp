@@ -10,6 +10,7 @@
 #include <streambuf>
 #include <string_view>
 
+#include "io/files/beside.h"
 #include "io/files/file.h"
 #include "io/files/kept_files.h"
 #include "io/files/uri.h"
@@ -197,13 +198,19 @@ std::vector<std::string> beside(const std::string& file, std::vector<std::string
   return names;
 }
 
+/// The same for names in an OBJ or MTL, which readers find by more than their letters.
+std::vector<std::string> found_beside(const std::string& file, std::vector<std::string> names) {
+  for (std::string& name : names) name = find_beside(folder_of(file), name);
+  return names;
+}
+
 bool is_file(const std::string& path) {
   std::error_code unknown;  // a pipe would be waited for, or robbed of its first bytes
   return std::filesystem::is_regular_file(path, unknown);
 }
 
 std::vector<std::string> materials_of(const std::string& obj) {
-  return beside(obj, named_by_obj(head_of(obj, kMostObj)));
+  return found_beside(obj, named_by_obj(head_of(obj, kMostObj)));
 }
 
 }  // namespace
@@ -218,7 +225,7 @@ std::vector<std::string> parts_of_scene(const std::string& path) {
     std::vector<std::string> parts = materials_of(path);
     for (const std::string& materials : std::vector<std::string>(parts)) {
       if (!is_file(materials)) continue;
-      const std::vector<std::string> textures = beside(materials, named_by_mtl(head_of(materials, kMostMtl)));
+      const std::vector<std::string> textures = found_beside(materials, named_by_mtl(head_of(materials, kMostMtl)));
       parts.insert(parts.end(), textures.begin(), textures.end());
     }
     return parts;

@@ -64,6 +64,24 @@ bool TextureTable::has_images() const {
   return false;
 }
 
+std::string TextureTable::fault_of(std::uint32_t i) const {
+  try {
+    (void)size_in_file(i);
+    return "";
+  } catch (const Error& e) {
+    return e.what();
+  }
+}
+
+ImageFaults TextureTable::image_faults() const {
+  ImageFaults faults;
+  for (std::uint32_t i = 0; i < images_.size(); ++i) {
+    const std::string fault = fault_of(i);
+    if (!fault.empty() && ++faults.images == 1) faults.first = fault;
+  }
+  return faults;
+}
+
 std::uint64_t TextureTable::file_bytes() const {
   std::uint64_t sum = 0;
   for (const ImagePlace& place : images_) {
@@ -74,10 +92,14 @@ std::uint64_t TextureTable::file_bytes() const {
   return sum;
 }
 
-std::array<int, 2> TextureTable::size(std::uint32_t i) const {
+std::array<int, 2> TextureTable::size_in_file(std::uint32_t i) const {
   constexpr std::uint64_t kMostHead = std::uint64_t(1) << 20;
+  return image_size(bytes_of(images_.at(i), kMostHead), images_.at(i).name);
+}
+
+std::array<int, 2> TextureTable::size(std::uint32_t i) const {
   try {
-    return image_size(bytes_of(images_.at(i), kMostHead), images_.at(i).name);
+    return size_in_file(i);
   } catch (const Error&) {
     return {};
   }

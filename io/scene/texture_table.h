@@ -23,6 +23,12 @@ struct ImagePlace {
                                       ///< strength; of at most kMostRelief texels
 };
 
+/// The images of a table that cannot be shown.
+struct ImageFaults {
+  std::size_t images = 0;
+  std::string first;  ///< "FILE: reason" of the first of them; empty if there is none
+};
+
 constexpr std::uint64_t kMostRelief = std::uint64_t(1) << 24;
 
 class TextureTable final : public TextureSet {
@@ -37,6 +43,9 @@ class TextureTable final : public TextureSet {
 
   /// Whether an image is there whose head can be read.
   [[nodiscard]] bool has_images() const;
+  /// Why the head of an image cannot be read, as "FILE: reason"; empty if it can.
+  [[nodiscard]] std::string fault_of(std::uint32_t i) const;
+  [[nodiscard]] ImageFaults image_faults() const;
   /// Of all image files together; those that are missing have none.
   [[nodiscard]] std::uint64_t file_bytes() const;
   [[nodiscard]] const TextureMaterial& material(std::uint32_t i) const override { return materials_.at(i); }
@@ -46,6 +55,8 @@ class TextureTable final : public TextureSet {
   [[nodiscard]] TextureImage image(std::uint32_t i, std::uint64_t most_bytes) const override;
 
  private:
+  /// Throws bad_input where size() gives zeros.
+  [[nodiscard]] std::array<int, 2> size_in_file(std::uint32_t i) const;
   std::vector<ImagePlace> images_;
   std::vector<TextureMaterial> materials_;
   std::map<std::string, std::uint32_t> image_of_, material_of_;

@@ -184,9 +184,8 @@ void Build::choose_textures(const TriangleSource& source, bool tell) {
   if (!tell) return;
   for (const std::string& fault : textures_->faults()) note(fault);
   if (!wanted || textured_) return;
-  note(can_read_again(options)
-           ? "no image of the scene's textures is there, or can be read: levels have colours instead"
-           : "a scene from a pipe cannot be read again: its textures are lost; give it as a file");
+  note(can_read_again(options) ? no_image_note(textures_->image_faults())
+                               : "a scene from a pipe cannot be read again: its textures are lost; give it as a file");
 }
 
 /// The triangles have gone, and so has most of what they were given of the memory.

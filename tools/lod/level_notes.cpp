@@ -145,6 +145,12 @@ std::string joined_note(const LevelFacts& finest, std::uint64_t parts, const Sce
           : "; more --faces may keep them apart");
 }
 
+std::string no_image_note(const ImageFaults& faults) {
+  const std::string which = faults.images > 1 ? fmt::format("the first of {}: ", faults.images) : "";
+  return fmt::format("no image of the scene's textures can be read, so levels have colours instead; {}{}", which,
+                     faults.first);
+}
+
 std::string proof_command(const BuildOptions& o, const std::string& file, bool hulls, double margin) {
   if (o.proxy.mode == MeshMode::fit || !can_read_again(o)) return "";
   std::string command = o.profile == LodProfile::occluder ? "bpcheck --inside" : hulls ? "bpcheck --convex" : "bpcheck";

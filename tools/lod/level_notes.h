@@ -1,4 +1,5 @@
 #pragma once
+#include "io/scene/texture_table.h"
 #include "lib/levels/level_chain.h"
 #include "tools/lod/build_options.h"
 
@@ -45,6 +46,9 @@ struct SceneParts {
 /// A finest level of so many parts that joins those of the scene and fills the room between them, at a scale that
 /// nobody named, or beyond the one named.
 [[nodiscard]] std::string joined_note(const LevelFacts& finest, std::uint64_t parts, const SceneParts& scene);
+
+/// A scene with textures none of whose images can be read: the first file, and the reason.
+[[nodiscard]] std::string no_image_note(const ImageFaults& faults);
 
 /// The command that proves `file`, one of those in the folder of the levels: "bpcheck SCENE OUT/FILE". Empty of fits,
 /// which enclose nothing, and of a scene from a pipe. hulls: the file holds convex hulls. margin: scene units; 0: none.

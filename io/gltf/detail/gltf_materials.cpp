@@ -157,6 +157,10 @@ std::uint32_t GltfMaterials::image_of(const GltfObject& texture) {
   if (texture.has("source")) source = texture.number("source");
   if (texture.has_extension("EXT_texture_webp"))
     source = texture.object("extensions").object("EXT_texture_webp").number("source");
+  for (const char* const unread : {"KHR_texture_basisu", "MSFT_texture_dds", "EXT_texture_avif"}) {
+    if (source || !texture.has_extension(unread)) continue;  // the reader of images tells why it cannot be shown
+    source = texture.object("extensions").object(unread).number("source");
+  }
   if (!source) return TextureMaterial::kNoImage;
   return textures_->add_image(fmt::format("{}: images[{}]", file_, *source), doc_.image(*source));
 }

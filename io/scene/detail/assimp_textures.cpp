@@ -4,9 +4,10 @@
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <span>
+
+#include "io/files/beside.h"
 
 namespace bp {
 
@@ -20,13 +21,8 @@ TextureWrap wrap_of(aiTextureMapMode mode) {
 
 /// Paths are often those of another machine: then the file lies beside the scene, if anywhere.
 std::string path_of(std::string name, const std::string& scene) {
-  std::replace(name.begin(), name.end(), '\\', '/');
   if (name.starts_with("file://")) name = name.substr(7);
-  const std::filesystem::path folder = std::filesystem::path(scene).parent_path();
-  std::error_code unknown;
-  const std::string there = (folder / name).string();
-  if (std::filesystem::exists(there, unknown)) return there;
-  return (folder / std::filesystem::path(name.substr(name.find_last_of(":/") + 1)).filename()).string();
+  return find_beside(std::filesystem::path(scene).parent_path().string(), name);
 }
 
 }  // namespace

@@ -3,12 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/files/beside.h"
 #include "io/scene/detail/text_scanner.h"
 #include "lib/core/error.h"
 
 namespace bp {
 
 namespace {
+
+/// The part of a path that stands before its last name; empty, or with a slash at its end.
+std::string folder_before(const std::string& path) {
+  return path.substr(0, path.rfind('/') + 1);
+}
 
 /// From 0 to 1; NaN is 0.
 double part_of(double x) {
@@ -20,7 +26,7 @@ double part_of(double x) {
 void MtlMaterials::load(const std::string& beside, const std::string& name) {
   if (beside.empty() || name.empty()) return;
   try {
-    read(beside.substr(0, beside.rfind('/') + 1) + name);
+    read(find_beside(folder_before(beside), name));
   } catch (const Error&) {
     return;
   }
@@ -28,7 +34,6 @@ void MtlMaterials::load(const std::string& beside, const std::string& name) {
 
 void MtlMaterials::read(const std::string& path) {
   TextScanner text(open_scene_file(path, "", NamedBy::file));
-  const std::string folder = path.substr(0, path.rfind('/') + 1);
   Material* current = nullptr;
   for (; !text.at_end(); text.next_line()) {
     if (!text.word_on_line()) continue;
@@ -39,12 +44,12 @@ void MtlMaterials::read(const std::string& path) {
       current = &(materials_[name] = {});
       current->file = path;
     } else if (current != nullptr) {
-      read_line(text, key, folder, *current);
+      read_line(text, key, *current);
     }
   }
 }
 
-void MtlMaterials::read_line(TextScanner& text, const std::string& key, const std::string& folder, Material& material) {
+void MtlMaterials::read_line(TextScanner& text, const std::string& key, Material& material) {
   const auto numbers = [&](auto& all) {
     bool there = true;
     for (double& x : all) there = there && text.word_on_line() && text.real(x);
@@ -71,7 +76,7 @@ void MtlMaterials::read_line(TextScanner& text, const std::string& key, const st
                                            {"map_Bump", &material.bump_map}, {"map_bump", &material.bump_map},
                                            {"bump", &material.bump_map},     {"map_Pr", &material.roughness_map},
                                            {"map_Pm", &material.metal_map},  {"map_Ke", &material.emission_map}};
-    if (const auto found = maps.find(key); found != maps.end()) read_map(text, folder, *found->second);
+    if (const auto found = maps.find(key); found != maps.end()) read_map(text, *found->second);
   }
 }
 
@@ -79,7 +84,7 @@ void MtlMaterials::read_line(TextScanner& text, const std::string& key, const st
 constexpr double kMostStrength = 65536;
 
 // "map_Kd -s 2 2 1 -clamp on some name.png": options have words or numbers after them, and the name may have blanks.
-void MtlMaterials::read_map(TextScanner& text, const std::string& folder, Map& map) {
+void MtlMaterials::read_map(TextScanner& text, Map& map) {
   while (text.word_on_line() && text.peek() == '-') {
     const std::string option(text.word());
     if (option == "-s" || option == "-o" || option == "-t") {
@@ -101,9 +106,11 @@ void MtlMaterials::read_map(TextScanner& text, const std::string& folder, Map& m
       if (option == "-mm" && text.word_on_line()) (void)text.word();
     }
   }
-  std::string name = text.word_on_line() ? text.rest_of_line() : "";
-  for (char& c : name) c = c == '\\' ? '/' : c;
-  if (!name.empty()) map.image = name[0] == '/' ? name : folder + name;
+  map.image = text.word_on_line() ? text.rest_of_line() : "";
+}
+
+std::string MtlMaterials::path_of(const Map& map, const Material& material) {
+  return find_beside(folder_before(material.file), map.image);
 }
 
 const MtlMaterials::Map& MtlMaterials::Material::first_map() const {
@@ -116,21 +123,21 @@ const MtlMaterials::Map& MtlMaterials::Material::first_map() const {
 TextureMap MtlMaterials::map_of(const Map& map, const Material& material, TextureTable& textures,
                                 const std::optional<Relief>& relief) {
   if (map.image.empty()) return {};
+  const std::string path = path_of(map, material);
   if (map.uv != material.first_map().uv) {
-    textures.add_fault(
-        fmt::format("{}: lies at other places than its material's first image; it is left out", map.image));
+    textures.add_fault(fmt::format("{}: lies at other places than its material's first image; it is left out", path));
     return {};
   }
   const std::string kind = relief ? fmt::format("relief {} {} ", relief->strength, relief->repeats) : "";
-  const std::uint32_t image = textures.add_image(kind + map.image, {map.image, nullptr, map.image, relief});
+  const std::uint32_t image = textures.add_image(kind + path, {path, nullptr, path, relief});
   const std::array<int, 2> size = textures.size(image);
   if (size[0] == 0) {
-    textures.add_fault(fmt::format("{}: is not there, or cannot be read; it is left out", map.image));
+    textures.add_fault(textures.fault_of(image) + "; it is left out");
     return {};
   }
   if (relief && std::uint64_t(size[0]) * std::uint64_t(size[1]) > kMostRelief) {
     textures.add_fault(
-        fmt::format("{}: map_Bump has more than 4096 x 4096 texels, and is left out; norm may have more", map.image));
+        fmt::format("{}: map_Bump has more than 4096 x 4096 texels, and is left out; norm may have more", path));
     return {};
   }
   const TextureWrap wrap = map.clamp ? TextureWrap::clamp : TextureWrap::repeat;
@@ -183,12 +190,13 @@ std::uint32_t MtlMaterials::texture(const std::string& material, TextureTable& t
     return *m.number;
   }
   const Map& map = m.color_map;
-  if (!map.image.empty()) t.image = textures.add_image(map.image, {map.image, nullptr, map.image});
-  t.replaces_color = !map.image.empty();
+  const std::string path = map.image.empty() ? "" : path_of(map, m);
+  if (!path.empty()) t.image = textures.add_image(path, {path, nullptr, path});
+  t.replaces_color = !path.empty();
   t.alpha = float(m.alpha);
   t.alpha_mode = m.see_through ? AlphaMode::blend : AlphaMode::opaque;
   if (map.clamp) t.wrap = {TextureWrap::clamp, TextureWrap::clamp};
-  std::string key = fmt::format("{} {} {} {}", map.image, map.clamp, m.see_through, m.alpha);
+  std::string key = fmt::format("{} {} {} {}", path, map.clamp, m.see_through, m.alpha);
   if (t.surface != TextureSurface{}) key += fmt::format(" {} {}", m.file, material);
   m.number = textures.add_material(key, t);
   return *m.number;

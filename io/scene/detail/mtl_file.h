@@ -15,8 +15,9 @@ namespace bp {
 
 class MtlMaterials {
  public:
-  /// Adds those of a file that lies beside the file `beside`; one of the same name replaces. A file that is not there
-  /// or cannot be understood adds none: a scene without colours is still a scene. An OBJ without a path has none.
+  /// Adds those of a file that lies beside the file `beside` (find_beside(), io/files/beside.h); one of the same name
+  /// replaces. A file that is not there or cannot be understood adds none: a scene without colours is still a scene. An
+  /// OBJ without a path has none.
   void load(const std::string& beside, const std::string& name);
   /// White if there is no such material. With the light (Ke) that a material without images gives, unless surfaces are
   /// asked for.
@@ -33,7 +34,7 @@ class MtlMaterials {
  private:
   static constexpr std::size_t kMost = std::size_t(1) << 20;
   struct Map {
-    std::string image;  // path; empty: none
+    std::string image;  // as the file names it; empty: none
     bool clamp = false;
     std::array<double, 4> uv{1, 0, 1, 0};  // factor and offset of u, of v
     double strength = 1;                   // -bm
@@ -51,8 +52,9 @@ class MtlMaterials {
     [[nodiscard]] bool has_image() const { return !color_map.image.empty() || !emission_map.image.empty(); }
   };
   void read(const std::string& path);
-  static void read_line(TextScanner& text, const std::string& key, const std::string& folder, Material& material);
-  static void read_map(TextScanner& text, const std::string& folder, Map& map);
+  static void read_line(TextScanner& text, const std::string& key, Material& material);
+  static void read_map(TextScanner& text, Map& map);
+  [[nodiscard]] static std::string path_of(const Map& map, const Material& material);
   [[nodiscard]] static TextureSurface surface_of(const Material& material, TextureTable& textures);
   static void add_light(const Material& material, TextureTable& textures, TextureSurface& s);
   [[nodiscard]] static TextureMap map_of(const Map& map, const Material& material, TextureTable& textures,

@@ -35,6 +35,19 @@ said 'bplod part0.obj --name cubes --resolution 30 --levels 1 -o broken | cut -f
 rm chequered.png
 said 'bplod part0.obj --name cubes --resolution 30 --levels 1 -o missing | cut -f 1'
 attributes broken/*_LOD0.glb missing/*_LOD0.glb
+cp cubes.mtl as_named.mtl
+printf 'II*\0 and so on' > roof.tif
+sed -i 's/chequered.png/"Roof.tif"/' cubes.mtl
+said 'bplod part0.obj --name cubes --resolution 30 --levels 1 -o tiff | cut -f 1'
+
+# An image is found by the names that other programs give it.
+chequer red
+for name in '"chequered.png"' 'C:\\tex\\chequered.png' Chequered.PNG; do
+  sed "s/chequered.png/$name/" as_named.mtl > cubes.mtl
+  bplod part0.obj --name cubes --resolution 30 --levels 1 -q -o found --overwrite > list
+  echo "$(grep map_Kd cubes.mtl) -> $(attributes found/*_LOD0.glb)"
+done
+cp as_named.mtl cubes.mtl && rm chequered.png
 try bplod part0.obj --resolution 30 --levels 1 --memory 1M -o small
 try bplod part0.obj --appearance picture -o x
 try bplod part0.obj --profile cage --appearance texture -o x

@@ -305,8 +305,8 @@ TEST_CASE("MTL: how a material answers to light, if that is asked for", "[quick]
   CHECK(r.textures[7].material == TriangleTexture::kNoMaterial);
   std::string faults;
   for (const std::string& fault : r.table->faults()) faults += fault + "\n";
-  for (const char* part :
-       {"n.png: lies at other places", "gone.png: is not there", "m.mtl: roughness and metal come from one image"})
+  for (const char* part : {"n.png: lies at other places", "gone.png: the image is not there",
+                           "m.mtl: roughness and metal come from one image"})
     CHECK_THAT(faults, ContainsSubstring(part));
   const TexturedRead colors = read_textured({path});
   CHECK(colors.textures[2].material == TriangleTexture::kNoMaterial);

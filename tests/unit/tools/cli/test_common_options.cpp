@@ -151,9 +151,9 @@ TEST_CASE("an output is no buffer, texture or material of an input", "[quick][to
   const std::string gltf = dir.file(
       "s.gltf",
       R"({"asset":{"version":"2.0"},"buffers":[{"uri":"a%20b.bin"},{"uri":"data:,"}],"images":[{"uri":"t.png"},{}]})");
-  const std::string obj = dir.file("s.obj", "v 0 0 0\nmtllib s.mtl\r\nmtllib other/s.mtl\n");
+  const std::string obj = dir.file("s.obj", "v 0 0 0\nmtllib s.mtl\r\nmtllib other/more.mtl\n");
   (void)dir.file("s.mtl", "newmtl a\nmap_Kd -s 1 1 1 wood.png\n bump my bumps.png\r\n");
-  CHECK(missing_materials(obj) == std::vector<std::string>{dir.path("other/s.mtl")});
+  CHECK(missing_materials(obj) == std::vector<std::string>{dir.path("other/more.mtl")});
   keep_inputs({gltf, obj, dir.file("broken.gltf", "{")});
   for (const char* name : {"a b.bin", "t.png", "wood.png", "my bumps.png", "free.png"}) (void)dir.file(name, "");
   for (const char* name : {"a b.bin", "t.png", "s.mtl", "wood.png", "my bumps.png"})

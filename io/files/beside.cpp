@@ -1,0 +1,82 @@
+#include "io/files/beside.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+
+#include "io/files/lower.h"
+
+namespace bp {
+
+namespace {
+
+/// A pipe or a device is none: nobody may wait for what a file names.
+bool is_regular(const std::string& path) {
+  std::error_code unknown;
+  return std::filesystem::is_regular_file(path, unknown);
+}
+
+bool is_whole_path(const std::string& name) {
+  return name.starts_with('/');
+}
+
+/// "C:/a.png" of another machine; here it is the name of no folder.
+bool has_drive(const std::string& name) {
+  return name.size() > 2 && name[1] == ':' && name[2] == '/';
+}
+
+std::string in_folder(const std::string& folder, const std::string& name) {
+  return folder.empty() || is_whole_path(name) ? name : folder.ends_with('/') ? folder + name : folder + "/" + name;
+}
+
+/// Without the quotes around it, and with slashes.
+std::string cleaned(std::string name) {
+  const bool quoted = name.size() > 2 && name.front() == name.back() && (name[0] == '"' || name[0] == '\'');
+  if (quoted) name = name.substr(1, name.size() - 2);
+  std::replace(name.begin(), name.end(), '\\', '/');
+  return name;
+}
+
+/// The entry of a folder that has this name in letters of any case; empty: none has.
+std::string entry_like(const std::string& folder, const std::string& name) {
+  const std::string wanted = lower(name);
+  std::string found;
+  std::error_code unreadable;
+  for (std::filesystem::directory_iterator entry(folder.empty() ? "." : folder, unreadable), end;
+       !unreadable && entry != end; entry.increment(unreadable)) {
+    std::string one = entry->path().filename().string();
+    if (lower(one) == wanted && (found.empty() || one < found)) found = std::move(one);
+  }
+  return found;
+}
+
+/// A path whose parts have letters of any case; empty: there is none.
+std::string path_like(const std::string& folder, const std::string& name) {
+  std::string path = is_whole_path(name) ? "/" : folder;
+  std::istringstream parts(name);
+  for (std::string part; std::getline(parts, part, '/');) {
+    if (part.empty()) continue;
+    std::error_code unknown;
+    const std::string exact = in_folder(path, part);
+    const std::string entry = std::filesystem::exists(exact, unknown) ? part : entry_like(path, part);
+    if (entry.empty()) return "";
+    path = in_folder(path, entry);
+  }
+  return is_regular(path) ? path : "";
+}
+
+}  // namespace
+
+std::string find_beside(const std::string& folder, const std::string& name) {
+  const std::string plain = cleaned(name), bare = plain.substr(plain.find_last_of('/') + 1);
+  const std::string path = in_folder(folder, plain), near = in_folder(folder, bare);
+  for (const std::string& one : {in_folder(folder, name), path, near}) {
+    if (is_regular(one)) return one;
+  }
+  for (const std::string& one : {plain, bare}) {
+    if (const std::string found = path_like(folder, one); !found.empty()) return found;
+  }
+  return has_drive(plain) ? near : path;
+}
+
+}  // namespace bp
