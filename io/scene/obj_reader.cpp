@@ -25,6 +25,7 @@ class ObjSource final : public PolygonSource {
       : file_(file),
         text_(file),
         pool_(options.memory_bytes, temp_dir_of(options)),
+        materials_(options.document),
         walls_only_(options.walls_only),
         parts_(options.parts, options.part_names) {
     if (options.colors) vertex_colors_.emplace(options.memory_bytes / 2, temp_dir_of(options));
@@ -47,6 +48,8 @@ class ObjSource final : public PolygonSource {
     text_.seek({});
     seen_ = seen_places_ = seen_normals_ = 0;
     texture_ = TriangleTexture::kNoMaterial;
+    materials_.clear();
+    material_name_.clear();
     material_ = kWhite;
     passed_over_ = false;
     fits_ = {};
@@ -60,6 +63,7 @@ class ObjSource final : public PolygonSource {
   void read_vertex_color(TextScanner& text);
   static void read_vector(TextScanner& text, std::size_t numbers, VertexPool& pool);
   void use_material(char key, const std::string& name);
+  void load_materials(const std::string& name);
   void use_name(char key, const std::string& name);
   void read_corners(std::vector<std::uint64_t>& corners);
   void check_last_line(const std::vector<std::uint64_t>& corners);
@@ -181,7 +185,7 @@ LinearColor ObjSource::corner_color(std::uint64_t i) {
 
 void ObjSource::use_material(char key, const std::string& name) {
   if (!vertex_colors_ && !walls_only_) return;
-  if (key == 'm') return materials_.load(file_->path(), name);
+  if (key == 'm') return load_materials(name);
   material_name_ = name;
   if (textures_) texture_ = materials_.texture(name, *textures_, normals_.has_value());
   has_textures_ = has_textures_ || (textures_ && materials_.has_image(name));
@@ -189,6 +193,18 @@ void ObjSource::use_material(char key, const std::string& name) {
   if (!vertex_colors_) return;
   material_ = materials_.color(name, normals_.has_value());
   has_colors_ = has_colors_ || material_ != kWhite;
+}
+
+/// If the materials do not fit, those of files named further down are counted, too, so that the message has the right
+/// number.
+void ObjSource::load_materials(const std::string& name) {
+  materials_.load(file_->path(), name);
+  if (materials_.fit()) return;
+  TextScanner ahead(file_, text_.mark());
+  for (ahead.next_line(); !ahead.at_end(); ahead.next_line()) {
+    if (ahead.word_on_line() && keyword(ahead) == 'm') materials_.load(file_->path(), ahead.rest_of_line());
+  }
+  materials_.refuse();
 }
 
 // A line "g" may name several groups.

@@ -16,6 +16,12 @@ std::string folder_before(const std::string& path) {
   return path.substr(0, path.rfind('/') + 1);
 }
 
+/// Bytes of a string outside the string itself, with what the allocator adds.
+std::uint64_t heap_bytes(const std::string& text) {
+  static const std::size_t inside = std::string().capacity();
+  return text.capacity() > inside ? text.capacity() + 2 * sizeof(void*) : 0;
+}
+
 /// From 0 to 1; NaN is 0.
 double part_of(double x) {
   return std::min(1.0, std::max(0.0, x));
@@ -26,25 +32,62 @@ double part_of(double x) {
 void MtlMaterials::load(const std::string& beside, const std::string& name) {
   if (beside.empty() || name.empty()) return;
   try {
-    read(find_beside(folder_before(beside), name));
+    const std::string path = find_beside(folder_before(beside), name);
+    if (!fit() && files_.contains(path)) return;
+    if (fit()) too_many_ = path;
+    read(path);
   } catch (const Error&) {
     return;
   }
 }
 
+void MtlMaterials::refuse() const {
+  const std::uint64_t left = document_.bytes / kParts;
+  throw NeedsMemory(fmt::format("{}: the list of materials", too_many_), bytes_, left,
+                    document_.limit_with((bytes_ - left) * kParts));
+}
+
+void MtlMaterials::clear() {
+  materials_.clear();
+  files_.clear();
+  bytes_ = count_ = 0;
+}
+
+/// The material of this name as one without properties. Once the materials do not fit: one that nobody finds.
+MtlMaterials::Material& MtlMaterials::renewed(const std::string& name) {
+  // With what the tree keeps of each, and what the allocator adds.
+  constexpr std::uint64_t kNodeBytes = sizeof(decltype(materials_)::value_type) + 6 * sizeof(void*);
+  ++count_;
+  if (!fit()) {
+    bytes_ += kNodeBytes + heap_bytes(name);
+    return counted_ = {};
+  }
+  const auto [found, is_new] = materials_.try_emplace(name);
+  if (is_new) {
+    bytes_ += kNodeBytes + heap_bytes(name);
+  } else {
+    --count_;
+    bytes_ -= found->second.heap_bytes();
+  }
+  return found->second = {};
+}
+
 void MtlMaterials::read(const std::string& path) {
   TextScanner text(open_scene_file(path, "", NamedBy::file));
+  const std::string& file = *files_.insert(path).first;
   Material* current = nullptr;
   for (; !text.at_end(); text.next_line()) {
     if (!text.word_on_line()) continue;
     const std::string key(text.word());
     if (key == "newmtl") {
       const std::string name = text.rest_of_line();
-      if (materials_.size() == kMost) return;
-      current = &(materials_[name] = {});
-      current->file = path;
+      if (count_ == kMost) return;
+      current = &renewed(name);
+      current->file = &file;
     } else if (current != nullptr) {
+      const std::uint64_t before = current->heap_bytes();
       read_line(text, key, *current);
+      bytes_ += current->heap_bytes() - before;
     }
   }
 }
@@ -110,13 +153,20 @@ void MtlMaterials::read_map(TextScanner& text, Map& map) {
 }
 
 std::string MtlMaterials::path_of(const Map& map, const Material& material) {
-  return find_beside(folder_before(material.file), map.image);
+  return find_beside(folder_before(*material.file), map.image);
 }
 
 const MtlMaterials::Map& MtlMaterials::Material::first_map() const {
   for (const Map* map : {&color_map, &normal_map, &bump_map, &roughness_map, &metal_map, &emission_map})
     if (!map->image.empty()) return *map;
   return color_map;
+}
+
+std::uint64_t MtlMaterials::Material::heap_bytes() const {
+  std::uint64_t sum = 0;
+  for (const Map* map : {&color_map, &normal_map, &bump_map, &roughness_map, &metal_map, &emission_map})
+    sum += bp::heap_bytes(map->image);
+  return sum;
 }
 
 /// None if it is not there, or lies elsewhere than the material's first one: that is told.
@@ -172,7 +222,7 @@ TextureSurface MtlMaterials::surface_of(const Material& material, TextureTable& 
   } else if (!material.roughness_map.image.empty() || !material.metal_map.image.empty()) {
     textures.add_fault(fmt::format(
         "{}: roughness and metal come from one image for both, or from map_Pr where Pm is 0; numbers are used",
-        material.file));
+        *material.file));
   }
   return s;
 }
@@ -197,7 +247,7 @@ std::uint32_t MtlMaterials::texture(const std::string& material, TextureTable& t
   t.alpha_mode = m.see_through ? AlphaMode::blend : AlphaMode::opaque;
   if (map.clamp) t.wrap = {TextureWrap::clamp, TextureWrap::clamp};
   std::string key = fmt::format("{} {} {} {}", path, map.clamp, m.see_through, m.alpha);
-  if (t.surface != TextureSurface{}) key += fmt::format(" {} {}", m.file, material);
+  if (t.surface != TextureSurface{}) key += fmt::format(" {} {}", *m.file, material);
   m.number = textures.add_material(key, t);
   return *m.number;
 }

@@ -1,11 +1,13 @@
 #pragma once
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "io/scene/detail/text_scanner.h"
 #include "io/scene/texture_table.h"
 #include "lib/core/color.h"
+#include "lib/core/memory_share.h"
 
 /// Wavefront MTL: of the materials the diffuse colour, Kd, taken as sRGB, as programs show it; and whether they can be
 /// seen through: d below 1, Tr (which is 1 - d; some write 1 for opaque) between 0 and 1, or map_d; and
@@ -15,10 +17,18 @@ namespace bp {
 
 class MtlMaterials {
  public:
+  /// `document`: as SceneOptions::document. Materials take a quarter of it; 0 bytes: no limit.
+  explicit MtlMaterials(const MemoryShare& document) : document_(document) {}
   /// Adds those of a file that lies beside the file `beside` (find_beside(), io/files/beside.h); one of the same name
   /// replaces. A file that is not there or cannot be understood adds none: a scene without colours is still a scene. An
   /// OBJ without a path has none.
+  /// Once the materials do not fit, those of further files are only counted.
   void load(const std::string& beside, const std::string& name);
+  [[nodiscard]] bool fit() const { return document_.bytes == 0 || bytes_ <= document_.bytes / kParts; }
+  /// Throws out_of_resource, with the limit on memory at which all materials counted so far fit.
+  [[noreturn]] void refuse() const;
+  /// Forgets all materials and files.
+  void clear();
   /// White if there is no such material. With the light (Ke) that a material without images gives, unless surfaces are
   /// asked for.
   [[nodiscard]] LinearColor color(const std::string& material, bool surface) const;
@@ -33,6 +43,7 @@ class MtlMaterials {
 
  private:
   static constexpr std::size_t kMost = std::size_t(1) << 20;
+  static constexpr std::uint64_t kParts = 4;  // of the document, for materials
   struct Map {
     std::string image;  // as the file names it; empty: none
     bool clamp = false;
@@ -41,7 +52,7 @@ class MtlMaterials {
     friend bool operator==(const Map&, const Map&) = default;
   };
   struct Material {
-    std::string file;  // that it stands in
+    const std::string* file = nullptr;  // that it stands in, one of files_
     LinearColor color, emission{0, 0, 0};
     bool see_through = false;
     double alpha = 1, roughness = 1, metal = 0;
@@ -49,6 +60,8 @@ class MtlMaterials {
     std::optional<std::uint32_t> number;  // in the table of textures
     /// That says where all of them lie.
     [[nodiscard]] const Map& first_map() const;
+    /// Beside the material itself.
+    [[nodiscard]] std::uint64_t heap_bytes() const;
     [[nodiscard]] bool has_image() const { return !color_map.image.empty() || !emission_map.image.empty(); }
   };
   void read(const std::string& path);
@@ -59,7 +72,13 @@ class MtlMaterials {
   static void add_light(const Material& material, TextureTable& textures, TextureSurface& s);
   [[nodiscard]] static TextureMap map_of(const Map& map, const Material& material, TextureTable& textures,
                                          const std::optional<Relief>& relief = {});
+  [[nodiscard]] Material& renewed(const std::string& name);
+  const MemoryShare document_;
   std::map<std::string, Material> materials_;
+  std::set<std::string> files_;
+  std::string too_many_;                 // the file whose materials did not fit beside those before
+  std::uint64_t bytes_ = 0, count_ = 0;  // of all materials, also those that are only counted
+  Material counted_;                     // the last of these
 };
 
 }  // namespace bp

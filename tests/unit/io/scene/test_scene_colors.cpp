@@ -228,3 +228,53 @@ TEST_CASE("colours stay with their triangles when others are skipped, and in a r
   CHECK(all.colors == std::vector<TriangleColors>{all_of(kWhite), all_of(kBlue)});
   CHECK(all.any);
 }
+
+TEST_CASE("materials of OBJ that do not fit are refused with a limit on memory that will do", "[quick][io]") {
+  const TempDir dir;
+  const auto library = [&](const std::string& name, int materials) {
+    std::string text;
+    for (int i = 0; i < materials; ++i) text += "newmtl " + name + std::to_string(i) + "\nKd 1 0 0\n";
+    (void)dir.file(name + ".mtl", text);
+  };
+  library("few", 100);
+  library("many", 20000);
+  library("more", 10000);
+  const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl few5\nf 1 2 3\n";
+  const std::string small = dir.file("small.obj", "mtllib few.mtl\n" + corners);
+  // The second file is named behind a face, and counts all the same; what is named again counts once.
+  const std::string again = "mtllib more.mtl\nmtllib many.mtl\nf 1 2 3\nmtllib more.mtl\n";
+  const std::string large = dir.file("large.obj", "mtllib few.mtl\nmtllib many.mtl\n" + corners + again);
+  const auto options_of = [](std::uint64_t memory) {
+    SceneOptions options;
+    options.colors = true;
+    options.document.limit = {memory, std::uint64_t(1) << 20};
+    options.document.bytes = options.document.limit.rest_bytes();
+    options.document.share = 1;
+    return options;
+  };
+  const auto limit_named = [&](const std::string& path, std::uint64_t memory) -> std::uint64_t {
+    try {
+      const Colored read = read_colored(*open_scene(path, options_of(memory)));
+      CHECK(read.colors.back() == all_of(kRed));
+    } catch (const Error& e) {
+      CHECK(e.code() == ErrorCode::out_of_resource);
+      CHECK_THAT(e.what(), Contains(".mtl: the list of materials takes"));
+      return e.memory_bytes();
+    }
+    return 0;
+  };
+  constexpr std::uint64_t kSmall = std::uint64_t(8) << 20;
+  CHECK(limit_named(small, kSmall) == 0);
+  const std::uint64_t limit = limit_named(large, kSmall);
+  CHECK(limit > 30000 * 4 * 400);
+  CHECK(limit_named(large, limit) == 0);
+  const std::uint64_t again_named = limit_named(large, limit - (std::uint64_t(1) << 20));
+  CHECK(again_named >= limit);
+  CHECK(again_named < limit + 16);
+  // Each pass begins without materials.
+  const auto source = open_scene(large, options_of(limit));
+  for (int pass = 0; pass < 3; ++pass) {
+    CHECK(read_colored(*source).triangles.size() == 2);
+    source->rewind();
+  }
+}
