@@ -20,6 +20,7 @@
 
 #include "lib/core/error.h"
 #include "lib/core/vec3.h"
+#include "lib/grid/scale_part.h"
 
 namespace bp {
 
@@ -109,16 +110,21 @@ bool is_idle(const ScaleField& field, const ScaleRule& rule, const Range& t, con
   return true;
 }
 
+/// What a rule makes of the range of S in a ball. False if it changes nothing there.
+bool move_range(const ScaleField& field, const ScaleRule& rule, const Vec3d& centre, double radius, Range& s) {
+  const Range t = distances_to(rule, centre, radius);
+  if (is_idle(field, rule, t, s)) return false;
+  s = applied(field, rule, t, s);
+  s = {s.least * (1 - kRounding), s.most * (1 + kRounding)};
+  return true;
+}
+
 /// body(rule) for each rule that may change S in the ball, in order. Returns S after the last one.
 template <class Body>
 Range follow(const ScaleField& field, const Vec3d& centre, double radius, const Body& body) {
   Range s{field.base, field.base};
   for (const ScaleRule& rule : field.rules) {
-    const Range t = distances_to(rule, centre, radius);
-    if (is_idle(field, rule, t, s)) continue;
-    body(rule);
-    s = applied(field, rule, t, s);
-    s = {s.least * (1 - kRounding), s.most * (1 + kRounding)};
+    if (move_range(field, rule, centre, radius, s)) body(rule);
   }
   return s;
 }
@@ -223,6 +229,25 @@ Scale ScaleLattice::at(VoxelCoord p) const {
 double ScaleField::evaluate(const Vec3d& p) const {
   double s = base;
   for (const ScaleRule& rule : rules) s = applied(*this, rule, distance_to(rule, p), s);
+  return s;
+}
+
+ScalePart part_near(const ScaleField& field, const Vec3d& centre, double radius, const ScalePart* around) {
+  ScalePart part{{}, {field.base, field.base}};
+  const std::size_t count = around != nullptr ? around->rules.size() : field.rules.size();
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::uint32_t i = around != nullptr ? around->rules[k] : std::uint32_t(k);
+    if (move_range(field, field.rules[i], centre, radius, part.range)) part.rules.push_back(i);
+  }
+  return part;
+}
+
+double evaluate(const ScaleField& field, const ScalePart& part, const Vec3d& p) {
+  double s = field.base;
+  for (const std::uint32_t i : part.rules) {
+    const ScaleRule& rule = field.rules[i];
+    s = applied(field, rule, distance_to(rule, p), s);
+  }
   return s;
 }
 

@@ -1,61 +1,118 @@
 #include "lib/pass/mesh/detail/scaled_edges.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <map>
 #include <memory>
 #include <mutex>
+#include <unordered_map>
 
 #include "lib/core/vec3.h"
+#include "lib/grid/scale_part.h"
 
 namespace bp {
 
 namespace {
 
-/// The rules of a field that matter for an edge: a field may have thousands, and few of them are near.
-class NearRules {
+/// Answers as ScaleField::reaches_along() does, but bounds of S are kept for cells of space, and not found anew for
+/// each line. Both ask the same points of the line, but for those that a bound decides.
+class ScaleLines {
  public:
-  /// least, most: sides of blocks, scene units.
-  NearRules(const ScaleField& field, double least, double most) : field_(field), least_(least), most_(most) {}
+  ScaleLines(const ScaleField& field, double voxel) : field_(field), voxel_(voxel), largest_(field.base) {
+    for (const ScaleRule& rule : field.rules) largest_ = std::max(largest_, rule.scale);
+  }
 
-  /// Evaluates as the field does, all along the edge.
-  [[nodiscard]] std::shared_ptr<const ScaleField> along(const Vec3d& a, const Vec3d& b) {
-    const double edge = length(b - a);
-    if (field_.rules.size() < kFewRules || edge > 2 * most_) return {std::shared_ptr<void>(), &field_};
-    double side = least_;
-    while (edge > 2 * side) side *= 2;
-    const Vec3d middle = 0.5 * (a + b);
-    Block at{side};
-    Vec3d centre{};
-    for (std::size_t i = 0; i < 3; ++i) {
-      at[i + 1] = std::floor(middle[i] / side);
-      centre[i] = (at[i + 1] + 0.5) * side;
-    }
-    const std::lock_guard lock(mutex_);
-    if (blocks_.size() > kMostBlocks) blocks_.clear();
-    std::shared_ptr<const ScaleField>& found = blocks_[at];
-    if (!found) found = std::make_shared<ScaleField>(field_.near(centre, 2 * side));
-    return found;
+  /// Lines are cut down to the edge of a voxel.
+  [[nodiscard]] bool reach(const Vec3d& a, const Vec3d& b, double scale) {
+    if (scale > largest_) return false;
+    if (field_.rules.size() < kFewRules) return field_.reaches_along(a, b, scale, voxel_);
+    return reach_by_cells(a, b, scale);
   }
 
  private:
-  using Block = std::array<double, 4>;  // its side, and its place in sides
-  static constexpr std::size_t kFewRules = 8, kMostBlocks = 4096;
+  using Part = std::shared_ptr<const ScalePart>;
+  /// A cube of space; its edge is 2^level voxels.
+  struct Cell {
+    int level = 0;
+    std::array<std::int64_t, 3> at{};  // in edges
+    friend bool operator==(const Cell&, const Cell&) = default;
+  };
+  struct CellHash {
+    std::size_t operator()(const Cell& c) const {
+      std::uint64_t h = std::uint64_t(c.level);
+      for (const std::int64_t x : c.at) h = (h ^ std::uint64_t(x)) * 0x9E3779B97F4A7C15ULL;
+      return std::size_t(h ^ h >> 29);
+    }
+  };
+  /// Threads seldom meet in one.
+  struct Shard {
+    std::mutex mutex;
+    std::unordered_map<Cell, Part, CellHash> parts;
+  };
+  static constexpr std::size_t kFewRules = 8, kShards = 32, kMostCells = 1024;  // of a shard
+  static constexpr int kCoarse = 6;      // cells from this level on visit all rules
+  static constexpr double kReach = 1.4;  // edges: a line as long as an edge, whose middle lies in the cell
+
+  bool reach_by_cells(const Vec3d& a, const Vec3d& b, double scale) {
+    const Vec3d middle = 0.5 * (a + b);
+    const double line = length(a - b);
+    const Part part = part_of(cell_of(middle, line));
+    if (part->range.least >= scale) return true;
+    if (part->range.most < scale || evaluate(field_, *part, middle) < scale) return false;
+    if (line <= voxel_) return evaluate(field_, *part, a) >= scale && evaluate(field_, *part, b) >= scale;
+    return reach_by_cells(a, middle, scale) && reach_by_cells(middle, b, scale);
+  }
+
+  [[nodiscard]] double edge_of(int level) const { return std::ldexp(voxel_, level); }
+
+  [[nodiscard]] Cell cell_of(const Vec3d& p, double line) const {
+    Cell cell;
+    while (edge_of(cell.level) < line) ++cell.level;
+    for (std::size_t i = 0; i < 3; ++i) cell.at[i] = std::int64_t(std::floor(p[i] / edge_of(cell.level)));
+    return cell;
+  }
+
+  Part part_of(const Cell& cell) {
+    Shard& shard = shards_[CellHash()(cell) / 64 % kShards];
+    {
+      const std::lock_guard lock(shard.mutex);
+      const auto found = shard.parts.find(cell);
+      if (found != shard.parts.end()) return found->second;
+    }
+    Part made = make_part(cell);
+    const std::lock_guard lock(shard.mutex);
+    if (shard.parts.size() >= kMostCells) shard.parts.clear();
+    shard.parts[cell] = made;
+    return made;
+  }
+
+  Part make_part(const Cell& cell) {
+    const double edge = edge_of(cell.level);
+    Vec3d centre{};
+    for (std::size_t i = 0; i < 3; ++i) centre[i] = (double(cell.at[i]) + 0.5) * edge;
+    Part around;
+    if (cell.level < kCoarse) {
+      Cell outer{cell.level + 1, cell.at};
+      for (std::int64_t& x : outer.at) x = x >> 1;
+      around = part_of(outer);
+    }
+    return std::make_shared<const ScalePart>(part_near(field_, centre, kReach * edge, around.get()));
+  }
+
   const ScaleField& field_;
-  const double least_, most_;
-  std::mutex mutex_;
-  std::map<Block, std::shared_ptr<const ScaleField>> blocks_;
+  const double voxel_;
+  double largest_;  // no scale exceeds it
+  std::array<Shard, kShards> shards_;
 };
 
 }  // namespace
 
 EdgeLimit scaled_edges(const ScaleField& scale, const GridFrame& frame, double factor) {
-  constexpr double kLeast = 4, kMost = 64;  // voxels
-  const auto rules = std::make_shared<NearRules>(scale, kLeast * frame.voxel, kMost * frame.voxel);
-  return [rules, &frame, factor](const LatticeCoord& a, const LatticeCoord& b) {
+  const auto lines = std::make_shared<ScaleLines>(scale, frame.voxel);
+  return [lines, &frame, factor](const LatticeCoord& a, const LatticeCoord& b) {
     const double edge = length(to_double(b - a));
     if (edge <= 2 * kLatticePerVoxel) return true;
-    const Vec3d from = frame.world(a), to = frame.world(b);
-    return rules->along(from, to)->reaches_along(from, to, edge / kLatticePerVoxel * frame.voxel / factor, frame.voxel);
+    return lines->reach(frame.world(a), frame.world(b), edge / kLatticePerVoxel * frame.voxel / factor);
   };
 }
 

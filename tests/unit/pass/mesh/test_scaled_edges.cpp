@@ -1,0 +1,55 @@
+#include "lib/core/vec3.h"
+#include "lib/grid/scale_part.h"
+#include "lib/pass/mesh/detail/scaled_edges.h"
+#include "tests/catch.h"
+#include "tests/unit/grid/random_fields.h"
+
+using namespace bp;
+using namespace bp::test;
+
+TEST_CASE("an edge is as long as the scale allows all along it, for few rules and for many", "[quick][mesh]") {
+  const auto seed = GENERATE(range(0u, 12u));
+  ScaleField field = random_field(seed);
+  Random random(seed + 100);
+  if (seed % 3 == 0) field.rules.resize(5);
+  GridFrame frame;
+  frame.voxel = 0.5;
+  frame.origin = {-3, 8, 1};
+  const double factor = seed % 2 == 0 ? 4 : 1;
+  const EdgeLimit limit = scaled_edges(field, frame, factor);
+  int allowed = 0;
+  constexpr int kEdges = 2000;
+  for (int i = 0; i < kEdges; ++i) {
+    const auto corner = [&](double reach) {
+      const Vec3d p = random_point(random, reach);
+      return LatticeCoord{std::int64_t(p[0]), std::int64_t(p[1]), std::int64_t(p[2])};
+    };
+    const LatticeCoord a = corner(60 * kLatticePerVoxel), b = a + corner(i % 50 == 0 ? 5000 : 6 * kLatticePerVoxel);
+    const double edge = length(to_double(b - a));
+    const bool expected = edge <= 2 * kLatticePerVoxel ||
+                          field.reaches_along(frame.world(a), frame.world(b),
+                                              edge / kLatticePerVoxel * frame.voxel / factor, frame.voxel);
+    CHECK(limit(a, b) == expected);
+    allowed += expected ? 1 : 0;
+  }
+  CHECK(allowed > kEdges / 100);
+}
+
+TEST_CASE("the part of a field near a place evaluates as all of it, also found within a larger part", "[quick][mesh]") {
+  const auto seed = GENERATE(range(0u, 8u));
+  const ScaleField field = random_field(seed);
+  Random random(seed);
+  for (int i = 0; i < 100; ++i) {
+    const Vec3d centre = random_point(random, 40), offset = random_point(random, 2);
+    const ScalePart outer = part_near(field, centre, 8), inner = part_near(field, centre + offset, 3, &outer);
+    CHECK(inner.rules.size() <= outer.rules.size());
+    for (int k = 0; k < 20; ++k) {
+      const Vec3d p = centre + offset + random_point(random, 1.7);
+      const double s = field.evaluate(p);
+      CHECK(evaluate(field, outer, p) == s);
+      CHECK(evaluate(field, inner, p) == s);
+      CHECK(inner.range.least <= s);
+      CHECK(inner.range.most >= s);
+    }
+  }
+}
