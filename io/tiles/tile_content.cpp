@@ -106,7 +106,8 @@ TileContentFile open_tile_content(const SceneFilePtr& file, const SceneOptions& 
 }
 
 TileMesh read_tile_content(const std::string& path, const SceneOptions& options, const ContentPlace& place) {
-  const TileContentFile content = open_tile_content(open_scene_file(path, temp_dir_of(options)), options, place);
+  const TileContentFile content =
+      open_tile_content(open_scene_file(path, temp_dir_of(options), NamedBy::file), options, place);
   TileMesh out;
   out.mesh = mesh_of(path, *content.triangles, options, out.counts);
   out.unread = content.unread;

@@ -125,7 +125,7 @@ class ContentCounter {
   Count counted(const std::string& path) {
     const auto known = known_.find(real_path(path));
     if (known != known_.end()) return known->second;
-    const CountedJson json = read_json(open_scene_file(path, temp_dir_of(options_)), options_, held_);
+    const CountedJson json = read_json(open_scene_file(path, temp_dir_of(options_), NamedBy::file), options_, held_);
     return count(GltfObject(json.json, path, ""), path, json.bytes);
   }
 
