@@ -42,10 +42,17 @@ std::uint64_t bytes_made(std::string_view text, const MadeOfJson& made) {
   return count * made.bytes;
 }
 
+/// Of the InstancedScene that a glTF becomes: about, and rather too many.
+std::uint64_t description_bytes(std::string_view text) {
+  return bytes_made(text, {"\"mesh\"", sizeof(MeshNode)}) + bytes_made(text, {"\"attributes\"", sizeof(Primitive)}) +
+         bytes_made(text, {"\"EXT_mesh_gpu_instancing\"", sizeof(InstanceArray)});
+}
+
 CountedJson parsed(std::string text, const std::string& name, const SceneOptions& options, std::uint64_t held,
-                   const MadeOfJson& made = {}) {
+                   const MadeOfJson& made = {}, const MadeOfJson& later = {}) {
   const std::uint64_t bytes = bytes_to_parse(text), all = options.document.bytes;
-  check_document(options, name, "its JSON", text.size() + bytes + bytes_made(text, made), all - std::min(all, held));
+  check_document(options, name, "its JSON", text.size() + bytes + bytes_made(text, made), all - std::min(all, held),
+                 bytes_made(text, later));
   if (text.empty()) fail(ErrorCode::bad_input, {Remedy::repair_file}, "{}: is empty", name);
   try {
     return {parse_json(std::move(text)), bytes};
@@ -56,10 +63,10 @@ CountedJson parsed(std::string text, const std::string& name, const SceneOptions
 
 }  // namespace
 
-CountedJson read_json(const SceneFilePtr& file, const SceneOptions& options, std::uint64_t held,
-                      const MadeOfJson& made) {
+CountedJson read_json(const SceneFilePtr& file, const SceneOptions& options, std::uint64_t held, const MadeOfJson& made,
+                      const MadeOfJson& later) {
   return parsed(read_lean_json(file, 0, file->size(), temp_dir_of(options), false).text, file->name(), options, held,
-                made);
+                made, later);
 }
 
 ComponentType component_type(const GltfObject& o) {
@@ -192,9 +199,16 @@ void GltfDocument::open_glb() {
 void GltfDocument::parse(std::uint64_t offset, std::uint64_t size) {
   LeanJson lean = read_lean_json(file_, offset, size, temp_dir_, options_.textures != nullptr);
   lifted_ = std::move(lean.data);
-  CountedJson all = parsed(std::move(lean.text), file_->name(), options_, 0);
-  json_ = std::move(all.json);
-  json_bytes_ = all.bytes;
+  const std::uint64_t described = description_bytes(lean.text);
+  document_bytes_ = lean.text.size() + bytes_to_parse(lean.text);
+  try {
+    CountedJson all = parsed(std::move(lean.text), file_->name(), options_, 0);
+    json_ = std::move(all.json);
+    json_bytes_ = all.bytes;
+  } catch (const NeedsMemory& e) {  // the list of nodes comes next, and must fit, too
+    throw Error(e.code(), e.what(), e.remedies(),
+                std::max(e.memory_bytes(), limit_of_description(described, options_)));
+  }
 }
 
 void GltfDocument::check_root() const {

@@ -94,9 +94,10 @@ struct MadeOfJson {
   std::uint64_t bytes = 0;
 };
 /// The JSON of a file that is no glTF. `held`: bytes of SceneOptions::document that are taken already. `made` is
-/// counted with the JSON before that is parsed. Throws as GltfDocument does.
+/// counted with the JSON before that is parsed; `later` only in the limit that a refusal names. Throws as GltfDocument
+/// does.
 [[nodiscard]] CountedJson read_json(const SceneFilePtr& file, const SceneOptions& options, std::uint64_t held = 0,
-                                    const MadeOfJson& made = {});
+                                    const MadeOfJson& made = {}, const MadeOfJson& later = {});
 
 class GltfDocument {
  public:
@@ -105,6 +106,8 @@ class GltfDocument {
   [[nodiscard]] GltfObject root() const { return GltfObject(json_, file_->name(), ""); }
   /// Of its JSON.
   [[nodiscard]] std::uint64_t memory_bytes() const { return json_bytes_; }
+  /// Of SceneOptions::document, while it was parsed.
+  [[nodiscard]] std::uint64_t document_bytes() const { return document_bytes_; }
   /// Accessor i, checked against its views; `components` is what its type must have: 1 to 4, or kMatrixNumbers.
   Accessor accessor(std::uint64_t i, std::size_t components);
   /// All numbers of accessor i, called `what` if they take more than SceneOptions::document.
@@ -159,7 +162,7 @@ class GltfDocument {
   const SceneOptions& options_;
   std::string temp_dir_;
   GltfJson json_;
-  std::uint64_t json_bytes_ = 0, differing_ = 0;
+  std::uint64_t json_bytes_ = 0, document_bytes_ = 0, differing_ = 0;
   std::vector<SceneFilePtr> lifted_;  // embedded buffers
   SceneFilePtr glb_data_;             // the binary chunk
   std::shared_ptr<JoinedFile> bytes_ = std::make_shared<JoinedFile>();

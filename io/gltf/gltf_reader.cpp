@@ -53,6 +53,7 @@ class SceneBuilder {
     scene_.animations = root_.array("animations").size();
     scene_.bytes = doc_.bytes();
     scene_.differing = doc_.differing();
+    scene_.document_bytes = doc_.document_bytes();
     return std::move(scene_);
   }
 
@@ -233,11 +234,14 @@ SceneBuilder::Range SceneBuilder::mesh(std::uint64_t i, bool wanted, const Moved
   const GltfObject mesh = root_.item("meshes", i);
   wanted = fits(mesh) || wanted;
   Range range{std::uint32_t(scene_.primitives.size()), 0};
+  bool posed = moved.skin != kNoSkin;
   for (std::size_t k = 0; k < mesh.array("primitives").size(); ++k) {
     const GltfObject primitive = mesh.item("primitives", k);
+    posed = posed || !primitive.array("targets").empty();
     if (has_material_that_fits(primitive) || wanted) add_primitive(primitive, moved);
   }
   range.end = std::uint32_t(scene_.primitives.size());
+  scene_.posed += posed && range.first < range.end ? 1 : 0;
   meshes_.emplace(key, range);
   return range;
 }

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "io/scene/detail/block_cache.h"
+#include "lib/core/error.h"
 
 namespace bp {
 
@@ -60,13 +61,16 @@ std::uint64_t decode_index(const std::byte* from, ComponentType type) {
   }
 }
 
-/// Of the bytes for vertices, those that the scene's description leaves. Beside them as many are in reserve.
+/// Of the bytes for vertices, those that the scene's description leaves.
 std::uint64_t cache_bytes(const InstancedScene& scene, const SceneOptions& options) {
-  const std::uint64_t left = 2 * options.memory_bytes, least = options.memory_bytes / 8;
   const std::uint64_t described = scene.memory_bytes();
-  check_document(options, scene.bytes->name(), "the list of its nodes", described + least, left,
-                 std::max<std::uint64_t>(1, options.document.bytes / std::max<std::uint64_t>(1, left)));
-  return options.document.bytes == 0 ? options.memory_bytes : std::min(options.memory_bytes, left - described);
+  if (options.document.bytes == 0) return options.memory_bytes;
+  if (described > most_described(options)) {
+    const std::uint64_t again = options.document.limit_for(scene.document_bytes);
+    throw NeedsMemory(fmt::format("{}: the list of its nodes", scene.bytes->name()), described, most_described(options),
+                      std::max(again, limit_of_description(described, options)), {Remedy::split_scene});
+  }
+  return std::min(options.memory_bytes, 2 * options.memory_bytes - described);
 }
 
 /// Elements of accessors, read through one cache.
@@ -170,6 +174,7 @@ class InstancedSource final : public RawSource {
   [[nodiscard]] std::size_t levels() const override { return scene_.levels; }
   [[nodiscard]] UnreadParts unread() const override { return scene_.unread; }
   [[nodiscard]] std::size_t animations() const override { return scene_.animations; }
+  [[nodiscard]] std::uint64_t posed() const override { return scene_.posed; }
   [[nodiscard]] std::uint64_t differing() const override { return scene_.differing; }
   [[nodiscard]] std::uint64_t points() const override { return scene_.points; }
 

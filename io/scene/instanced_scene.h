@@ -76,13 +76,22 @@ struct InstancedScene {
   std::optional<UpAxis> up;    ///< if the file tells
   std::size_t levels = 1;      ///< that the file has, of which this is one
   std::size_t animations = 0;  ///< that the file has; none is followed
+  std::uint64_t posed = 0;     ///< SceneCounts::posed
   std::uint64_t points = 0;    ///< vertices of primitives that are points; they are not read
   UnreadParts unread;
-  std::uint64_t bad_faces = 0;  ///< met before, while the scene was put together
-  std::uint64_t differing = 0;  ///< SceneCounts::differing
+  std::uint64_t bad_faces = 0;       ///< met before, while the scene was put together
+  std::uint64_t differing = 0;       ///< SceneCounts::differing
+  std::uint64_t document_bytes = 0;  ///< of SceneOptions::document, while the scene was put together
 
   [[nodiscard]] std::uint64_t memory_bytes() const;  ///< of the description
 };
+
+/// Bytes that the description of a scene may take: those for vertices, but for a part that vertices need, and as many
+/// that are in reserve.
+[[nodiscard]] std::uint64_t most_described(const SceneOptions& options);
+/// The limit on memory at which a description of so many bytes fits (InstancedScene::memory_bytes()); 0: it fits now,
+/// or no limit is known.
+[[nodiscard]] std::uint64_t limit_of_description(std::uint64_t bytes, const SceneOptions& options);
 
 /// Streams the triangles of each node in order. Memory: options.memory_bytes and the scene's description.
 [[nodiscard]] RawSourcePtr stream_instances(InstancedScene scene, const SceneOptions& options);

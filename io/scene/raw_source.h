@@ -51,6 +51,7 @@ class RawSource {
   [[nodiscard]] virtual std::uint64_t instances() const { return 1; }
   [[nodiscard]] virtual std::optional<UpAxis> up() const { return {}; }  ///< TriangleSource::up()
   [[nodiscard]] virtual std::size_t animations() const { return 0; }     ///< SceneCounts::animations
+  [[nodiscard]] virtual std::uint64_t posed() const { return 0; }        ///< SceneCounts::posed
   [[nodiscard]] virtual std::uint64_t differing() const { return 0; }    ///< SceneCounts::differing
   [[nodiscard]] virtual UnreadParts unread() const { return {}; }        ///< of contents of tiles; others tell nothing
   [[nodiscard]] virtual Rounding rounding() const { return {}; }         ///< SceneCounts::rounding, of what was read
@@ -123,10 +124,11 @@ void drop_signs_of_zeros(TriangleD& t);
 [[nodiscard]] IndexedMesh mesh_of(const std::string& name, RawSource& raw, const SceneOptions& options,
                                   SceneCounts& counts);
 
-/// Throws out_of_resource, with the figure, if `what` of a file takes more than `left` bytes. `per_missing`: bytes of
-/// SceneOptions::document that leave one byte more for it.
+/// Throws out_of_resource, with the figure, if `what` of a file takes more than `left` bytes: what is not held yet of
+/// SceneOptions::document. `later`: bytes that will be taken of it beside these; the limit that is named has room for
+/// them.
 void check_document(const SceneOptions& options, const std::string& name, const char* what, std::uint64_t bytes,
-                    std::uint64_t left, std::uint64_t per_missing = 1);
+                    std::uint64_t left, std::uint64_t later = 0);
 
 /// Directory of scratch files.
 [[nodiscard]] std::string temp_dir_of(const SceneOptions& options);

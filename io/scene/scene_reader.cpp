@@ -151,6 +151,7 @@ class FilteredScene final : public TriangleSource {
     counts_.bad_faces = raw_->bad_faces() + bad_faces_;
     counts_.instances = raw_->instances();
     counts_.animations = raw_->animations();
+    counts_.posed = raw_->posed();
     counts_.differing = raw_->differing();
     counts_.rounding = raw_->rounding();
     const SceneCounts& c = counts_;  // at the end; whoever names a file of points wants them enclosed

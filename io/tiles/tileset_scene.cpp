@@ -11,6 +11,8 @@ namespace bp {
 
 namespace {
 
+constexpr std::uint64_t kMostUri = 64;  ///< bytes of a content's name, of nearly all tilesets
+
 /// A file that need not be open: a tileset has thousands, and their images may be wanted at any time.
 class RestingFile final : public SceneFile {
  public:
@@ -70,13 +72,14 @@ class TilesetSource final : public RawSource {
   void rewind() override {
     rest();
     at_ = 0;
-    bad_faces_ = instances_ = animations_ = differing_ = 0;
+    bad_faces_ = instances_ = animations_ = posed_ = differing_ = 0;
     rounding_ = {};
   }
   [[nodiscard]] bool has_colors() const override { return has_colors_; }
   [[nodiscard]] bool has_textures() const override { return has_textures_; }
   [[nodiscard]] std::uint64_t instances() const override { return instances_; }
   [[nodiscard]] std::size_t animations() const override { return animations_; }
+  [[nodiscard]] std::uint64_t posed() const override { return posed_; }
   [[nodiscard]] std::uint64_t differing() const override { return differing_; }
   [[nodiscard]] Rounding rounding() const override { return rounding_; }
   [[nodiscard]] std::optional<UpAxis> up() const override { return contents_.up; }
@@ -92,6 +95,7 @@ class TilesetSource final : public RawSource {
     bad_faces_ += content_->bad_faces();
     instances_ += content_->instances();
     animations_ += content_->animations();
+    posed_ += content_->posed();
     differing_ += content_->differing();
     rounding_.add(content_->rounding());
     rest();
@@ -109,7 +113,7 @@ class TilesetSource final : public RawSource {
   std::shared_ptr<RestingFile> file_;
   RawSourcePtr content_;
   bool has_colors_ = false, has_textures_ = false;
-  std::uint64_t instances_ = 0, animations_ = 0, differing_ = 0;
+  std::uint64_t instances_ = 0, animations_ = 0, posed_ = 0, differing_ = 0;
   Rounding rounding_;
 };
 
@@ -120,7 +124,8 @@ RawSourcePtr open_contents(TilesetContents contents, const SceneOptions& options
 }
 
 RawSourcePtr open_tileset(SceneFilePtr file, const SceneOptions& options) {
-  const CountedJson tileset = read_json(file, options);
+  const MadeOfJson contents{"\"uri\"", sizeof(ContentFile) + file->path().size() + kMostUri};
+  const CountedJson tileset = read_json(file, options, 0, {}, contents);
   const GltfJson& json = tileset.json;
   if (!json.is_object() || !(json.contains("root") || json.contains("geometricError")))
     return open_gltf(std::move(file), options);  // under another name

@@ -98,9 +98,12 @@ class NeedsMemory : public Error {
       : Error(ErrorCode::out_of_resource,
               fmt::format("{} takes {} MiB, and the limit on memory leaves {} MiB for it", what, (needed >> 20) + 1,
                           left >> 20),
-              with_memory(others), limit) {}
+              with_memory(others), limit),
+        needed_(needed) {}
+  [[nodiscard]] std::uint64_t needed_bytes() const { return needed_; }  ///< of the step
 
  private:
+  std::uint64_t needed_;
   static Remedies with_memory(const Remedies& others) {
     Remedies all{Remedy::more_memory};
     all.insert(all.end(), others.begin(), others.end());

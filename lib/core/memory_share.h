@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -23,9 +24,16 @@ struct MemoryShare {
   std::uint64_t bytes = std::uint64_t(512) << 20;
   double share = 0;  ///< between 0 and 1; 0: not known
   MemoryLimit limit{};
+  double least_share = 0;  ///< the smallest share that the step has when it runs again in this process; 0: `share`
 
   /// The limit at which `missing` bytes more are there; 0: not known.
   [[nodiscard]] std::uint64_t limit_with(std::uint64_t missing) const { return limit.with(missing, share); }
+  /// The limit at which the step has `needed` bytes, each time that it runs; 0: not known.
+  [[nodiscard]] std::uint64_t limit_for(std::uint64_t needed) const {
+    const auto at = [&](std::uint64_t held, double part) { return limit.with(needed - std::min(needed, held), part); };
+    if (!(least_share > 0)) return at(bytes, share);
+    return std::max(at(bytes, share), at(std::uint64_t(double(limit.rest_bytes()) * least_share), least_share));
+  }
 };
 
 }  // namespace bp

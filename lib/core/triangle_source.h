@@ -62,11 +62,13 @@ struct SceneCounts {
   std::uint64_t differing = 0;   ///< meshes that a file holds twice, and not alike; the compressed one is delivered
   std::uint64_t instances = 0;   ///< mesh instances met (1 for formats without a scene graph)
   std::uint64_t animations = 0;  ///< that the files have; none is followed
+  std::uint64_t posed = 0;       ///< meshes with a skin or morph targets, which stand as the files show them
   Rounding rounding;             ///< of coordinates; final once all triangles were read
   void add(const SceneCounts& c) {
     triangles += c.triangles, non_finite += c.non_finite;
     degenerate += c.degenerate, kept_degenerate += c.kept_degenerate;
     bad_faces += c.bad_faces, differing += c.differing, instances += c.instances, animations += c.animations;
+    posed += c.posed;
     rounding.add(c.rounding);
   }
   [[nodiscard]] bool has_area() const { return triangles > kept_degenerate; }

@@ -27,6 +27,7 @@ class ImageCache {
   [[nodiscard]] std::vector<std::string> faults() const;
 
  private:
+  [[nodiscard]] std::uint64_t share_for(std::uint64_t image_bytes) const;
   [[nodiscard]] std::shared_ptr<const MipImage> decode(std::uint32_t image, MipImage::Kind kind);
   std::shared_ptr<const TextureSet> images_;
   MemoryShare memory_;

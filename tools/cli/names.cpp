@@ -41,6 +41,12 @@ std::string skipped(const SceneCounts& c) {
   add(c.non_finite, "non-finite triangle");
   add(c.bad_faces, "bad face");
   if (c.differing > 0) text += (text.empty() ? "" : "; ") + held_twice(c.differing);
+  if (c.posed > 0) {
+    text +=
+        fmt::format("{}{} morph targets, and {} as the file shows {}", text.empty() ? "" : "; ",
+                    c.posed == 1 ? "1 mesh loses its skin or" : fmt::format("{} meshes lose their skins or", c.posed),
+                    c.posed == 1 ? "stays" : "stay", c.posed == 1 ? "it" : "them");
+  }
   if (c.animations > 0) text += (text.empty() ? "" : "; ") + counted(c.animations, "animation") + " not followed";
   return text;
 }

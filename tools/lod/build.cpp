@@ -65,7 +65,7 @@ SceneOptions Build::scene_options(bool beside) const {
   scene.surface = options.full() || options.leaves;
   scene.walls_only = options.profile == LodProfile::occluder, scene.keep_degenerate = true;
   scene.document = document_budget(unpinned(options.common.memory_bytes, pinned_bytes(backends)), kVoxelProgram,
-                                   beside ? 2 : options.voxels.scenes.size());
+                                   beside ? 2 : options.voxels.scenes.size(), may_read_again(options));
   return scene;
 }
 

@@ -66,6 +66,11 @@ bool may_enclose_scene(const BuildOptions& o) {
   return !o.is_cage() && o.proxy.mode == MeshMode::bounding;
 }
 
+bool may_read_again(const BuildOptions& o) {
+  const bool triangles = may_enclose_scene(o) || o.proxy.mode == MeshMode::fit;
+  return can_read_again(o) && (triangles || o.may_have_textures() || !o.field.empty());
+}
+
 double margin_of(const BuildOptions& o, double diagonal, double voxel) {
   return o.is_cage() ? o.margin.in_world(diagonal, voxel) : 0;
 }

@@ -27,6 +27,9 @@ namespace bp {
 /// scene can be read again, and no cells depend on them.
 [[nodiscard]] bool may_refine(const BuildOptions& options);
 
+/// Whether the scene may be read once more while its voxels are in memory: for its triangles, textures or field.
+[[nodiscard]] bool may_read_again(const BuildOptions& options);
+
 /// Whether levels are one mesh each, and the scene's own triangles may be what stays inside while they are tightened.
 [[nodiscard]] bool may_enclose_scene(const BuildOptions& options);
 /// Least distance of the levels from the scene, scene units; `voxel` of the scene.

@@ -44,7 +44,7 @@ void MtlMaterials::load(const std::string& beside, const std::string& name) {
 void MtlMaterials::refuse() const {
   const std::uint64_t left = document_.bytes / kParts;
   throw NeedsMemory(fmt::format("{}: the list of materials", too_many_), bytes_, left,
-                    document_.limit_with((bytes_ - left) * kParts));
+                    document_.limit_for(bytes_ * kParts));
 }
 
 void MtlMaterials::clear() {

@@ -1,9 +1,11 @@
 #include "io/scene/raw_source.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
 
+#include "io/scene/instanced_scene.h"
 #include "lib/core/error.h"
 
 namespace bp {
@@ -92,10 +94,23 @@ bool is_finite(const TriangleD& t) {
 }
 
 void check_document(const SceneOptions& options, const std::string& name, const char* what, std::uint64_t bytes,
-                    std::uint64_t left, std::uint64_t per_missing) {
+                    std::uint64_t left, std::uint64_t later) {
   if (options.document.bytes == 0 || bytes <= left) return;
-  throw NeedsMemory(fmt::format("{}: {}", name, what), bytes, left,
-                    options.document.limit_with((bytes - left) * per_missing), {Remedy::split_scene});
+  const std::uint64_t held = options.document.bytes - std::min(options.document.bytes, left);
+  throw NeedsMemory(fmt::format("{}: {}", name, what), bytes, left, options.document.limit_for(held + bytes + later),
+                    {Remedy::split_scene});
+}
+
+std::uint64_t most_described(const SceneOptions& options) {
+  return 2 * options.memory_bytes - options.memory_bytes / 8;
+}
+
+std::uint64_t limit_of_description(std::uint64_t bytes, const SceneOptions& options) {
+  const std::uint64_t most = most_described(options);
+  if (options.document.bytes == 0 || bytes <= most) return 0;
+  // Both grow with the limit on memory.
+  const double document = double(options.document.bytes) / double(std::max<std::uint64_t>(1, most));
+  return options.document.limit_with(std::uint64_t(std::ceil(double(bytes - most) * document)));
 }
 
 std::string temp_dir_of(const SceneOptions& options) {

@@ -14,10 +14,9 @@ TEST_CASE("a file beside another is found by the names that other programs give 
   std::filesystem::create_directory(dir.path("Tex"));
   const std::string wall = dir.file("brick wall.png", "w"), roof = dir.file("Tex/Roof.png", "r");
   const std::string folder = std::filesystem::path(wall).parent_path().string();
-  for (const char* const name :
-       {"brick wall.png", "\"brick wall.png\"", "'brick wall.png'", "Brick Wall.PNG", "\"BRICK WALL.PNG\"",
-        "C:\\Users\\me\\tex\\brick wall.png", "C:/Users/me/Brick Wall.png", "/no/such/folder/brick wall.png",
-        "..\\other\\brick wall.png", "./brick wall.png"}) {
+  for (const char* const name : {"brick wall.png", "\"brick wall.png\"", "'brick wall.png'", "Brick Wall.PNG",
+                                 "\"BRICK WALL.PNG\"", "C:\\tex\\brick wall.png", "C:/tex/Brick Wall.png",
+                                 "/no/such/folder/brick wall.png", "..\\other\\brick wall.png", "./brick wall.png"}) {
     CAPTURE(name);
     CHECK(std::filesystem::equivalent(find_beside(folder, name), wall));
   }

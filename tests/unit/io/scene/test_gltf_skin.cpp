@@ -6,6 +6,7 @@
 #include "tests/catch.h"
 #include "tests/reference/random_closing.h"
 #include "tests/unit/io/scene/gltf_document.h"
+#include "tools/cli/names.h"
 
 using namespace bp;
 using namespace bp::test;
@@ -219,4 +220,12 @@ TEST_CASE("meshes that have moved the same way are kept once", "[quick][io]") {
   const TempDir dir;
   const IndexedMesh mesh = read_mesh(dir.file("skinned.glb", d.glb()));
   CHECK(mesh.triangles.size() == 2 * 5001);
+}
+
+TEST_CASE("meshes with a skin or morph targets are counted, since no copy of them bends", "[quick][io]") {
+  const TempDir dir;
+  Document d = skinned_quad(halves(), {});
+  CHECK(counts_of(dir.file("skin.glb", d.glb())).posed == 1);
+  CHECK(skipped(counts_of(dir.path("skin.glb"))) ==
+        "1 mesh loses its skin or morph targets, and stays as the file shows it");
 }

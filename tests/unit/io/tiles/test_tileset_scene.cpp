@@ -1,3 +1,6 @@
+#include <sys/stat.h>
+
+#include "io/tiles/tile_content.h"
 #include "lib/core/error.h"
 #include "tests/catch.h"
 #include "tests/unit/io/scene/gltf_document.h"
@@ -202,4 +205,11 @@ TEST_CASE("a tileset that is not whole is no scene", "[quick][io]") {
   SceneOptions tight;
   tight.document.bytes = 100;
   CHECK_THROWS_AS(open_scene(dir.file("t.json", tileset(tile("a.glb"))), tight), Error);
+}
+
+TEST_CASE("a content is a regular file: nobody waits for a pipe", "[quick][io]") {
+  const TempDir dir;
+  const std::string pipe = dir.path("c.glb");
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  CHECK_THROWS_WITH(read_tile_content(pipe, {}, {}), Contains("is a pipe or a device"));
 }
