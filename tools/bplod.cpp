@@ -5,6 +5,8 @@
 #include "tools/lod/bake_levels.h"
 #include "tools/lod/build.h"
 #include "tools/lod/choices.h"
+#include "tools/lod/collision/collision_files.h"
+#include "tools/lod/collision/nearer_hulls.h"
 #include "tools/lod/explain.h"
 #include "tools/lod/lod_outputs.h"
 #include "tools/lod/occluder.h"
@@ -25,13 +27,34 @@ bp::LevelRow row_of(const bp::WrittenFile& file, const std::vector<bp::LevelFact
   return row;
 }
 
+/// Files that there will be; most: levels.
+std::vector<std::string> files_of(const bp::BuildOptions& o, std::size_t most) {
+  if (o.profile == bp::LodProfile::collision) return bp::collision_files(o);
+  return o.obj ? bp::obj_files(o, most) : bp::profile_files(o.profile, o.name, most);
+}
+
+std::vector<bp::WrittenFile> write_files(bp::Build& build, const bp::MadeChain& chain, const bp::Vec3d& origin,
+                                         bp::OutputFolder& out) {
+  const bp::BuildOptions& o = build.options;
+  const std::vector<bp::LodLevel>& levels = chain.made.levels;
+  if (o.profile == bp::LodProfile::collision) {
+    build.report.begin("hulls");
+    const bp::ConvexParts hulls = bp::nearer_hulls(build, chain);
+    build.report.begin("write");
+    return bp::write_collision_files(o, levels.front().mesh, hulls, origin, out);
+  }
+  build.report.begin("write");
+  if (o.obj) return bp::write_obj_levels(o, levels, origin, out);
+  return bp::write_profile(o, levels, chain.scene.header.bounds.diagonal(), origin, out);
+}
+
 /// One mesh a level.
 void build_chain(const bp::BuildOptions& o) {
   const std::size_t most = bp::level_count(request_of(o));
-  bp::OutputFolder out(o.out, o.obj ? bp::obj_files(o, most) : bp::profile_files(o.profile, o.name, most),
-                       o.common.overwrite);
+  bp::OutputFolder out(o.out, files_of(o, most), o.common.overwrite);
   bp::Build build(o);
-  auto [scene, made] = bp::make_chain(build);
+  bp::MadeChain chain = bp::make_chain(build);
+  auto& [scene, made] = chain;
   bp::bake_levels(build, made);
   build.note_levels(made.facts, 0, made.left_out);
   const bp::Vec3d origin = bp::origin_of(o.proxy.origin, scene.header.frame, scene.header.bounds);
@@ -44,10 +67,7 @@ void build_chain(const bp::BuildOptions& o) {
   const std::string joined =
       bp::joined_note(finest, made.levels.front().counts.levels.front().measures.shells, build.scene_parts);
   build.note(joined.empty() && !asked ? bp::closed_note(finest) : joined);
-  build.report.begin("write");
-  const std::vector<bp::WrittenFile> files =
-      o.obj ? bp::write_obj_levels(o, made.levels, origin, out)
-            : bp::write_profile(o, made.levels, scene.header.bounds.diagonal(), origin, out);
+  const std::vector<bp::WrittenFile> files = write_files(build, chain, origin, out);
   out.commit();
   std::vector<bp::LevelRow> rows;
   for (const bp::WrittenFile& file : files) {

@@ -19,6 +19,8 @@ constexpr std::array kRows{
         "one sound surface strictly encloses the scene, and keeps a margin from it", ""},
     Row{Contract::convex_parts, "convex parts", "convex parts together strictly enclose the scene",
         "that the parts are one surface: they may overlap"},
+    Row{Contract::convex_part, "convex part", "one sound and convex surface",
+        "that it encloses the scene by itself: all hulls together do"},
     Row{Contract::inside, "inside", "one sound surface lies strictly inside the scene, or is hidden by it",
         "that it encloses the scene"},
     Row{Contract::fit, "fit", "one sound surface", "that it encloses the scene, or lies inside it"},

@@ -10,6 +10,7 @@ enum class Contract {
   encloses,      ///< one sound surface, strictly around the scene
   margin,        ///< the same, and at least the margin of its provenance away from the scene
   convex_parts,  ///< parts, each sound and convex, that may overlap; each point of the scene lies strictly in one
+  convex_part,   ///< one sound and convex surface; says nothing of where the scene lies
   inside,        ///< one sound surface, strictly inside the scene, or hidden by it to a voxel
   fit,           ///< one sound surface near the scene; says nothing of where the scene lies
   tile,          ///< encloses what the scene has in the cell of its tile; a tileset tells cell and place

@@ -1,6 +1,7 @@
 #include "lib/hulls/convex_parts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <optional>
@@ -81,63 +82,106 @@ double volume6_of(const std::vector<ConvexHull>& hulls) {
   return sum;
 }
 
+/// Hulls, and which of them are as they were given.
+struct Hulls {
+  std::vector<ConvexHull> hulls;
+  std::vector<char> given;
+};
+
 /// Sets corners of different hulls apart, which may make slivers again.
-void set_apart(std::vector<ConvexHull>& hulls) {
+void set_apart(Hulls& made) {
   for (int round = 0; round < 4; ++round) {
-    set_corners_apart(hulls);
+    set_corners_apart(made.hulls);
     bool fine = true;
-    for (ConvexHull& hull : hulls) {
+    for (std::size_t i = 0; i < made.hulls.size(); ++i) {
+      ConvexHull& hull = made.hulls[i];
       draw_diagonals(hull);
-      if (slivers_of(hull) == 0) continue;
+      if (made.given[i] || slivers_of(hull) == 0) continue;
       fine = false;
       hull = without_slivers(std::move(hull));
     }
     if (fine) return;
   }
-  set_corners_apart(hulls);
+  set_corners_apart(made.hulls);
 }
 
-/// Hulls around `hulls` with no more faces than are wanted, as far as they can without reaching out of their boxes; a
+/// Hulls around `wrapped` with no more faces than are wanted, as far as they can without reaching out of their boxes; a
 /// single one in any case.
-std::vector<ConvexHull> simplified(const std::vector<ConvexHull>& hulls, std::uint64_t faces, bool& short_of_faces) {
-  std::vector<ConvexHull> fewer = hulls;
-  parallel_for(std::int64_t(fewer.size()), [&](std::int64_t i) {
-    ConvexHull& hull = fewer[std::size_t(i)];
-    hull = without_slivers(with_fewer_corners(std::move(hull), kMostCorners, kGrowth));
+Hulls simplified(const std::vector<Wrapped>& wrapped, const HullLimits& limits, bool& short_of_faces) {
+  Hulls made;
+  for (const Wrapped& w : wrapped) made.hulls.push_back(w.hull), made.given.push_back(char(w.given));
+  parallel_for(std::int64_t(wrapped.size()), [&](std::int64_t i) {
+    ConvexHull& hull = made.hulls[std::size_t(i)];
+    if (!made.given[std::size_t(i)])
+      hull = without_slivers(with_fewer_corners(std::move(hull), limits.corners, kGrowth));
   });
-  if (faces > 0 && face_count(fewer) > faces) {
+  if (limits.faces > 0 && face_count(made.hulls) > limits.faces) {
     short_of_faces = true;
-    keep_to_faces(fewer, faces, kNearBox);
-    if (fewer.size() == 1) keep_to_faces(fewer, faces, kFarOut);
+    keep_to_faces(made.hulls, limits.faces, kNearBox);
+    if (made.hulls.size() == 1) keep_to_faces(made.hulls, limits.faces, kFarOut);
   }
-  parallel_for(std::int64_t(fewer.size()), [&](std::int64_t i) {
-    ConvexHull& hull = fewer[std::size_t(i)];
-    hull = tightened(std::move(hull), hulls[std::size_t(i)].vertices);
+  parallel_for(std::int64_t(wrapped.size()), [&](std::int64_t i) {
+    ConvexHull& hull = made.hulls[std::size_t(i)];
+    const std::vector<LatticeCoord>& corners = wrapped[std::size_t(i)].hull.vertices;
+    if (made.given[std::size_t(i)] && hull.vertices == corners) return;
+    made.given[std::size_t(i)] = 0;
+    hull = tightened(std::move(hull), corners);
   });
-  return fewer;
+  return made;
 }
 
-/// As many hulls as leave least volume within the faces, but not more than `most`.
-std::vector<ConvexHull> few_hulls(const std::vector<Wrapped>& wrapped, std::size_t most, std::uint64_t faces,
-                                  double small6, bool& short_of_faces) {
+/// As many hulls as leave least volume within the faces, but not more than limits.hulls.
+Hulls few_hulls(const std::vector<Wrapped>& wrapped, const HullLimits& limits, double small6, bool& short_of_faces) {
   constexpr double kWorse = 1.03;  // volume at which fewer hulls are not tried any more
-  std::vector<ConvexHull> best;
+  Hulls best;
   double least6 = std::numeric_limits<double>::infinity();
-  for (std::size_t count = most; count > 0;) {
-    const std::vector<ConvexHull> joined = merge_hulls(wrapped, count, small6);
+  for (std::size_t count = limits.hulls; count > 0;) {
+    const std::vector<Wrapped> joined = merge_hulls(wrapped, count, small6);
     count = std::min(count, joined.size());
-    std::vector<ConvexHull> hulls = simplified(joined, faces, short_of_faces);
-    if (!short_of_faces) return hulls;
-    if (face_count(hulls) > faces && count > 1) {  // there are too few for each, unless all are boxes
-      count = std::max(count * 3 / 4, std::min(count - 1, std::size_t(faces) / kFacesOfBox));
+    Hulls made = simplified(joined, limits, short_of_faces);
+    if (!short_of_faces) return made;
+    if (face_count(made.hulls) > limits.faces && count > 1) {  // there are too few for each, unless all are boxes
+      count = std::max(count * 3 / 4, std::min(count - 1, std::size_t(limits.faces) / kFacesOfBox));
       continue;
     }
-    const double now6 = volume6_of(hulls);
+    const double now6 = volume6_of(made.hulls);
     if (now6 > kWorse * least6) break;
-    if (now6 < least6) least6 = now6, best = std::move(hulls);
+    if (now6 < least6) least6 = now6, best = std::move(made);
     count = count * 3 / 4;
   }
   return best;
+}
+
+/// The hulls of what each cell has of its solid, and those that are given, each as a solid of its own.
+std::vector<Wrapped> wrap(const std::vector<SolidCell>& cells, const std::vector<ConvexHull>& given) {
+  std::vector<std::optional<ConvexHull>> found(cells.size());
+  parallel_for(std::int64_t(cells.size()), [&](std::int64_t i) {
+    found[std::size_t(i)] = hull_of(cells[std::size_t(i)].points(SolidCell::Rounding::outward));
+  });
+  std::vector<Wrapped> wrapped;
+  std::map<const void*, std::uint32_t> numbers;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const std::uint32_t solid = numbers.emplace(cells[i].solid(), std::uint32_t(numbers.size())).first->second;
+    if (found[i])
+      wrapped.push_back({std::move(*found[i]), cells[i].volume6(), solid});  // a cell may have nothing of the solid
+  }
+  auto solid = std::uint32_t(numbers.size());
+  for (const ConvexHull& hull : given) wrapped.push_back({hull, volume6_of(hull), solid++, true});
+  return wrapped;
+}
+
+/// With limits.hulls above 0; `volume6`: of all that the hulls are around.
+ConvexParts parts_within(const LatticeMesh& mesh, const std::vector<SolidCell>& solids, const HullLimits& limits,
+                         const std::vector<ConvexHull>& given, double volume6) {
+  ConvexParts parts;
+  parts.solids = solids.size() + given.size();
+  const double small6 = kSmall * volume6;
+  const std::vector<Wrapped> wrapped = wrap(cut_to_convex(solids, kCellsPerHull * limits.hulls, small6), given);
+  Hulls made = few_hulls(wrapped, limits, small6, parts.short_of_faces);
+  set_apart(made);
+  parts.limited = made.hulls.size() >= limits.hulls;
+  for (ConvexHull& hull : made.hulls) parts.hulls.push_back(mesh_of(mesh, std::move(hull)));
+  return parts;
 }
 
 }  // namespace
@@ -160,30 +204,38 @@ std::vector<LatticeMesh> components_of(const LatticeMesh& mesh) {
   return parts;
 }
 
-ConvexParts convex_parts(const LatticeMesh& mesh, std::size_t most, std::uint64_t faces) {
-  std::vector<SolidCell> solids = solids_of(mesh);
-  ConvexParts parts;
-  parts.solids = solids.size();
-  if (most == 0) most = std::max(kMostHulls, solids.size());
-  const double small6 = kSmall * double(volume6_of(mesh));
-  const std::vector<SolidCell> cells = cut_to_convex(std::move(solids), kCellsPerHull * most, small6);
-  std::vector<std::optional<ConvexHull>> found(cells.size());
-  parallel_for(std::int64_t(cells.size()), [&](std::int64_t i) {
-    found[std::size_t(i)] = hull_of(cells[std::size_t(i)].points(SolidCell::Rounding::outward));
-  });
-  std::vector<Wrapped> wrapped;
-  std::map<const void*, std::uint32_t> numbers;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const std::uint32_t solid = numbers.emplace(cells[i].solid(), std::uint32_t(numbers.size())).first->second;
-    if (found[i])
-      wrapped.push_back({std::move(*found[i]), cells[i].volume6(), solid});  // a cell may have nothing of the solid
-  }
-  if (faces > 0) faces = std::max(faces, kFewestFaces);
-  std::vector<ConvexHull> hulls = few_hulls(wrapped, most, faces, small6, parts.short_of_faces);
-  set_apart(hulls);
-  parts.limited = hulls.size() >= most;
-  for (ConvexHull& hull : hulls) parts.hulls.push_back(mesh_of(mesh, std::move(hull)));
-  return parts;
+std::size_t most_hulls(const HullLimits& limits, std::size_t parts) {
+  return limits.hulls > 0 ? limits.hulls : std::max(kMostHulls, parts);
+}
+
+std::size_t most_given(std::size_t hulls) {
+  return kCellsPerHull * hulls;
+}
+
+double volume_of(const ConvexParts& parts) {
+  double sum = 0;
+  for (const LatticeMesh& hull : parts.hulls)
+    sum += double(volume6_of(hull)) / 6 * std::pow(hull.frame.voxel / kLatticePerVoxel, 3);
+  return sum;
+}
+
+ConvexParts convex_parts(const LatticeMesh& mesh, const HullLimits& limits, const std::vector<ConvexHull>& given) {
+  constexpr double kLoose = 1.5;         // volume over the solid's: more hulls and faces may be worth their cost
+  constexpr double kClearlyLess = 0.85;  // of the volume: they are
+  const std::vector<SolidCell> solids = solids_of(mesh);
+  const double volume6 = double(volume6_of(mesh)) + volume6_of(given);
+  HullLimits within = limits;
+  within.hulls = most_hulls(limits, solids.size());
+  if (limits.faces > 0) within.faces = std::max(limits.faces, kFewestFaces);
+  ConvexParts parts = parts_within(mesh, solids, within, given, volume6);
+  const double solid = volume6 / 6 * std::pow(mesh.frame.voxel / kLatticePerVoxel, 3);
+  const bool more_hulls = limits.hulls == 0 && within.hulls < kMostLooseHulls && parts.limited;
+  const bool more_faces = within.faces < limits.loose_faces && parts.short_of_faces;
+  if ((!more_hulls && !more_faces) || volume_of(parts) < kLoose * solid) return parts;
+  if (limits.hulls == 0) within.hulls = std::max(within.hulls, kMostLooseHulls);
+  within.faces = std::max(within.faces, limits.loose_faces);
+  ConvexParts more = parts_within(mesh, solids, within, given, volume6);
+  return volume_of(more) < kClearlyLess * volume_of(parts) ? more : parts;
 }
 
 }  // namespace bp

@@ -34,8 +34,9 @@ CheckRun asking_for(Contract contract, CheckRun run) {
   if (contract == Contract::tile || contract == Contract::leaf)
     fail(ErrorCode::bad_argument, "{}: is the content of a tile; check its tileset.json with the scene",
          file_name(proxy));
-  if (contract == Contract::fit) {
+  if (contract == Contract::fit || contract == Contract::convex_part) {
     run.files = {proxy};
+    run.convex = contract == Contract::convex_part;
     return run;
   }
   if (run.files.size() < 2)

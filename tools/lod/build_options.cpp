@@ -58,6 +58,13 @@ Symmetry parse_symmetry(const std::string& text) {
   fail(ErrorCode::bad_argument, "{}: must be auto, x, y, z or off", text);
 }
 
+HullFiles parse_hull_files(const std::string& text) {
+  for (const HullFiles f : {HullFiles::obj, HullFiles::stl}) {
+    if (text == name_of(f)) return f;
+  }
+  fail(ErrorCode::bad_argument, "{}: must be obj or stl", text);
+}
+
 /// Numbers as numbers, percentages as text.
 Json faces_json(const LevelOptions& levels) {
   if (levels.shares.empty()) return levels.faces;
@@ -106,7 +113,7 @@ void check_profile(const Args& args, const BuildOptions& o) {
         fail(ErrorCode::bad_argument, "{} needs --profile {}", name, name_of(profile));
   };
   needs({"--tile", "--tiles", "--cache", "--leaves", "--tile-compression"}, LodProfile::tiles);
-  needs({"--hulls"}, LodProfile::collision);
+  needs({"--hulls", "--hull-corners", "--hull-files"}, LodProfile::collision);
   needs({"--margin", "--symmetry"}, LodProfile::cage);
   if (o.is_tileset() && args.given("--origin"))
     fail(ErrorCode::bad_argument,
@@ -185,8 +192,14 @@ void declare_profile(Args& args, BuildOptions& o) {
               o.profile, "what the levels are for");
   args.option(
       "--hulls", "N", [&o](const std::string& text) { o.hulls = parse_count(text, 1, kMostHullsAsked); },
-      "collision: largest number of convex hulls in Unreal's file (default: 32, or one for each part where there are "
-      "more)");
+      "collision: largest number of convex hulls (default: 32 or 64, or one for each part)");
+  args.option(
+      "--hull-corners", "N",
+      [&o](const std::string& text) { o.hull_corners = parse_count(text, 8, std::int64_t(kMostCorners)); },
+      "collision: most corners of a hull: 64 for PhysX, 32 for MJX (default: 64)");
+  args.option(
+      "--hull-files", "obj|stl", [&o](const std::string& text) { o.hull_files = parse_hull_files(text); },
+      "collision: each hull in a file of its own, too, and a MuJoCo model and a URDF of them");
   args.option(
       "--symmetry", "auto|x|y|z|off", [&o](const std::string& text) { o.symmetry = parse_symmetry(text); },
       "cage: the axis across which its halves mirror each other (default: the scene's, if it has one)");
@@ -270,6 +283,11 @@ const char* name_of(Appearance appearance) {
   return kNames[std::size_t(appearance)];
 }
 
+const char* name_of(HullFiles files) {
+  constexpr const char* kNames[] = {"none", "obj", "stl"};
+  return kNames[std::size_t(files)];
+}
+
 const char* name_of(Symmetry symmetry) {
   constexpr const char* kNames[] = {"x", "y", "z", "off", "auto"};
   return kNames[std::size_t(symmetry)];
@@ -313,6 +331,8 @@ Json options_json(const BuildOptions& o) {
           {"symmetry", o.is_cage() ? Json(name_of(o.symmetry)) : Json(nullptr)},
           {"margin", o.is_cage() ? Json(o.margin.text()) : Json(nullptr)},
           {"hulls", o.hulls > 0 ? Json(o.hulls) : Json(nullptr)},
+          {"hull_corners", o.hull_corners},
+          {"hull_files", o.hull_files == HullFiles::none ? Json(nullptr) : Json(name_of(o.hull_files))},
           {"cache", !o.cache.empty()},
           {"leaves", o.leaves ? "scene" : "none"},
           {"tile_compression", o.compression == TileCompression::none ? "none" : "meshopt"},

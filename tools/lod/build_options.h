@@ -3,6 +3,7 @@
 #include <string>
 
 #include "io/mesh/lod_writer.h"
+#include "lib/hulls/convex_parts.h"
 #include "lib/levels/tile_plan.h"
 #include "tools/cli/common_options.h"
 #include "tools/cli/options/closing.h"
@@ -27,6 +28,10 @@ enum class Appearance { off, color, texture, full, automatic };
 enum class Symmetry { x, y, z, off, automatic };
 [[nodiscard]] const char* name_of(Symmetry symmetry);
 
+/// A file for each convex hull, in addition to those of the profile.
+enum class HullFiles { none, obj, stl };
+[[nodiscard]] const char* name_of(HullFiles files);
+
 /// Least distance of a cage from the scene, percent of the scene's diagonal: coordinates bend sharply near a cage.
 constexpr double kCageMargin = 0.5;
 
@@ -43,11 +48,13 @@ struct BuildOptions {
   std::string out, name;
   bool obj = false;  ///< levels as OBJ with materials; then they have the name that -o gave
   LodProfile profile = LodProfile::gltf;
-  std::int32_t tile_vox = 512;                        ///< edge of a cell of a tileset
-  Symmetry symmetry = Symmetry::automatic;            ///< of a cage
-  Length margin{kCageMargin, Length::Unit::percent};  ///< of a cage
-  std::int64_t hulls = 0;  ///< of a collision mesh, at most; 0: kMostHulls, or as many as parts
-  std::string cache;       ///< folder of results of earlier builds; empty: none
+  std::int32_t tile_vox = 512;                             ///< edge of a cell of a tileset
+  Symmetry symmetry = Symmetry::automatic;                 ///< of a cage
+  Length margin{kCageMargin, Length::Unit::percent};       ///< of a cage
+  std::int64_t hulls = 0;                                  ///< of a collision mesh, at most; 0: as HullLimits::hulls
+  std::int64_t hull_corners = std::int64_t(kMostCorners);  ///< of a hull, at most
+  HullFiles hull_files = HullFiles::none;
+  std::string cache;                                       ///< folder of results of earlier builds; empty: none
   TileCompression compression = TileCompression::meshopt;  ///< of a tileset's contents
   bool leaves = false;                                     ///< below the finest level are the scene's own triangles
   std::optional<JobRange> tiles;  ///< the jobs to do, without a tileset; empty: all, and the tileset

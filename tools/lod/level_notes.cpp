@@ -152,7 +152,7 @@ std::string no_image_note(const ImageFaults& faults) {
 }
 
 std::string proof_command(const BuildOptions& o, const std::string& file, bool hulls, double margin) {
-  if (o.proxy.mode == MeshMode::fit || !can_read_again(o)) return "";
+  if (o.proxy.mode == MeshMode::fit || !can_read_again(o) || file.ends_with(".xml")) return "";
   std::string command = o.profile == LodProfile::occluder ? "bpcheck --inside" : hulls ? "bpcheck --convex" : "bpcheck";
   if (margin > 0) command += fmt::format(" --margin {}", margin);
   if (!o.voxels.format.empty()) command += " --format " + o.voxels.format;

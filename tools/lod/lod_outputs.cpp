@@ -9,7 +9,6 @@
 #include "io/mesh/lod_writer.h"
 #include "io/mesh/mesh_writer.h"
 #include "lib/core/error.h"
-#include "lib/hulls/convex_parts.h"
 
 namespace bp {
 
@@ -35,45 +34,6 @@ std::vector<WrittenFile> write_gltf_profile(const std::string& name, const std::
   coverage.push_back(0);
   write_lod_glb(meshes, coverage, out.file(name + ".glb"), facts);
   return files;
-}
-
-/// What hulls leave to be desired, and whether more would help; empty if they are as good as the level. body: the file
-/// that holds the level itself.
-std::string hull_note(const WrittenFile& file, const ConvexParts& parts, const std::string& body) {
-  constexpr double kAsGood = 1.1;
-  if (file.hull_volume < kAsGood) return "";
-  const char* advice = parts.short_of_faces ? "more --faces fit closer; or"
-                       : parts.limited      ? "more --hulls fit closer; or"
-                                            : "more --hulls would hardly fit closer;";
-  return fmt::format(
-      "{}: {} hull{} with {:.3g} times the body's volume; {} use {}, the body itself, as complex collision", file.name,
-      file.hulls, file.hulls == 1 ? "" : "s", file.hull_volume, advice, body);
-}
-
-/// What importers go by: Godot by the suffix "-colonly" (collision only, the mesh itself), Unreal by the prefix
-/// "UCX_MESH_" (convex, so: hulls that enclose it together), Unity by nothing, and people by "_Collider".
-std::vector<WrittenFile> write_collision_profile(const BuildOptions& o, const LatticeMesh& mesh, const Vec3d& origin,
-                                                 OutputFolder& out) {
-  const std::string& name = o.name;
-  const NamedMesh godot{name + "-colonly", &mesh}, unity{name + "_Collider", &mesh};
-  write_parts_glb({&godot, 1}, out.file(name + "_godot.glb"), {origin, false, Contract::encloses});
-  write_parts_glb({&unity, 1}, out.file(name + "_unity.glb"), {origin, false, Contract::encloses});
-  constexpr std::uint64_t kEnough = 64;  // a body of few faces may need more as convex parts
-  const std::uint64_t faces =
-      o.levels.faces.empty() ? std::max<std::uint64_t>(mesh.triangles.size(), kEnough) : o.levels.faces.front();
-  const ConvexParts parts = convex_parts(mesh, std::size_t(o.hulls), faces);
-  std::vector<NamedMesh> unreal;
-  const auto volume6 = double(volume6_of(mesh));
-  WrittenFile hull_file{name + "_unreal.glb", 0, 0, false, parts.hulls.size()};
-  for (const LatticeMesh& hull : parts.hulls) {
-    hull_file.faces += hull.triangles.size();
-    hull_file.hull_volume += double(volume6_of(hull)) / volume6;
-    unreal.push_back({fmt::format("UCX_{}_{:02}", name, unreal.size()), &hull});
-  }
-  write_parts_glb(unreal, out.file(hull_file.name), {origin, false, Contract::convex_parts});
-  hull_file.note = hull_note(hull_file, parts, name + "_godot.glb");
-  const std::uint64_t own = mesh.triangles.size();
-  return {{name + "_godot.glb", 0, own}, hull_file, {name + "_unity.glb", 0, own}};
 }
 
 /// Godot makes an occluder of a node with this suffix, and draws nothing.
@@ -108,6 +68,13 @@ OutputFile& OutputFolder::file(const std::string& name) {
   const auto found = std::find(names_.begin(), names_.end(), name);
   if (found == names_.end()) fail(ErrorCode::failed, "{}: is none of the files of this profile", name);
   return *files_[std::size_t(found - names_.begin())];
+}
+
+OutputFile& OutputFolder::add(const std::string& name, const std::string& next) {
+  const auto at = std::find(names_.begin(), names_.end(), next) - names_.begin();
+  files_.insert(files_.begin() + at, open_output(path_ + "/" + name, overwrite_));
+  names_.insert(names_.begin() + at, name);
+  return *files_[std::size_t(at)];
 }
 
 void OutputFolder::leave_out(const std::string& name) {
@@ -146,7 +113,6 @@ std::string level_name(const std::string& name, std::size_t level) {
 }
 
 std::vector<std::string> profile_files(LodProfile profile, const std::string& name, std::size_t levels) {
-  if (profile == LodProfile::collision) return {name + "_godot.glb", name + "_unreal.glb", name + "_unity.glb"};
   if (profile == LodProfile::occluder) return {name + "_occluder.glb"};
   if (profile == LodProfile::cage) return {name + "_cage.obj", name + "_cage.glb"};
   std::vector<std::string> files;
@@ -160,14 +126,13 @@ std::vector<WrittenFile> write_profile(const BuildOptions& options, const std::v
   switch (options.profile) {
     case LodProfile::gltf:
       return write_gltf_profile(options.name, levels, diameter, {origin, false, contract_of_levels(options)}, out);
-    case LodProfile::tiles:
-      break;  // tile_build.h
+    case LodProfile::tiles:      // tile_build.h
+    case LodProfile::collision:  // collision/collision_files.h
+      break;
     case LodProfile::occluder:
       return write_occluder_profile(options.name, levels.front().mesh, origin, out);
     case LodProfile::cage:
       return write_cage_profile(options.name, levels.front().mesh, origin, out);
-    case LodProfile::collision:
-      return write_collision_profile(options, levels.front().mesh, origin, out);
   }
   return {};
 }

@@ -20,6 +20,8 @@ class OutputFolder {
   /// Throws bad_argument if a file exists and `overwrite` is false.
   OutputFolder(std::string path, const std::vector<std::string>& names, bool overwrite);
   [[nodiscard]] OutputFile& file(const std::string& name);
+  /// One more file, that is committed before `next`. Throws as the constructor.
+  OutputFile& add(const std::string& name, const std::string& next);
   /// A file that nothing was written to. What --overwrite finds under its name, of an earlier set, goes with commit().
   void leave_out(const std::string& name);
   /// A file of an earlier set that was not opened goes with commit(), if --overwrite is given.
@@ -54,8 +56,8 @@ struct WrittenFile {
   std::vector<std::string> beside = {};  ///< further files of the level: material and images of OBJ
 };
 /// Writes them; returns those that hold one level. `levels`: finest first; errors must not fall towards coarser ones;
-/// collision: one. diameter: of the scene; origin: subtracted from all vertices; scene units. Of the options: profile,
-/// name, mode, hulls.
+/// collision: collision/collision_files.h. diameter: of the scene; origin: subtracted from all vertices; scene units.
+/// Of the options: profile, name, mode.
 std::vector<WrittenFile> write_profile(const BuildOptions& options, const std::vector<LodLevel>& levels,
                                        double diameter, const Vec3d& origin, OutputFolder& out);
 

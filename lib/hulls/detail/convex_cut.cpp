@@ -13,8 +13,9 @@ namespace bp {
 
 namespace {
 
-constexpr int kPlaces = 12;     // tried along each axis at first
-constexpr double kOpen = 0.05;  // what a hull counts more that must be cut again, and halves of different size
+constexpr int kPlaces = 12;      // tried along each axis at first
+constexpr double kOpen = 0.05;   // what a hull counts more that must be cut again, and halves of different size
+constexpr double kGains = 0.25;  // of what a hull has above the solid: a cut that takes less is compared by two cuts
 
 double hull_volume6(const SolidCell& solid) {
   const std::optional<ConvexHull> hull = hull_of(solid.points(SolidCell::Rounding::nearest));
@@ -101,12 +102,67 @@ const Cut& cheapest(const std::vector<Cut>& cuts) {
   return *std::min_element(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) { return a.cost < b.cost; });
 }
 
+/// The least volume of the hulls of a half, as it is or cut once more in the middle.
+double cut_again_volume6(const Piece& half_piece) {
+  double least = half_piece.hull6;
+  if (half_piece.excess6 == 0) return least;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::int64_t low = half_piece.box.min[axis], high = half_piece.box.max[axis];
+    if (high - low < 4) continue;
+    const Cut middle{axis, low + (high - low) / 2, 0};
+    least = std::min(least, hull_volume6(half(half_piece.solid, middle, false)) +
+                                hull_volume6(half(half_piece.solid, middle, true)));
+  }
+  return least;
+}
+
+/// For each axis the cheapest cut and the one nearest to the middle.
+std::vector<Cut> cuts_to_compare(const Piece& piece, const std::vector<Cut>& cuts) {
+  std::vector<Cut> few;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double middle = 0.5 * double(piece.box.min[axis] + piece.box.max[axis]);
+    const Cut* least = nullptr;
+    const Cut* nearest = nullptr;
+    for (const Cut& cut : cuts) {
+      if (cut.axis != axis) continue;
+      if (least == nullptr || cut.cost < least->cost) least = &cut;
+      if (nearest == nullptr || std::abs(double(cut.at) - middle) < std::abs(double(nearest->at) - middle))
+        nearest = &cut;
+    }
+    if (least != nullptr) few.push_back(*least);
+    if (nearest != least) few.push_back(*nearest);
+  }
+  return few;
+}
+
+/// Sets the costs of a few cuts by what is left after one more cut of each half. The hull of a ring is a disc, and so
+/// are those of its halves and slices; only its quarters show which of them was the better step.
+void weigh_ahead(const Piece& piece, std::vector<Cut>& cuts) {
+  std::vector<std::array<double, 2>> costs(cuts.size()), hulls6(cuts.size());
+  parallel_for(std::int64_t(2 * cuts.size()), [&](std::int64_t i) {
+    const std::size_t k = std::size_t(i / 2), upper = std::size_t(i % 2);
+    const Piece part(half(piece.solid, cuts[k], upper != 0));
+    hulls6[k][upper] = part.excess6 > 0 ? part.hull6 : 0;
+    costs[k][upper] = cut_again_volume6(part) + kOpen * hulls6[k][upper];
+  });
+  for (std::size_t k = 0; k < cuts.size(); ++k) {
+    const auto [low, high] = hulls6[k];
+    cuts[k].cost = costs[k][0] + costs[k][1] + (low > 0 && high > 0 ? kOpen * std::abs(low - high) : 0);
+  }
+}
+
 /// Nothing if the piece is too thin to be cut.
 std::optional<Cut> best_cut(const Piece& piece) {
   std::vector<Cut> cuts = first_cuts(piece);
   if (cuts.empty()) return {};
   weigh(piece, cuts);
   Cut best = cheapest(cuts);
+  if (piece.hull6 - best.cost < kGains * piece.excess6) {
+    std::vector<Cut> few = cuts_to_compare(piece, cuts);
+    weigh_ahead(piece, few);
+    const Cut ahead = cheapest(few);
+    if (ahead.axis != best.axis || ahead.at != best.at) return ahead;
+  }
   const std::int64_t low = piece.box.min[best.axis], high = piece.box.max[best.axis];
   for (std::int64_t reach = (high - low) / (2 * kPlaces), k = 0; reach > 0 && k < 3; reach /= 3, ++k) {
     std::vector<Cut> near;

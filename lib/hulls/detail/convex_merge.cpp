@@ -31,6 +31,7 @@ class Merger {
       volumes_.push_back(volume6_of(wrapped.hull));
       solids_.push_back(wrapped.solid6);
       numbers_.push_back(wrapped.solid);
+      given_.push_back(char(wrapped.given));
       boxes_.push_back(box_of(wrapped.hull.vertices));
       hulls_.push_back(std::move(wrapped.hull));
     }
@@ -38,7 +39,7 @@ class Merger {
     find(all);
   }
 
-  std::vector<ConvexHull> run(std::size_t count) {
+  std::vector<Wrapped> run(std::size_t count) {
     std::size_t left = hulls_.size();
     for (; left > count && join_cheapest(); --left) {
     }
@@ -46,9 +47,9 @@ class Merger {
     find(living());
     for (; left > 1 && join_cheapest(); --left) {
     }
-    std::vector<ConvexHull> kept;
+    std::vector<Wrapped> kept;
     for (std::size_t i = 0; i < hulls_.size(); ++i) {
-      if (alive_[i]) kept.push_back(std::move(hulls_[i]));
+      if (alive_[i]) kept.push_back({std::move(hulls_[i]), solids_[i], numbers_[i], given_[i] != 0});
     }
     return kept;
   }
@@ -123,7 +124,7 @@ class Merger {
     const std::uint32_t gone = numbers_[b];  // two solids that are joined are one
     std::replace(numbers_.begin(), numbers_.end(), gone, numbers_[a]);
     boxes_[a] = box_of(hulls_[a].vertices);
-    alive_[b] = 0;
+    alive_[b] = given_[a] = 0;
     std::vector<std::uint32_t> stale{a};
     for (std::uint32_t i = 0; i < hulls_.size(); ++i) {
       if (alive_[i] && i != a && (best_[i].with == a || best_[i].with == b)) stale.push_back(i);
@@ -137,7 +138,7 @@ class Merger {
   double tolerance6_;
   bool across_ = true;  // hulls of different solids may be joined
   std::vector<ConvexHull> hulls_;
-  std::vector<char> alive_;
+  std::vector<char> alive_, given_;
   std::vector<double> volumes_, solids_;  // times six: of the hull, of the solid in it
   std::vector<std::uint32_t> numbers_;    // of the solids
   std::vector<LatticeBox> boxes_;
@@ -146,7 +147,7 @@ class Merger {
 
 }  // namespace
 
-std::vector<ConvexHull> merge_hulls(std::vector<Wrapped> hulls, std::size_t count, double tolerance6) {
+std::vector<Wrapped> merge_hulls(std::vector<Wrapped> hulls, std::size_t count, double tolerance6) {
   return Merger(std::move(hulls), tolerance6).run(count);
 }
 

@@ -11,12 +11,13 @@ struct Wrapped {
   ConvexHull hull;
   double solid6 = 0;        ///< six times the volume of the solid in its cells
   std::uint32_t solid = 0;  ///< its number: hulls of others are joined only where there are too many
+  bool given = false;       ///< as it is, of the scene: only joined where there are too many
 };
 
 /// Joins hulls, the pair first (of those found near each other) whose common hull adds the least volume, until there
 /// are `count`; and on within each solid, while one is nearly as good as two: it adds no more than a twentieth of the
 /// two's volume, and has no more than twice what cut_to_convex() allows a cell above the solid in it. Cost: quadratic
 /// in the hulls, for their boxes.
-[[nodiscard]] std::vector<ConvexHull> merge_hulls(std::vector<Wrapped> hulls, std::size_t count, double tolerance6);
+[[nodiscard]] std::vector<Wrapped> merge_hulls(std::vector<Wrapped> hulls, std::size_t count, double tolerance6);
 
 }  // namespace bp

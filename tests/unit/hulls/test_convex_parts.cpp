@@ -91,7 +91,7 @@ LatticeMesh thorny(unsigned seed, int levels, double reach) {
   return mesh;
 }
 
-double volume_of(const ConvexParts& parts) {
+double volume6_in(const ConvexParts& parts) {
   double sum = 0;
   for (const LatticeMesh& hull : parts.hulls) sum += double(volume6_of(hull));
   return sum;
@@ -198,9 +198,9 @@ TEST_CASE("blocks come apart into the boxes that they are of", "[quick][meshing]
   const std::int64_t edge = GENERATE(64, 4096);
   CAPTURE(plan, edge);
   const LatticeMesh mesh = blocks(plan, edge);
-  const ConvexParts parts = convex_parts(mesh, 0);
+  const ConvexParts parts = convex_parts(mesh, {0});
   CHECK(parts.hulls.size() == boxes);
-  CHECK(volume_of(parts) < 1.06 * double(volume6_of(mesh)));
+  CHECK(volume6_in(parts) < 1.06 * double(volume6_of(mesh)));
   const CheckReport r = proof(parts, {});
   CHECK(r.convex());
   CHECK(r.manifold());
@@ -213,7 +213,7 @@ TEST_CASE("hulls hold all of a solid, thorns and all, and are as few as was aske
   const double reach = GENERATE(40.0, 3000.0);
   CAPTURE(seed, most, reach);
   const LatticeMesh mesh = thorny(seed, 2, reach);
-  const ConvexParts parts = convex_parts(mesh, most);
+  const ConvexParts parts = convex_parts(mesh, {most});
   CHECK(parts.hulls.size() <= most);
   constexpr std::int64_t kSamples = 8;  // along an edge
   std::size_t out = 0;
@@ -231,15 +231,15 @@ TEST_CASE("hulls hold all of a solid, thorns and all, and are as few as was aske
 
 TEST_CASE("more hulls lie nearer; one is the hull", "[quick][meshing][lod]") {
   const LatticeMesh mesh = thorny(3, 2, 2000);
-  const double one = volume_of(convex_parts(mesh, 1)), some = volume_of(convex_parts(mesh, 12)),
-               many = volume_of(convex_parts(mesh, 60));
+  const double one = volume6_in(convex_parts(mesh, {1})), some = volume6_in(convex_parts(mesh, {12})),
+               many = volume6_in(convex_parts(mesh, {60}));
   CHECK(some < 0.9 * one);
   CHECK(many < 0.9 * some);
   CHECK(one < 1.1 * double(volume6_of(convex_hull(mesh))));
   const LatticeMesh box = blocks({"##"}, 64);
-  REQUIRE(convex_parts(box, 1).hulls.size() == 1);
-  CHECK(volume6_of(convex_parts(box, 1).hulls[0]) == volume6_of(box));
-  CHECK(convex_parts(box, 1).hulls[0].vertices.size() == 8);
+  REQUIRE(convex_parts(box, {1}).hulls.size() == 1);
+  CHECK(volume6_of(convex_parts(box, {1}).hulls[0]) == volume6_of(box));
+  CHECK(convex_parts(box, {1}).hulls[0].vertices.size() == 8);
 }
 
 TEST_CASE("parts have a hull each, unless fewer are asked for: then near ones have one together",
@@ -249,15 +249,15 @@ TEST_CASE("parts have a hull each, unless fewer are asked for: then near ones ha
     const LatticeCoord at{i % 2 * 150, i / 2 % 5 * 1000, i / 10 * 1000};
     add_box(mesh, {at, at + LatticeCoord{100, 100, 100}});
   }
-  const ConvexParts each = convex_parts(mesh, 0);
+  const ConvexParts each = convex_parts(mesh, {0});
   CHECK(each.solids == 60);
   CHECK(each.hulls.size() == 60);
-  CHECK(volume_of(each) == double(volume6_of(mesh)));
-  const ConvexParts pairs = convex_parts(mesh, 30);
+  CHECK(volume6_in(each) == double(volume6_of(mesh)));
+  const ConvexParts pairs = convex_parts(mesh, {30});
   CHECK(pairs.hulls.size() == 30);
-  CHECK(volume_of(pairs) == 1.25 * double(volume6_of(mesh)));
+  CHECK(volume6_in(pairs) == 1.25 * double(volume6_of(mesh)));
   CHECK(proof(pairs, shrunk(mesh, 0)).not_held.count == 12 * 60);  // it touches their sides
-  CHECK(convex_parts(mesh, 7).hulls.size() == 7);
+  CHECK(convex_parts(mesh, {7}).hulls.size() == 7);
 }
 
 TEST_CASE("narrow gaps between parts stay open", "[quick][meshing][lod]") {
@@ -266,12 +266,12 @@ TEST_CASE("narrow gaps between parts stay open", "[quick][meshing][lod]") {
     const LatticeCoord at{i * 1020, 0, 0};  // a fiftieth of a part apart
     add_box(mesh, {at, at + LatticeCoord{1000, 1000, 3000}});
   }
-  CHECK(convex_parts(mesh, 0).hulls.size() == 40);
-  CHECK(convex_parts(mesh, 100).hulls.size() == 40);
-  CHECK_FALSE(convex_parts(mesh, 100).limited);
-  CHECK(convex_parts(mesh, 39).hulls.size() == 39);
-  CHECK(convex_parts(mesh, 39).limited);
-  CHECK(convex_parts(mesh, 1).hulls.size() == 1);
+  CHECK(convex_parts(mesh, {0}).hulls.size() == 40);
+  CHECK(convex_parts(mesh, {100}).hulls.size() == 40);
+  CHECK_FALSE(convex_parts(mesh, {100}).limited);
+  CHECK(convex_parts(mesh, {39}).hulls.size() == 39);
+  CHECK(convex_parts(mesh, {39}).limited);
+  CHECK(convex_parts(mesh, {1}).hulls.size() == 1);
 }
 
 TEST_CASE("cavities stay open where hulls can leave them so", "[quick][meshing][lod]") {
@@ -279,7 +279,7 @@ TEST_CASE("cavities stay open where hulls can leave them so", "[quick][meshing][
   add_box(mesh, {{0, 0, 0}, {1000, 1000, 1000}});
   add_box(mesh, {{100, 100, 100}, {900, 900, 900}}, false);
   add_box(mesh, {{400, 400, 400}, {600, 600, 600}});  // a part of its own, within
-  const ConvexParts parts = convex_parts(mesh, 0);
+  const ConvexParts parts = convex_parts(mesh, {0});
   CHECK(parts.solids == 2);
   CHECK(parts.hulls.size() == 7);
   CHECK(in_a_hull(parts, {50, 50, 50}, 1));
@@ -292,7 +292,7 @@ TEST_CASE("hulls are the same with one thread and with several", "[quick][meshin
   const auto vertices = [&](int threads) {
     const ThreadLimit limit(threads);
     std::vector<LatticeCoord> all;
-    for (const LatticeMesh& hull : convex_parts(mesh, 20).hulls)
+    for (const LatticeMesh& hull : convex_parts(mesh, {20}).hulls)
       all.insert(all.end(), hull.vertices.begin(), hull.vertices.end());
     return all;
   };
@@ -304,7 +304,7 @@ TEST_CASE("hulls keep to the faces asked, without slivers, and hold all of the s
   const std::uint64_t faces = GENERATE(std::uint64_t(4), std::uint64_t(7), std::uint64_t(50), std::uint64_t(300));
   CAPTURE(seed, faces);
   const LatticeMesh mesh = thorny(seed, 2, 3000);
-  const ConvexParts parts = convex_parts(mesh, 0, faces);
+  const ConvexParts parts = convex_parts(mesh, {0, faces});
   std::size_t sum = 0;
   for (const LatticeMesh& hull : parts.hulls) {
     sum += hull.triangles.size();
@@ -322,11 +322,11 @@ TEST_CASE("faces that do not suffice for each part are for several together", "[
     const LatticeCoord at{i % 2 * 150, i / 2 % 5 * 1000, i / 10 * 1000};
     add_box(mesh, {at, at + LatticeCoord{100, 100, 100}});
   }
-  CHECK_FALSE(convex_parts(mesh, 0, 12 * 60).short_of_faces);
-  CHECK(convex_parts(mesh, 0, 12 * 60).hulls.size() == 60);
-  const ConvexParts pairs = convex_parts(mesh, 0, 12 * 30);  // as pairs they are boxes; alone, tetrahedra are larger
+  CHECK_FALSE(convex_parts(mesh, {0, 12 * 60}).short_of_faces);
+  CHECK(convex_parts(mesh, {0, 12 * 60}).hulls.size() == 60);
+  const ConvexParts pairs = convex_parts(mesh, {0, 12 * 30});  // as pairs they are boxes; alone, tetrahedra are larger
   CHECK(pairs.hulls.size() <= 45);
-  CHECK(volume_of(pairs) < 1.6 * double(volume6_of(mesh)));
+  CHECK(volume6_in(pairs) < 1.6 * double(volume6_of(mesh)));
   CHECK(proof(pairs, shrunk(mesh, 0)).convex());
 }
 
@@ -363,6 +363,16 @@ TEST_CASE("hulls at the same place are set apart, also very thin ones", "[quick]
     corners += hull.vertices.size();
   }
   CHECK(places.size() == corners);
+}
+
+TEST_CASE("hulls keep to the corners asked for", "[quick][meshing][lod]") {
+  const std::size_t corners = GENERATE(std::size_t(8), std::size_t(16), std::size_t(32));
+  const LatticeMesh mesh = thorny(2, 2, 3000);
+  HullLimits limits;
+  limits.hulls = 12, limits.corners = corners;
+  const ConvexParts parts = convex_parts(mesh, limits);
+  for (const LatticeMesh& hull : parts.hulls) CHECK(hull.vertices.size() <= corners);
+  CHECK(proof(parts, shrunk(mesh, 1e-6)).holds());
 }
 
 }  // namespace bp::test

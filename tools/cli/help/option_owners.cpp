@@ -34,6 +34,8 @@ constexpr OptionOfTools kOptionsOfTools[] = {
     {"--field", "bpclose and bplod"},
     {"--fill", "bpvox and bplod"},
     {"--format", "bpvox, bpcheck, bplod and bpinfo"},
+    {"--hull-corners", "bplod"},
+    {"--hull-files", "bplod"},
     {"--hulls", "bplod"},
     {"--image", "bpinfo"},
     {"--image-size", "bpinfo"},

@@ -1,0 +1,206 @@
+#include "lib/hulls/convex_scene.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <compare>
+#include <cstdint>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "lib/core/box.h"
+#include "lib/core/disjoint_sets.h"
+#include "lib/core/parallel.h"
+#include "lib/hulls/detail/convex_shape.h"
+#include "lib/hulls/detail/convex_simplify.h"
+#include "lib/hulls/detail/convex_tighten.h"
+#include "lib/hulls/outward_hull.h"
+#include "lib/mesh/lattice_geometry.h"
+#include "lib/mesh/lattice_mesh.h"
+
+namespace bp {
+
+namespace {
+
+using PartFace = std::array<std::uint32_t, 3>;
+
+constexpr std::size_t kMostCornersOfPart = 4096;
+constexpr double kAsWhole = 1e-6;    // of the volume: a part with more than its hull winds around itself
+constexpr double kFlatSides = 5e-4;  // of the volume, for fewer corners: flat sides are flat to a rounding only
+
+/// The scene with one number for each place.
+struct Welded {
+  std::vector<Vec3d> places;
+  std::vector<PartFace> triangles;
+};
+
+Welded welded(std::span<const TriangleD> scene) {
+  std::vector<std::uint32_t> order(3 * scene.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const auto place = [&](std::uint32_t i) -> const Vec3d& { return scene[i / 3][i % 3]; };
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return place(a) < place(b); });
+  Welded mesh;
+  mesh.triangles.resize(scene.size());
+  for (const std::uint32_t i : order) {
+    if (mesh.places.empty() || mesh.places.back() != place(i)) mesh.places.push_back(place(i));
+    mesh.triangles[i / 3][i % 3] = std::uint32_t(mesh.places.size() - 1);
+  }
+  return mesh;
+}
+
+/// Unites faces across edges that exactly two have, in opposite directions: walls that touch along an edge stay apart.
+DisjointSets joined_faces(const Welded& mesh) {
+  struct HalfEdge {
+    std::uint32_t low, high, face;
+    bool up;
+    auto operator<=>(const HalfEdge&) const = default;
+  };
+  std::vector<HalfEdge> edges;
+  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = mesh.triangles[f][k], b = mesh.triangles[f][(k + 1) % 3];
+      if (a != b) edges.push_back({std::min(a, b), std::max(a, b), f, a < b});
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  DisjointSets joined(mesh.triangles.size());
+  for (std::size_t i = 0, end = 0; i < edges.size(); i = end) {
+    for (end = i + 1; end < edges.size() && edges[end].low == edges[i].low && edges[end].high == edges[i].high;) ++end;
+    if (end == i + 2 && edges[i].up != edges[i + 1].up) joined.unite(edges[i].face, edges[i + 1].face);
+  }
+  return joined;
+}
+
+/// The triangles of each connected part, parts in the order of their first triangles.
+std::vector<std::vector<std::uint32_t>> scene_parts(const Welded& mesh) {
+  constexpr std::uint32_t kNone = ~std::uint32_t(0);
+  DisjointSets joined = joined_faces(mesh);
+  std::vector<std::uint32_t> number(mesh.triangles.size(), kNone);
+  std::vector<std::vector<std::uint32_t>> parts;
+  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+    std::uint32_t& n = number[joined.find(f)];
+    if (n == kNone) {
+      n = std::uint32_t(parts.size());
+      parts.emplace_back();
+    }
+    parts[n].push_back(f);
+  }
+  return parts;
+}
+
+/// Whether each edge is there once in either direction. Triangles with two corners at a place have none.
+bool is_closed(const Welded& mesh, const std::vector<std::uint32_t>& part) {
+  std::vector<std::array<std::uint32_t, 2>> edges;
+  for (const std::uint32_t f : part) {
+    const PartFace& t = mesh.triangles[f];
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
+    for (std::size_t k = 0; k < 3; ++k) edges.push_back({t[k], t[(k + 1) % 3]});
+  }
+  std::sort(edges.begin(), edges.end());
+  if (std::adjacent_find(edges.begin(), edges.end()) != edges.end()) return false;
+  return !edges.empty() && std::all_of(edges.begin(), edges.end(), [&](const std::array<std::uint32_t, 2>& e) {
+    return std::binary_search(edges.begin(), edges.end(), std::array{e[1], e[0]});
+  });
+}
+
+/// A part on a lattice of its own that is far finer than any frame's.
+struct FinePart {
+  std::vector<std::uint32_t> places;   // of the part
+  std::vector<LatticeCoord> vertices;  // of these
+  std::vector<PartFace> triangles;
+  double unit = 0;  // scene units
+
+  FinePart(const Welded& mesh, const std::vector<std::uint32_t>& part) {
+    constexpr double kSteps = double(std::int64_t(1) << 27);
+    for (const std::uint32_t f : part) places.insert(places.end(), mesh.triangles[f].begin(), mesh.triangles[f].end());
+    std::sort(places.begin(), places.end());
+    places.erase(std::unique(places.begin(), places.end()), places.end());
+    Bounds3d bounds;
+    for (const std::uint32_t p : places) bounds.add(mesh.places[p]);
+    unit = bounds.longest_side() / kSteps;
+    if (!(unit > 0) || !std::isfinite(1 / unit)) return;
+    for (const std::uint32_t p : places) vertices.push_back(rounded((1 / unit) * (mesh.places[p] - bounds.min)));
+    for (const std::uint32_t f : part) {
+      PartFace t = mesh.triangles[f];
+      for (std::uint32_t& v : t) v = std::uint32_t(std::lower_bound(places.begin(), places.end(), v) - places.begin());
+      triangles.push_back(t);
+    }
+  }
+};
+
+/// Of a convex part: its corners and its volume. No corners: it is none.
+struct Found {
+  std::vector<Vec3d> corners;
+  double volume = 0;
+};
+
+Found convex_part(const Welded& mesh, const std::vector<std::uint32_t>& part) {
+  if (part.size() < 4 || !is_closed(mesh, part)) return {};
+  const FinePart fine(mesh, part);
+  if (fine.vertices.empty()) return {};
+  const std::optional<ConvexHull> hull = hull_of(fine.vertices);
+  if (!hull || hull->vertices.size() > kMostCornersOfPart) return {};
+  const double hull6 = volume6_of(*hull), own6 = std::abs(double(volume6_of(fine.vertices, fine.triangles)));
+  if (hull6 > (1 + kNearlyConvex) * own6 || own6 > (1 + kAsWhole) * hull6) return {};
+  std::vector<LatticeCoord> corners = hull->vertices;
+  std::sort(corners.begin(), corners.end());
+  Found found{{}, own6 / 6 * fine.unit * fine.unit * fine.unit};
+  for (std::size_t i = 0; i < fine.vertices.size(); ++i) {
+    if (std::binary_search(corners.begin(), corners.end(), fine.vertices[i]))
+      found.corners.push_back(mesh.places[fine.places[i]]);
+  }
+  return found;
+}
+
+/// Leaves out hulls that lie in others.
+std::vector<ConvexHull> outer_hulls(std::vector<ConvexHull> hulls) {
+  std::vector<LatticeBox> boxes;
+  for (const ConvexHull& hull : hulls) boxes.push_back(box_of(hull.vertices));
+  std::vector<char> inner(hulls.size(), 0);
+  for (std::size_t i = 0; i < hulls.size(); ++i) {
+    for (std::size_t j = 0; j < hulls.size() && !inner[i]; ++j)
+      inner[i] = char(i != j && !inner[j] && boxes[j].holds(boxes[i]) && holds_all(hulls[j], hulls[i].vertices));
+  }
+  std::vector<ConvexHull> outer;
+  for (std::size_t i = 0; i < hulls.size(); ++i) {
+    if (!inner[i]) outer.push_back(std::move(hulls[i]));
+  }
+  return outer;
+}
+
+}  // namespace
+
+ConvexScene convex_scene(std::span<const TriangleD> scene) {
+  const Welded mesh = welded(scene);
+  const std::vector<std::vector<std::uint32_t>> parts = scene_parts(mesh);
+  std::vector<Found> found(parts.size());
+  parallel_for(std::int64_t(parts.size()),
+               [&](std::int64_t i) { found[std::size_t(i)] = convex_part(mesh, parts[std::size_t(i)]); });
+  ConvexScene out;
+  std::vector<char> taken(scene.size(), 0);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (found[i].corners.empty()) continue;
+    for (const std::uint32_t f : parts[i]) taken[f] = 1;
+    out.parts.push_back(std::move(found[i].corners));
+    out.volume += found[i].volume;
+  }
+  for (std::size_t f = 0; f < scene.size(); ++f) {
+    if (!taken[f]) out.rest.push_back(scene[f]);
+  }
+  return out;
+}
+
+std::vector<ConvexHull> hulls_around(const ConvexScene& scene, const GridFrame& frame, std::size_t corners) {
+  std::vector<ConvexHull> hulls(scene.parts.size());
+  parallel_for(std::int64_t(hulls.size()), [&](std::int64_t i) {
+    std::vector<Vec3d> points;
+    for (const Vec3d& p : scene.parts[std::size_t(i)]) points.push_back(frame.to_lattice(p));
+    ConvexHull& hull = hulls[std::size_t(i)];
+    hull = with_fewer_corners(outward_hull(points), corners, kFlatSides);
+    draw_diagonals(hull);
+  });
+  return outer_hulls(std::move(hulls));
+}
+
+}  // namespace bp

@@ -1,0 +1,108 @@
+#include "tools/lod/collision/nearer_hulls.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "io/store/scratch.h"
+#include "io/stream/brick_shelf.h"
+#include "lib/grid/shelf_stream.h"
+#include "lib/hulls/convex_budget.h"
+#include "lib/hulls/convex_scene.h"
+#include "tools/lod/choices.h"
+#include "tools/lod/collision/collision_files.h"
+
+namespace bp {
+
+namespace {
+
+constexpr double kCounts = 0.05;  // of the body's volume: convex parts of less are not worth a body for the rest
+
+class RestSource final : public TriangleSource {
+ public:
+  explicit RestSource(const std::vector<TriangleD>& triangles) : triangles_(triangles) {}
+  bool read(std::vector<TriangleD>& out) override {
+    constexpr std::size_t kAtOnce = 16384;
+    const std::size_t end = std::min(next_ + kAtOnce, triangles_.size());
+    out.assign(triangles_.begin() + std::ptrdiff_t(next_), triangles_.begin() + std::ptrdiff_t(end));
+    next_ = end;
+    counts_.triangles = end;
+    return !out.empty();
+  }
+  void rewind() override { next_ = 0, counts_ = {}; }
+  [[nodiscard]] const SceneCounts& counts() const override { return counts_; }
+  [[nodiscard]] std::string name() const override { return "the rest of the scene"; }
+
+ private:
+  const std::vector<TriangleD>& triangles_;
+  std::size_t next_ = 0;
+  SceneCounts counts_;
+};
+
+/// The mesh in the frame of the voxels that `reductions` doublings led to its own.
+LatticeMesh in_finer_frame(LatticeMesh mesh, int reductions) {
+  const std::int64_t times = std::int64_t(1) << reductions;
+  mesh.frame.voxel /= double(times);
+  for (std::int64_t& x : mesh.frame.origin) x *= times;
+  for (LatticeCoord& v : mesh.vertices) v = v * times;
+  return mesh;
+}
+
+/// As the chain made the scene's: the same voxels, and the same target.
+LatticeMesh body_of_rest(Build& build, const MadeChain& chain, std::vector<TriangleD> rest, LodOptions lod) {
+  RestSource source(rest);
+  VoxelizeOptions v;
+  v.fill = build.options.voxels.fill;
+  v.up = chain.scene.header.frame.up;
+  v.context = build.context();
+  v.context.memory.bytes = build.budget.waiting;
+  v.context.make_scratch = [&] { return make_scratch(build.budget.store, build.options.common.temp); };
+  v.tile_memory_bytes = build.budget.tiles;
+  v.voxel_size = [&](const Bounds3d&) { return chain.scene.header.frame.voxel; };
+  std::unique_ptr<BrickShelf> solid = build.make_shelf();
+  ShelfSink sink(solid.get());
+  StreamHeader header;
+  voxelize_stream(
+      source,
+      [&](const StreamHeader& h, const VoxelizeCounts&) -> BrickSink& {
+        header = h;
+        return sink;
+      },
+      build.backends, v);
+  lod.scene = std::move(rest);
+  LodChain levels(header, std::move(solid), build.backends, std::move(lod));
+  LodLevel level = levels.make(chain.made.facts.front().target);
+  return in_finer_frame(std::move(level.mesh), level.reductions);
+}
+
+/// The scene's convex parts as they are, and the hulls of the rest.
+ConvexParts hulls_of_parts(Build& build, const MadeChain& chain, ConvexScene scene, HullLimits limits, LodOptions lod) {
+  LatticeMesh rest;
+  rest.frame = chain.scene.header.frame;
+  if (!scene.rest.empty()) rest = body_of_rest(build, chain, std::move(scene.rest), std::move(lod));
+  rest.provenance = chain.made.levels.front().mesh.provenance;
+  const std::vector<ConvexHull> given = hulls_around(scene, rest.frame, limits.corners);
+  if (build.options.levels.faces.empty()) limits.faces = std::max(limits.faces, face_count(given));
+  return convex_parts(rest, limits, given);
+}
+
+}  // namespace
+
+ConvexParts nearer_hulls(Build& build, const MadeChain& chain) {
+  const LatticeMesh& body = chain.made.levels.front().mesh;
+  HullLimits limits;
+  limits.hulls = std::size_t(build.options.hulls), limits.corners = std::size_t(build.options.hull_corners);
+  limits.faces = faces_of_hulls(build.options, body);
+  if (!asks_for_faces(request_of(build.options))) limits.loose_faces = kMostCollisionFaces;
+  ConvexParts of_body = convex_parts(body, limits);
+  if (build.enclosed() != Enclose::scene) return of_body;
+  LodOptions lod = build.lod_options();
+  ConvexScene scene = convex_scene(lod.scene);
+  const std::size_t most = most_hulls(limits, of_body.solids);
+  const bool counts = scene.rest.empty() || scene.volume > kCounts * chain.made.facts.front().volume;
+  if (scene.parts.empty() || !counts || scene.parts.size() > most_given(most)) return of_body;
+  limits.hulls = std::max(most, of_body.hulls.size());
+  ConvexParts of_parts = hulls_of_parts(build, chain, std::move(scene), limits, std::move(lod));
+  return volume_of(of_parts) <= volume_of(of_body) ? std::move(of_parts) : std::move(of_body);
+}
+
+}  // namespace bp
