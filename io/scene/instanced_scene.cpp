@@ -171,6 +171,7 @@ class InstancedSource final : public RawSource {
   [[nodiscard]] UnreadParts unread() const override { return scene_.unread; }
   [[nodiscard]] std::size_t animations() const override { return scene_.animations; }
   [[nodiscard]] std::uint64_t differing() const override { return scene_.differing; }
+  [[nodiscard]] Unfollowed unfollowed() const override { return scene_.unfollowed; }
   [[nodiscard]] std::uint64_t points() const override { return scene_.points; }
 
  private:

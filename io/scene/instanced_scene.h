@@ -80,6 +80,7 @@ struct InstancedScene {
   UnreadParts unread;
   std::uint64_t bad_faces = 0;  ///< met before, while the scene was put together
   std::uint64_t differing = 0;  ///< SceneCounts::differing
+  Unfollowed unfollowed;
 
   [[nodiscard]] std::uint64_t memory_bytes() const;  ///< of the description
 };

@@ -52,6 +52,7 @@ class RawSource {
   [[nodiscard]] virtual std::optional<UpAxis> up() const { return {}; }  ///< TriangleSource::up()
   [[nodiscard]] virtual std::size_t animations() const { return 0; }     ///< SceneCounts::animations
   [[nodiscard]] virtual std::uint64_t differing() const { return 0; }    ///< SceneCounts::differing
+  [[nodiscard]] virtual Unfollowed unfollowed() const { return {}; }     ///< SceneCounts::unfollowed
   [[nodiscard]] virtual UnreadParts unread() const { return {}; }        ///< of contents of tiles; others tell nothing
   [[nodiscard]] virtual Rounding rounding() const { return {}; }         ///< SceneCounts::rounding, of what was read
   [[nodiscard]] virtual std::size_t levels() const { return 1; }    ///< of the file: SceneOptions::level is one of them

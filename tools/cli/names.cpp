@@ -41,6 +41,9 @@ std::string skipped(const SceneCounts& c) {
   add(c.non_finite, "non-finite triangle");
   add(c.bad_faces, "bad face");
   if (c.differing > 0) text += (text.empty() ? "" : "; ") + held_twice(c.differing);
+  if (c.unfollowed.any())
+    text += (text.empty() ? "" : "; ") + not_followed(c.unfollowed) +
+            ": read without, and programs may draw them elsewhere; glTF is read with them";
   if (c.animations > 0) text += (text.empty() ? "" : "; ") + counted(c.animations, "animation") + " not followed";
   return text;
 }
