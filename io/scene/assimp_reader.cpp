@@ -302,6 +302,11 @@ RawSourcePtr open_with_assimp(SceneFilePtr file, const std::string& extension, c
     fail(ErrorCode::bad_input, "{}: has {} MiB, and .{} files are read only up to {} MiB; {}", file->name(),
          file->size() >> 20, extension, kMaxFileBytes >> 20, remedy_for(file->name()));
   }
+  if (extension == "ifc") {
+    std::string start(4096, '\0');
+    start.resize(file->read_at(0, std::as_writable_bytes(std::span(start))));
+    refuse_ifc_schema(file->name(), start);
+  }
   const auto scratch = std::make_shared<ScratchFile>(temp_dir_of(options));
   const ChildLimits limits = limits_for(file->size(), options.document);
   const std::string importer = "the importer of ." + extension + " files";

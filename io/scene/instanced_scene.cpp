@@ -173,6 +173,7 @@ class InstancedSource final : public RawSource {
   [[nodiscard]] std::uint64_t differing() const override { return scene_.differing; }
   [[nodiscard]] Unfollowed unfollowed() const override { return scene_.unfollowed; }
   [[nodiscard]] std::uint64_t points() const override { return scene_.points; }
+  [[nodiscard]] std::uint64_t lines() const override { return scene_.lines; }
 
  private:
   static constexpr std::size_t kWindow = 3 * 1024;  // indices at a time: whole triangles, within a cache block

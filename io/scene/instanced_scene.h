@@ -77,6 +77,7 @@ struct InstancedScene {
   std::size_t levels = 1;      ///< that the file has, of which this is one
   std::size_t animations = 0;  ///< that the file has; none is followed
   std::uint64_t points = 0;    ///< vertices of primitives that are points; they are not read
+  std::uint64_t lines = 0;     ///< primitives that are lines; they are not read
   UnreadParts unread;
   std::uint64_t bad_faces = 0;  ///< met before, while the scene was put together
   std::uint64_t differing = 0;  ///< SceneCounts::differing

@@ -57,6 +57,7 @@ class RawSource {
   [[nodiscard]] virtual Rounding rounding() const { return {}; }         ///< SceneCounts::rounding, of what was read
   [[nodiscard]] virtual std::size_t levels() const { return 1; }    ///< of the file: SceneOptions::level is one of them
   [[nodiscard]] virtual std::uint64_t points() const { return 0; }  ///< vertices read so far, where they are counted
+  [[nodiscard]] virtual std::uint64_t lines() const { return 0; }   ///< elements met, where they are counted
   [[nodiscard]] std::uint64_t bad_faces() const {
     return bad_faces_;
   }  ///< since the last rewind; not those of complete()

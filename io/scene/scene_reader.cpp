@@ -157,8 +157,8 @@ class FilteredScene final : public TriangleSource {
     counts_.rounding = raw_->rounding();
     const SceneCounts& c = counts_;  // at the end; whoever names a file of points wants them enclosed
     if (!some_parts_ && batch_->triangles.empty() && c.triangles + c.degenerate + c.non_finite + c.bad_faces == 0 &&
-        raw_->points() > 0)
-      refuse_points(name_, raw_->points());
+        raw_->points() + raw_->lines() > 0)
+      refuse_points(name_, raw_->points(), raw_->lines());
     return !batch_->triangles.empty();
   }
 
