@@ -37,8 +37,7 @@ std::string left_out_lines(const SceneCounts& c, const std::string& indent) {
 std::string partial_scene(const SceneCounts& c) {
   if (c.non_finite + c.bad_faces > 0) return "surfaces of the scene were left out, and nothing is proven of them";
   if (c.differing > 0) return "the scene's files hold " + held_twice(c.differing);
-  return "programs may draw the scene elsewhere than it was read: " + not_followed(c.unfollowed) +
-         "; write it as glTF, whose nodes, skins and morph targets are followed";
+  return "programs may draw the scene elsewhere than it was read: " + not_followed(c.unfollowed);
 }
 
 }  // namespace bp

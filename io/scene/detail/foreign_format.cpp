@@ -104,8 +104,9 @@ void refuse_ifc_schema(const std::string& name, const std::string& first_bytes) 
 void refuse_points(const std::string& name, std::uint64_t points, std::uint64_t lines) {
   if (lines > 0)
     fail(ErrorCode::bad_input,
-         "{}: no triangles: {} line{}; lines have no surface; give them a thickness (in Blender: Convert to Mesh, with "
-         "a bevel), and export faces",
+         "{}: no triangles: {} line{}; lines need a thickness first: in Blender, Convert to Mesh with a bevel gives "
+         "them "
+         "one",
          name, lines, lines == 1 ? "" : "s");
   fail(ErrorCode::bad_input, "{}: no triangles: {} point{}; a point cloud needs a surface first; {}", name, points,
        points == 1 ? "" : "s", kSurface);

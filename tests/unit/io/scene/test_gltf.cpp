@@ -80,7 +80,7 @@ TEST_CASE("glTF strips, fans and plain corners become triangles", "[quick][io]")
   }
   SECTION("lines alone, which are no surface") {
     d.node({{"mesh", d.mesh(d.quad(), -1, 3)}});
-    CHECK_THROWS_WITH(read_glb(d), Contains("1 line; lines have no surface"));
+    CHECK_THROWS_WITH(read_glb(d), Contains("1 line; lines need a thickness first"));
   }
   SECTION("points alone, which are no surface") {
     d.node({{"mesh", d.mesh(d.quad(), -1, 0)}});
