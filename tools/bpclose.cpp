@@ -178,6 +178,8 @@ void run(Options o) {
   const bp::ScalePlan plan = scale_plan(o, source);
   const bp::ScaleField& field = plan.field;
   for (const std::string& text : bp::scale_notes(plan, source.header())) report.note(text, o.common);
+  if (const std::string text = bp::scale_share_note(o.closing.scale, source.header().bounds); !text.empty())
+    report.note(text, o.common);
   const bp::ClosingParams params = closing_params(o, source.header());
   if (source.header().has_field && !source.header().orientation.empty() && !params.turned())
     report.note("balls cannot be turned; the orientation of the stream changes nothing", o.common);

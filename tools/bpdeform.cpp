@@ -6,6 +6,7 @@
 #include "tools/cli/run_tool.h"
 #include "tools/deform/apply.h"
 #include "tools/deform/bind.h"
+#include "tools/run/inputs.h"
 #include "tools/run/make_backend.h"
 #include "tools/run/scene_budget.h"
 
@@ -37,6 +38,7 @@ void check(const Options& o, bp::Args& args) {
   if (args.given("--animate") && (o.command == "bind" || !(o.per_second > 0 && o.per_second <= kMostPerSecond)))
     fail(ErrorCode::bad_argument, "--animate belongs to apply, and takes a number above 0, up to {}", kMostPerSecond);
   if (o.out.empty()) fail(ErrorCode::bad_argument, "name the output with --output");
+  if (o.command == "bind") bp::check_weights_name(o.out);
   for (const char* option : {"--outside", "--coordinates", "--device"}) {
     if (o.command == "apply" && args.given(option)) fail(ErrorCode::bad_argument, "{} belongs to bind", option);
   }

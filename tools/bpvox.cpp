@@ -17,6 +17,7 @@
 #include "tools/cli/run_tool.h"
 #include "tools/notes/estimate.h"
 #include "tools/notes/proportion.h"
+#include "tools/notes/scene_notes.h"
 #include "tools/notes/up_note.h"
 #include "tools/run/inputs.h"
 #include "tools/run/make_backend.h"
@@ -63,6 +64,7 @@ bp::OptionText option_text(const Options& o, bp::UpAxis up, bool told) {
 
 /// Asked for when the scene has been read once.
 double voxel_size(const Options& o, const bp::Bounds3d& bounds) {
+  if (o.voxels.resolution) bp::question_resolution(*o.voxels.resolution, bounds);
   if (!o.voxels.voxel) return bp::voxel_size_of(bounds, o.voxels.resolution.value_or(bp::kDefaultResolution));
   bp::question_voxel("--voxel", *o.voxels.voxel, bounds);
   return o.voxels.voxel->in_world(bounds.diagonal(), 0);
@@ -120,8 +122,7 @@ void fill_report(bp::Report& report, const Options& o, const bp::StreamHeader& h
         fmt::format("the voxel size was rounded from {} to {}, so that every vertex of a proxy is an exact double",
                     c.voxel_asked, header.frame.voxel));
   }
-  if (const std::string text = bp::reading_note(c.scene, header.frame.voxel); !text.empty())
-    report.note(text, o.common);
+  for (const std::string& text : bp::scene_notes(c, header)) report.note(text, o.common);
   if (c.open_columns > 0) {
     report.note(fmt::format("{} columns of voxels cross an open or inconsistently oriented surface; the flood decided "
                             "there, and elsewhere the inside may be missing; --fill flood needs no orientation",

@@ -253,6 +253,7 @@ void SceneBuilder::add_primitive(const GltfObject& p, const Moved& moved) {
   const GltfObject attributes = p.object("attributes");
   if (!attributes.has("POSITION")) return;
   if (mode == 0) scene_.points += root_.item("accessors", attributes.number("POSITION")).number("count", 0);
+  if (mode > 0 && mode < kTriangles) ++scene_.lines;
   if (mode < kTriangles) return;  // points and lines
   if (walls_only_ && p.has("material") && materials_.see_through(p.number("material"))) return;
   Primitive primitive;

@@ -1,3 +1,4 @@
+#include <assimp/config.h>
 #include <assimp/material.h>
 #include <assimp/scene.h>
 
@@ -10,8 +11,9 @@
 #include <utility>
 
 #include "io/files/kept_files.h"
+#include "io/scene/detail/assimp_answer.h"
+#include "io/scene/detail/assimp_bones.h"
 #include "io/scene/detail/assimp_files.h"
-#include "io/scene/detail/assimp_textures.h"
 #include "io/scene/detail/child_process.h"
 #include "io/scene/detail/exact/exact_scene.h"
 #include "io/scene/detail/foreign_format.h"
@@ -35,10 +37,6 @@ std::string remedy_for(const std::string& name) {
   const std::string way = foreign_way(name);
   return way.empty() ? "convert it to GLB, PLY or OBJ" : way;
 }
-
-/// Assimp keeps coordinates and matrices as float32, and its importers compute in it: sixteen roundings are allowed for
-/// each number. None of them is known to take more.
-constexpr double kImporterShare = 16 * 0x1p-24;
 
 constexpr std::uint64_t kAnswerCopies = 4;  // of what the child sends, and what is made of it
 
@@ -68,81 +66,6 @@ ChildLimits limits_for(std::uint64_t file_bytes, const MemoryShare& budget) {
               {Remedy::more_memory}, budget.limit_with(wanted - budget.bytes));
 }
 
-// --- What the child sends: plain records, counted
-// ----------------------------------------------------------------------
-
-struct MeshRecord {
-  std::uint64_t positions = 0, vertices = 0, indices = 0, triangles = 0;  // addresses in the scratch file, and counts
-  std::uint64_t colors = Accessor::kZeros;                                // address; kZeros: the vertices have none
-  std::array<double, 3> base_color{1, 1, 1};
-  bool is_exact = false;  // positions are doubles; else float32
-  double off = 0;         // of such doubles
-  TextureRecord texture;
-};
-struct NodeRecord {
-  using Numbers = std::array<std::array<double, 4>, 3>;
-  Numbers m{}, off{};  // of the transform
-  std::uint64_t mesh = 0;
-
-  NodeRecord() = default;
-  NodeRecord(const Affine& transform, std::uint64_t shown) : m(transform.m), mesh(shown) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t j = 0; j < 4; ++j) off[i][j] = transform.off(i, j);
-    }
-  }
-  [[nodiscard]] Affine transform() const {
-    Affine a;
-    a.m = m;
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t j = 0; j < 4; ++j) a.off.set(i, j, off[i][j]);
-    }
-    return a;
-  }
-};
-struct Summary {
-  std::uint64_t bytes = 0, bad_faces = 0;  // of the scratch file; faces whose corners do not exist
-  std::vector<MeshRecord> meshes;
-  std::vector<NodeRecord> nodes;
-  std::string parts;     // names of the other files that were read, each with a zero after it
-  std::string textures;  // names of images
-};
-
-template <class T>
-void append(std::string& to, const T* from, std::size_t n) {
-  static_assert(std::is_trivially_copyable_v<T>);
-  to.append(reinterpret_cast<const char*>(from), n * sizeof(T));
-}
-
-std::string packed(const Summary& s) {
-  const std::uint64_t counts[] = {s.bytes,        s.bad_faces,    s.meshes.size(),
-                                  s.nodes.size(), s.parts.size(), s.textures.size()};
-  std::string bytes;
-  append(bytes, counts, std::size(counts));
-  append(bytes, s.meshes.data(), s.meshes.size());
-  append(bytes, s.nodes.data(), s.nodes.size());
-  return bytes + s.parts + s.textures;
-}
-
-Summary unpacked(const std::string& bytes, const std::string& name) {
-  std::uint64_t counts[6] = {};
-  if (bytes.size() >= sizeof counts) std::memcpy(counts, bytes.data(), sizeof counts);
-  if (bytes.size() !=
-      sizeof counts + counts[2] * sizeof(MeshRecord) + counts[3] * sizeof(NodeRecord) + counts[4] + counts[5])
-    fail(ErrorCode::failed, "{}: the importer's process sent a garbled answer", name);
-  Summary s{counts[0],
-            counts[1],
-            std::vector<MeshRecord>(counts[2]),
-            std::vector<NodeRecord>(counts[3]),
-            bytes.substr(bytes.size() - counts[4] - counts[5], counts[4]),
-            bytes.substr(bytes.size() - counts[5])};
-  const char* const meshes = bytes.data() + sizeof counts;
-  if (!s.meshes.empty()) std::memcpy(s.meshes.data(), meshes, counts[2] * sizeof(MeshRecord));
-  if (!s.nodes.empty())
-    std::memcpy(static_cast<void*>(s.nodes.data()), meshes + counts[2] * sizeof(MeshRecord),
-                counts[3] * sizeof(NodeRecord));
-  return s;
-}
-
 // --- In the child
 // --------------------------------------------------------------------------------------------------------
 
@@ -163,7 +86,9 @@ class SceneUnloader {
       if (colors_) add_colors(*scene.mMeshes[i], scene);
       if (wants_textures_) summary_.meshes.back().texture = textures_.unload(*scene.mMeshes[i], scene);
     }
-    if (scene.mRootNode != nullptr) add_nodes(*scene.mRootNode);
+    if (exact_ != nullptr) summary_.unfollowed = exact_->unfollowed;
+    if (scene.mRootNode != nullptr) add_nodes(scene);
+    summary_.animations = scene.mNumAnimations;
     summary_.textures = textures_.names();
     summary_.bytes = scratch_.size();
     return std::move(summary_);
@@ -175,13 +100,13 @@ class SceneUnloader {
     const ExactNode* exact;  // null: not known
     Affine parent;
   };
-  static Affine affine(const aiMatrix4x4& m);
   static bool see_through(const aiMesh& mesh, const aiScene& scene);
   void add_mesh(const aiMesh& mesh, bool passed_over);
   void add_positions(const aiMesh& mesh, const ExactMesh* exact);
   void add_colors(const aiMesh& mesh, const aiScene& scene);
   void add_face(const aiFace& face, unsigned vertices, std::vector<std::uint32_t>& indices);
-  void add_nodes(const aiNode& root);
+  void add_nodes(const aiScene& scene);
+  void follow_bones(const aiScene& scene, const BonePlaces& places);
 
   ScratchFile& scratch_;
   const ExactScene* const exact_;
@@ -189,20 +114,6 @@ class SceneUnloader {
   TextureUnloader textures_;
   Summary summary_;
 };
-
-/// A matrix that only swaps and turns axes is exact. The zeros of others may be sines and cosines that were rounded.
-Affine SceneUnloader::affine(const aiMatrix4x4& m) {
-  Affine a;
-  a.m = {{{m.a1, m.a2, m.a3, m.a4}, {m.b1, m.b2, m.b3, m.b4}, {m.c1, m.c2, m.c3, m.c4}}};
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double sum = std::abs(a.m[i][0]) + std::abs(a.m[i][1]) + std::abs(a.m[i][2]);
-    const double largest = std::max({std::abs(a.m[i][0]), std::abs(a.m[i][1]), std::abs(a.m[i][2])});
-    const bool exact = sum == 1 && largest == 1;
-    for (std::size_t j = 0; j < 3; ++j) a.off.set(i, j, exact ? 0 : kImporterShare * largest);
-    a.off.set(i, 3, kImporterShare * std::abs(a.m[i][3]));
-  }
-  return a;
-}
 
 bool SceneUnloader::see_through(const aiMesh& mesh, const aiScene& scene) {
   float opacity = 1;
@@ -255,22 +166,44 @@ void SceneUnloader::add_face(const aiFace& face, unsigned vertices, std::vector<
     indices.insert(indices.end(), {face.mIndices[0], face.mIndices[k - 1], face.mIndices[k]});
 }
 
-void SceneUnloader::add_nodes(const aiNode& root) {
-  std::vector<Pending> stack{{&root, exact_ == nullptr ? nullptr : &exact_->root, Affine()}};
+void SceneUnloader::add_nodes(const aiScene& scene) {
+  const bool has_bones =
+      std::any_of(scene.mMeshes, scene.mMeshes + scene.mNumMeshes, [](const aiMesh* m) { return m->HasBones(); });
+  BonePlaces places;
+  std::vector<Pending> stack{{scene.mRootNode, exact_ == nullptr ? nullptr : &exact_->root, Affine()}};
   while (!stack.empty()) {
     Pending next = stack.back();
     stack.pop_back();
-    if (next.exact != nullptr && !is_rounded(*next.exact, *next.node)) next.exact = nullptr;
-    const Affine transform =
-        next.parent * (next.exact != nullptr ? next.exact->transform : affine(next.node->mTransformation));
+    if (next.exact != nullptr && !is_rounded(*next.exact, *next.node)) {
+      next.exact = nullptr;
+      if (exact_->knows_nodes) ++summary_.unfollowed.transforms;  // once for all nodes below
+    }
+    const Affine transform = next.parent * (next.exact != nullptr ? next.exact->transform : rounded_affine(*next.node));
+    if (has_bones) places.add(*next.node, transform);
     for (unsigned k = 0; k < next.node->mNumMeshes; ++k)
       summary_.nodes.emplace_back(transform, std::uint64_t(next.node->mMeshes[k]));
     for (unsigned k = next.node->mNumChildren; k-- > 0;)
       stack.push_back({next.node->mChildren[k], next.exact == nullptr ? nullptr : &next.exact->children[k], transform});
   }
+  follow_bones(scene, places);
 }
 
-/// None if there is no room for it: then what Assimp says must do.
+/// Of COLLADA's morph targets Assimp knows too little; a reader of our own has counted them.
+void SceneUnloader::follow_bones(const aiScene& scene, const BonePlaces& places) {
+  const bool knows_morphs = exact_ != nullptr && exact_->knows_nodes;
+  for (NodeRecord& node : summary_.nodes) {
+    const aiMesh& mesh = *scene.mMeshes[node.mesh];
+    if (!knows_morphs && is_morphed(mesh)) ++summary_.unfollowed.morphs;
+    if (!mesh.HasBones()) continue;
+    Affine place = node.transform();
+    if (places.hold(mesh, place))
+      node = NodeRecord(place, node.mesh);
+    else
+      ++summary_.unfollowed.skins;
+  }
+}
+
+/// None if there is no room for it: then what Assimp says must do, and nothing is proven of COLLADA.
 std::optional<ExactScene> read_exactly(const SceneFile& file, const std::string& extension) {
   const bool collada = extension == "dae", ac3d = extension == "ac" || extension == "acc" || extension == "ac3d";
   if (!collada && !ac3d) return {};
@@ -279,7 +212,9 @@ std::optional<ExactScene> read_exactly(const SceneFile& file, const std::string&
     file.read_at(0, std::as_writable_bytes(std::span(text)));
     return collada ? exact_collada(std::move(text)) : exact_ac3d(text);
   } catch (const std::bad_alloc&) {
-    return {};
+    ExactScene nothing;
+    nothing.knows_nodes = collada;
+    return nothing;
   }
 }
 
@@ -293,8 +228,11 @@ std::string import(const SceneFilePtr& file, const std::string& extension, Scrat
   const std::string name = named ? path : path + suffix;
   std::string parts;  // outlives the importer
   const std::optional<ExactScene> exact = read_exactly(*file, extension);
+  if (exact && exact->unread != nullptr)
+    fail(ErrorCode::bad_input, "{}: {}; export it as glTF (GLB)", file->name(), exact->unread);
   Assimp::Importer importer;
   importer.SetIOHandler(new SceneFileSystem(file, name, parts));
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);  // bones alone are no surface
   const aiScene* const scene = importer.ReadFile(name, 0);
   if (scene == nullptr) {
     if (std::strstr(importer.GetErrorString(), "bad_alloc") != nullptr) throw std::bad_alloc();  // it was caught
@@ -339,6 +277,8 @@ InstancedScene scene_of(const Summary& summary, SceneFilePtr bytes, const std::s
   InstancedScene scene;
   scene.bytes = std::move(bytes);
   scene.bad_faces = summary.bad_faces;
+  scene.animations = summary.animations;
+  scene.unfollowed = summary.unfollowed;
   for (const MeshRecord& mesh : summary.meshes) {
     scene.primitives.push_back(primitive_of(mesh));
     if (textures != nullptr)
@@ -361,6 +301,11 @@ RawSourcePtr open_with_assimp(SceneFilePtr file, const std::string& extension, c
   if (file->size() > kMaxFileBytes) {
     fail(ErrorCode::bad_input, "{}: has {} MiB, and .{} files are read only up to {} MiB; {}", file->name(),
          file->size() >> 20, extension, kMaxFileBytes >> 20, remedy_for(file->name()));
+  }
+  if (extension == "ifc") {
+    std::string start(4096, '\0');
+    start.resize(file->read_at(0, std::as_writable_bytes(std::span(start))));
+    refuse_ifc_schema(file->name(), start);
   }
   const auto scratch = std::make_shared<ScratchFile>(temp_dir_of(options));
   const ChildLimits limits = limits_for(file->size(), options.document);

@@ -176,7 +176,9 @@ class InstancedSource final : public RawSource {
   [[nodiscard]] std::size_t animations() const override { return scene_.animations; }
   [[nodiscard]] std::uint64_t posed() const override { return scene_.posed; }
   [[nodiscard]] std::uint64_t differing() const override { return scene_.differing; }
+  [[nodiscard]] Unfollowed unfollowed() const override { return scene_.unfollowed; }
   [[nodiscard]] std::uint64_t points() const override { return scene_.points; }
+  [[nodiscard]] std::uint64_t lines() const override { return scene_.lines; }
 
  private:
   static constexpr std::size_t kWindow = 3 * 1024;  // indices at a time: whole triangles, within a cache block

@@ -78,10 +78,12 @@ struct InstancedScene {
   std::size_t animations = 0;  ///< that the file has; none is followed
   std::uint64_t posed = 0;     ///< SceneCounts::posed
   std::uint64_t points = 0;    ///< vertices of primitives that are points; they are not read
+  std::uint64_t lines = 0;     ///< primitives that are lines; they are not read
   UnreadParts unread;
   std::uint64_t bad_faces = 0;       ///< met before, while the scene was put together
   std::uint64_t differing = 0;       ///< SceneCounts::differing
   std::uint64_t document_bytes = 0;  ///< of SceneOptions::document, while the scene was put together
+  Unfollowed unfollowed;
 
   [[nodiscard]] std::uint64_t memory_bytes() const;  ///< of the description
 };

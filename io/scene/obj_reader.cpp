@@ -44,7 +44,9 @@ class ObjSource final : public PolygonSource {
   [[nodiscard]] std::uint32_t face_material() const override { return texture_; }
   [[nodiscard]] std::array<float, 2> corner_uv(std::size_t k) override;
   [[nodiscard]] PackedNormal corner_normal(std::size_t k) override;
+  [[nodiscard]] std::uint64_t lines() const override { return lines_; }
   void rewind_faces() override {
+    lines_ = 0;
     text_.seek({});
     seen_ = seen_places_ = seen_normals_ = 0;
     texture_ = TriangleTexture::kNoMaterial;
@@ -55,8 +57,8 @@ class ObjSource final : public PolygonSource {
     fits_ = {};
   }
 
-  /// Consumes the keyword: 'v', 'f', 'o' or 'g' if that is all of it, 't' for "vt", 'n' for "vn", 's' for "surf", 'u'
-  /// for "usemtl" and 'm' for "mtllib", 0 for any other, comments included.
+  /// Consumes the keyword: 'v', 'f', 'l', 'o' or 'g' if that is all of it, 't' for "vt", 'n' for "vn", 's' for "surf",
+  /// 'u' for "usemtl" and 'm' for "mtllib", 0 for any other, comments included.
   static char keyword(TextScanner& text);
   [[nodiscard]] bool is_wanted() const { return parts_.takes_all() || fits_.object || fits_.group || fits_.material; }
   void read_vertex(TextScanner& text);
@@ -92,6 +94,7 @@ class ObjSource final : public PolygonSource {
   } fits_;                                                       // parts_, of what the next faces belong to
   bool passed_over_ = false;                                     // faces of the current material
   std::uint64_t seen_ = 0, seen_places_ = 0, seen_normals_ = 0;  // "v", "vt" and "vn" lines of this pass
+  std::uint64_t lines_ = 0;                                      // "l" lines of this pass
   bool all_loaded_ = false;                                      // the pool holds every vertex of the file
 };
 
@@ -112,6 +115,8 @@ bool ObjSource::next_face(std::vector<std::uint64_t>& corners) {
       const std::string name = text_.rest_of_line();
       if (parts_.asks()) use_name(key, name);
       if (key == 'u' || key == 'm') use_material(key, name);
+    } else if (key == 'l') {
+      ++lines_;
     } else if (key == 's' && !passed_over_ && is_wanted()) {
       corners.clear();  // a face without corners
       text_.next_line();
@@ -129,7 +134,7 @@ bool ObjSource::next_face(std::vector<std::uint64_t>& corners) {
 
 char ObjSource::keyword(TextScanner& text) {
   const char first = text.peek();
-  if (std::string_view("vfumogs").find(first) == std::string_view::npos) return 0;
+  if (std::string_view("vfumogsl").find(first) == std::string_view::npos) return 0;
   const std::string_view word = text.word();
   if (word == "vt") return 't';
   if (word == "vn") return 'n';

@@ -53,10 +53,12 @@ class RawSource {
   [[nodiscard]] virtual std::size_t animations() const { return 0; }     ///< SceneCounts::animations
   [[nodiscard]] virtual std::uint64_t posed() const { return 0; }        ///< SceneCounts::posed
   [[nodiscard]] virtual std::uint64_t differing() const { return 0; }    ///< SceneCounts::differing
+  [[nodiscard]] virtual Unfollowed unfollowed() const { return {}; }     ///< SceneCounts::unfollowed
   [[nodiscard]] virtual UnreadParts unread() const { return {}; }        ///< of contents of tiles; others tell nothing
   [[nodiscard]] virtual Rounding rounding() const { return {}; }         ///< SceneCounts::rounding, of what was read
   [[nodiscard]] virtual std::size_t levels() const { return 1; }    ///< of the file: SceneOptions::level is one of them
   [[nodiscard]] virtual std::uint64_t points() const { return 0; }  ///< vertices read so far, where they are counted
+  [[nodiscard]] virtual std::uint64_t lines() const { return 0; }   ///< elements met, where they are counted
   [[nodiscard]] std::uint64_t bad_faces() const {
     return bad_faces_;
   }  ///< since the last rewind; not those of complete()

@@ -68,6 +68,7 @@ IndexedMesh mesh_of(const std::string& name, RawSource& raw, const SceneOptions&
   met.kept_degenerate = met.degenerate;
   met.bad_faces += raw.bad_faces();
   met.differing = raw.differing();
+  met.unfollowed = raw.unfollowed();
   met.instances = raw.instances();
   mesh.bad_faces = met.bad_faces, mesh.differing = met.differing;
   met.rounding = raw.rounding();
@@ -153,11 +154,12 @@ class FilteredScene final : public TriangleSource {
     counts_.animations = raw_->animations();
     counts_.posed = raw_->posed();
     counts_.differing = raw_->differing();
+    counts_.unfollowed = raw_->unfollowed();
     counts_.rounding = raw_->rounding();
     const SceneCounts& c = counts_;  // at the end; whoever names a file of points wants them enclosed
     if (!some_parts_ && batch_->triangles.empty() && c.triangles + c.degenerate + c.non_finite + c.bad_faces == 0 &&
-        raw_->points() > 0)
-      refuse_points(name_, raw_->points());
+        raw_->points() + raw_->lines() > 0)
+      refuse_points(name_, raw_->points(), raw_->lines());
     return !batch_->triangles.empty();
   }
 

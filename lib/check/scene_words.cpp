@@ -8,6 +8,18 @@ std::string held_twice(std::uint64_t differing) {
   return counted(differing, "mesh part") + " twice, plain and compressed, and not alike: programs may read either";
 }
 
+std::string not_followed(const Unfollowed& u) {
+  std::string all;
+  const auto add = [&](std::uint64_t n, const char* one, const char* rest) {
+    if (n > 0) all += (all.empty() ? "" : ", ") + counted(n, one) + rest;
+  };
+  add(u.skins, "mesh part", " in a pose of joints");
+  add(u.morphs, "mesh part", " with a morph target");
+  add(u.transforms, "node", " whose transform programs read in different ways (lookat, rotate)");
+  add(u.missing, "shape", " that is not read (in another file, or a solid)");
+  return all;
+}
+
 std::string left_out_lines(const SceneCounts& c, const std::string& indent) {
   std::string text, all;
   const auto add = [&](std::uint64_t n, const std::string& what) {
@@ -18,12 +30,14 @@ std::string left_out_lines(const SceneCounts& c, const std::string& indent) {
   add(c.bad_faces, counted(c.bad_faces, "face") + " that cannot be read");
   if (!all.empty()) text = indent + "left out: " + all + "\n";
   if (c.differing > 0) text += indent + "its files hold " + held_twice(c.differing) + "\n";
+  if (c.unfollowed.any()) text += indent + "not followed: " + not_followed(c.unfollowed) + "\n";
   return text;
 }
 
 std::string partial_scene(const SceneCounts& c) {
-  return c.non_finite + c.bad_faces > 0 ? "surfaces of the scene were left out, and nothing is proven of them"
-                                        : "the scene's files hold " + held_twice(c.differing);
+  if (c.non_finite + c.bad_faces > 0) return "surfaces of the scene were left out, and nothing is proven of them";
+  if (c.differing > 0) return "the scene's files hold " + held_twice(c.differing);
+  return "programs may draw the scene elsewhere than it was read: " + not_followed(c.unfollowed);
 }
 
 }  // namespace bp

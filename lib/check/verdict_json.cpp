@@ -43,6 +43,9 @@ Json scene_json(const CheckReport& r) {
       {"not_flat", {{"polygons", r.bent}, {"not_proven_over_other_diagonals", r.bent_open}}},
       {"instances", c.instances},
       {"animations", c.animations}};
+  if (const Unfollowed& u = c.unfollowed; u.any())
+    scene["not_followed"] = {
+        {"skins", u.skins}, {"morphs", u.morphs}, {"transforms", u.transforms}, {"missing", u.missing}};
   if (c.rounding.any()) scene["rounding"] = c.rounding.most;
   return scene;
 }

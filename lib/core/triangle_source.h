@@ -51,6 +51,20 @@ struct Rounding {
   static constexpr double kRoundUp = 1 + 0x1p-40;          // covers the rounding of the bound itself
 };
 
+/// What the files of a scene say of their meshes that no reader follows: programs may draw these elsewhere, or draw
+/// more.
+struct Unfollowed {
+  std::uint64_t skins = 0;       ///< meshes that joints have moved or bent
+  std::uint64_t morphs = 0;      ///< meshes with morph targets that show
+  std::uint64_t transforms = 0;  ///< nodes whose transform is read in different ways
+  std::uint64_t missing = 0;     ///< instances of what is not read, or in another file
+
+  [[nodiscard]] bool any() const { return skins + morphs + transforms + missing > 0; }
+  void add(const Unfollowed& u) {
+    skins += u.skins, morphs += u.morphs, transforms += u.transforms, missing += u.missing;
+  }
+};
+
 /// What a source met on its way. Skipped triangles are counted, never silently lost.
 struct SceneCounts {
   std::uint64_t triangles = 0;        ///< delivered
@@ -64,16 +78,17 @@ struct SceneCounts {
   std::uint64_t animations = 0;  ///< that the files have; none is followed
   std::uint64_t posed = 0;       ///< meshes with a skin or morph targets, which stand as the files show them
   Rounding rounding;             ///< of coordinates; final once all triangles were read
+  Unfollowed unfollowed;
   void add(const SceneCounts& c) {
     triangles += c.triangles, non_finite += c.non_finite;
     degenerate += c.degenerate, kept_degenerate += c.kept_degenerate;
     bad_faces += c.bad_faces, differing += c.differing, instances += c.instances, animations += c.animations;
     posed += c.posed;
-    rounding.add(c.rounding);
+    rounding.add(c.rounding), unfollowed.add(c.unfollowed);
   }
   [[nodiscard]] bool has_area() const { return triangles > kept_degenerate; }
   /// Whether the files hold surfaces that were not delivered, or perhaps not as other programs read them.
-  [[nodiscard]] bool is_partial() const { return non_finite + bad_faces + differing > 0; }
+  [[nodiscard]] bool is_partial() const { return non_finite + bad_faces + differing > 0 || unfollowed.any(); }
 };
 
 class TriangleSource {

@@ -64,7 +64,7 @@ set(rules
 # Tests may ask them for a second opinion: the reference reader is written from the format document alone.
 set(foreign
   "assimp/:^io/"
-  "pugixml:^io/scene/detail/exact/collada\\.cpp$"
+  "pugixml:^io/scene/detail/exact/collada_xml\\.h$"
   "zstd:^(io|tests)/"
   "xxhash:^(lib/store/content_hash\\.cpp$|io/|tests/)"
   "png.h:^(io|tests)/"

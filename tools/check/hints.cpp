@@ -125,6 +125,10 @@ std::string memory_hint(const std::vector<CheckReport>& verdicts, const MemorySh
 }
 
 std::string rounding_hint(const std::string& scene, const std::vector<CheckReport>& verdicts) {
+  const bool follows = std::none_of(verdicts.begin(), verdicts.end(), [](const CheckReport& r) {
+    return r.answer() == Answer::undecided && r.scene_counts.unfollowed.any();
+  });
+  if (!follows) return fmt::format("write {} as glTF, whose nodes, skins and morph targets are followed", scene);
   const bool is_open = std::any_of(verdicts.begin(), verdicts.end(), [](const CheckReport& r) {
     return r.answer() == Answer::undecided && r.within_rounding.count > 0;
   });

@@ -38,7 +38,8 @@ namespace bp {
 /// The same as enclosure_hint() of a content of a tileset.
 [[nodiscard]] std::string fit_hint(const std::string& content);
 
-/// What helps where a question is open because coordinates were rounded when they were read; else empty.
+/// What helps where a question is open because coordinates were rounded when they were read, or because the scene says
+/// what is not followed; else empty.
 [[nodiscard]] std::string rounding_hint(const std::string& scene, const std::vector<CheckReport>& verdicts);
 
 }  // namespace bp

@@ -47,6 +47,9 @@ std::string skipped(const SceneCounts& c) {
                     c.posed == 1 ? "1 mesh loses its skin or" : fmt::format("{} meshes lose their skins or", c.posed),
                     c.posed == 1 ? "stays" : "stay", c.posed == 1 ? "it" : "them");
   }
+  if (c.unfollowed.any())
+    text += (text.empty() ? "" : "; ") + not_followed(c.unfollowed) +
+            ": read without, and programs may draw them elsewhere; glTF is read with them";
   if (c.animations > 0) text += (text.empty() ? "" : "; ") + counted(c.animations, "animation") + " not followed";
   return text;
 }

@@ -26,6 +26,7 @@
 #include "tools/lod/choices.h"
 #include "tools/lod/proportions.h"
 #include "tools/notes/scale_notes.h"
+#include "tools/notes/scene_notes.h"
 #include "tools/notes/up_note.h"
 #include "tools/run/grounded_source.h"
 #include "tools/run/scale_rules.h"
@@ -160,19 +161,17 @@ void Build::make_room(VoxelizedScene& scene) {
 }
 
 void Build::note_scene(const VoxelizedScene& scene, std::optional<UpAxis> up_told) {
-  note(reading_note(scene.counts.scene, scene.header.frame.voxel));
+  for (const std::string& text : scene_notes(scene.counts, scene.header)) note(text);
   note(up_note(size_.bounds, options.voxels.tell_up() || up_told));
+  const char* const missing = options.profile == LodProfile::occluder
+                                  ? "so nobody knows what is glass: all of the scene is taken for walls"
+                                  : "and its colours are lost";
   for (const std::string& path : options.voxels.scenes) {
     if (!options.colors() && options.profile != LodProfile::occluder) break;
     for (const std::string& file : missing_materials(path))
-      note(fmt::format("{}: {} is not there, {}", path, file,
-                       options.profile == LodProfile::occluder
-                           ? "so nobody knows what is glass: all of the scene is taken for walls"
-                           : "and its colours are lost"));
+      note(fmt::format("{}: {} is not there, {}", path, file, missing));
   }
-  note(voxel_note(options, size_));
-  note(origin_note(options, scene.header));
-  note(enclose_note(options, size_.triangles));
+  for (const std::string& text : option_notes(options, size_, scene.header)) note(text);
 }
 
 void Build::choose_textures(const TriangleSource& source, bool tell) {

@@ -10,6 +10,7 @@
 #include "tools/cli/shell_word.h"
 #include "tools/lod/choices.h"
 #include "tools/notes/face_notes.h"
+#include "tools/notes/proportion.h"
 #include "tools/run/enclosed_triangles_limit.h"
 
 namespace bp {
@@ -114,6 +115,11 @@ std::string enclose_note(const BuildOptions& o, std::uint64_t triangles) {
                      file ? fmt::format("the scene has {} triangles, more than {}", triangles, kMostEnclosedTriangles)
                           : "the scene comes from a pipe and cannot be read again",
                      file ? "--enclose scene takes them all the same" : "give it as a file");
+}
+
+std::vector<std::string> option_notes(const BuildOptions& o, const SceneSize& scene, const StreamHeader& header) {
+  return {scale_share_note(o.closing.scale, scene.bounds), voxel_note(o, scene), origin_note(o, header),
+          enclose_note(o, scene.triangles)};
 }
 
 std::string heavier_note(const LevelFacts& finest, bool asked, std::uint64_t triangles) {

@@ -28,6 +28,10 @@ namespace bp {
 /// Levels that do not enclose the triangles of a scene although such levels could, and nobody asked for it.
 [[nodiscard]] std::string enclose_note(const BuildOptions& options, std::uint64_t triangles);
 
+/// What the options mean for this scene: a scale that is a large share of it, and the three above.
+[[nodiscard]] std::vector<std::string> option_notes(const BuildOptions& options, const SceneSize& scene,
+                                                    const StreamHeader& header);
+
 /// Levels with more faces than the scene has triangles. `asked`: faces were asked for.
 [[nodiscard]] std::string heavier_note(const LevelFacts& finest, bool asked, std::uint64_t triangles);
 

@@ -58,7 +58,9 @@ void note(Build& build, const MadeOccluder& made, double volume) {
   if (made.ground) build.note("the scene is open below: it is taken to stand on the ground, and eyes to be above it");
   if (made.scale_world > 0)
     build.note(
-        fmt::format("openings narrower than {:.4g} are taken for closed; --scale 0 closes none", 2 * made.scale_world));
+        fmt::format("openings narrower than {:.4g} are taken for closed, and the rooms behind them are filled, as are "
+                    "valleys as narrow; --scale 0 keeps free what one enters",
+                    2 * made.scale_world));
   else if (!build.options.closing.scale)
     build.note("openings stay open: closing them would hide little more");
   if (!made.level.reached)

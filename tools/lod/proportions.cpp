@@ -33,6 +33,7 @@ void question_margin(const BuildOptions& o, const Bounds3d& scene, double voxel)
 
 void question_proportions(const BuildOptions& o, const SceneSize& scene) {
   if (o.voxels.voxel) question_voxel("--voxel", *o.voxels.voxel, scene.bounds);
+  if (o.voxels.resolution) question_resolution(*o.voxels.resolution, scene.bounds);
   for (const Length& error : o.levels.errors) question_length("--error", error, scene.bounds);
   const double voxel = voxel_size(o, scene);
   const bool pixels = !o.levels.errors.empty() && o.levels.errors.front().unit == Length::Unit::pixels;

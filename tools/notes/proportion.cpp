@@ -70,6 +70,23 @@ void question_scale(const char* option, const Length& scale, const Bounds3d& sce
   }
 }
 
+std::string scale_share_note(const std::optional<Length>& scale, const Bounds3d& scene) {
+  constexpr double kPercent = 25;  // more is no likely percentage
+  const double diagonal = scene.empty() ? 0 : scene.diagonal();
+  if (!scale || scale->unit != Length::Unit::scene || !(diagonal > 0) || scale->value < kNotedShare * diagonal)
+    return "";
+  const double value = scale->value;
+  const std::string percent =
+      value > kPercent ? "" : fmt::format("; --scale {}% would be {:.3g}", scale->text(), value / 100 * diagonal);
+  return fmt::format("--scale {}, and gaps up to {:.3g} are closed{}", share_text(*scale, diagonal), 2 * value,
+                     percent);
+}
+
+void question_resolution(std::int64_t resolution, const Bounds3d& scene) {
+  const double side = scene.longest_side();
+  if (side > 0) question_grid(fmt::format("--resolution {}", resolution), side / double(resolution), scene, "");
+}
+
 void question_voxel(const char* option, const Length& voxel, const Bounds3d& scene) {
   const double side = scene.longest_side(), voxels = side / voxel.value;
   if (voxel.unit != Length::Unit::scene || !(side > 0) || is_in_proportion(voxels)) return;
@@ -81,8 +98,8 @@ void question_voxel(const char* option, const Length& voxel, const Bounds3d& sce
 void question_grid(const std::string& what, double voxel, const Bounds3d& scene, const char* likely) {
   const double side = scene.longest_side(), voxels = side / voxel;
   if (!(voxels > kMostVoxels)) return;
-  fail(ErrorCode::bad_argument, "{} {}, more than {}: {} to insist, give that number to --resolution", what,
-       grid_text(voxels, side), number(kMostVoxels), likely);
+  fail(ErrorCode::bad_argument, "{} {}, more than {}: {}{}to insist, say --voxel {}%", what, grid_text(voxels, side),
+       number(kMostVoxels), likely, *likely == 0 ? "" : " ", number(100 * voxel / scene.diagonal()));
 }
 
 }  // namespace bp

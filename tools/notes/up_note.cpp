@@ -20,6 +20,14 @@ bool hangs_from(const Bounds3d& scene, std::size_t axis) {
   return std::abs(scene.max[axis]) <= 0.1 * (scene.max[axis] - scene.min[axis]);
 }
 
+constexpr double kExactly = 0.02;
+
+/// A wall, a door, a picture: it stands on y = 0, and its middle is near z = 0. The heights of a map do that seldom.
+bool is_upright(const Bounds3d& scene) {
+  const double half = (scene.max[2] - scene.min[2]) / 2;
+  return stands_on(scene, 1, kExactly) && std::abs(scene.min[2] + half) <= half / 2;
+}
+
 }  // namespace
 
 std::string up_note(const Bounds3d& scene, bool told) {
@@ -31,9 +39,9 @@ std::string up_note(const Bounds3d& scene, bool told) {
         "the scene is {:.4g} x {:.4g} x {:.4g}, {}, and y is taken for up: if {}; say --up {}, or --up y to be sure", x,
         y, z, what, consequence, up);
   };
-  if (z < kFlat * std::min(x, y)) return note("flat along z", "it is a map, it will stand on edge", "z");
+  if (z < kFlat * std::min(x, y) && !is_upright(scene))
+    return note("flat along z", "it is a map, it will stand on edge", "z");
   if (stands_on(scene, 1) || y < kFlat * std::min(x, z)) return "";
-  constexpr double kExactly = 0.02;
   const std::string where =
       stands_on(scene, 2, kExactly) ? "stands on z = 0" : fmt::format("begins near z = 0 (at {:.4g})", scene.min[2]);
   if (stands_on(scene, 2)) return note(where, "z is up, it will lie on its side", "z");

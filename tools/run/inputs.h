@@ -21,5 +21,7 @@ void check_scene_format(const std::string& format, const std::vector<std::string
 
 /// What a tool that writes voxels is to write to. Throws bad_argument if its name is that of a mesh.
 void check_stream_name(const std::string& output);
+/// The same of a tool that writes weights (bpdeform bind).
+void check_weights_name(const std::string& output);
 
 }  // namespace bp

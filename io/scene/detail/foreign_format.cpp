@@ -89,7 +89,25 @@ void refuse_foreign(const std::string& path, const std::string& first_bytes) {
   if (!what.empty()) fail(ErrorCode::bad_input, "{}: {}", path, what);
 }
 
-void refuse_points(const std::string& name, std::uint64_t points) {
+void refuse_ifc_schema(const std::string& name, const std::string& first_bytes) {
+  constexpr std::string_view kRead = "IFC2X3";
+  const std::size_t line = first_bytes.find("FILE_SCHEMA");
+  const std::size_t begin = line == std::string::npos ? line : first_bytes.find('\'', line);
+  const std::size_t end = begin == std::string::npos ? begin : first_bytes.find('\'', begin + 1);
+  if (end == std::string::npos) return;
+  const std::string schema = first_bytes.substr(begin + 1, end - begin - 1);
+  if (!schema.starts_with(kRead))
+    fail(ErrorCode::bad_input, "{}: its schema is {}, and of IFC only {} is read; save it as that, or {}", name, schema,
+         kRead, foreign_way(".ifc"));
+}
+
+void refuse_points(const std::string& name, std::uint64_t points, std::uint64_t lines) {
+  if (lines > 0)
+    fail(ErrorCode::bad_input,
+         "{}: no triangles: {} line{}; lines need a thickness first: in Blender, Convert to Mesh with a bevel gives "
+         "them "
+         "one",
+         name, lines, lines == 1 ? "" : "s");
   fail(ErrorCode::bad_input, "{}: no triangles: {} point{}; a point cloud needs a surface first; {}", name, points,
        points == 1 ? "" : "s", kSurface);
 }

@@ -14,7 +14,10 @@ namespace bp {
 
 /// Throws bad_input with foreign_format(), if that is known.
 void refuse_foreign(const std::string& path, const std::string& first_bytes = "");
-/// Throws bad_input: a scene of points, without triangles.
-[[noreturn]] void refuse_points(const std::string& name, std::uint64_t points);
+/// Throws bad_input: a scene of points, or of lines between them, without triangles.
+[[noreturn]] void refuse_points(const std::string& name, std::uint64_t points, std::uint64_t lines);
+
+/// Throws bad_input if the first bytes of an IFC file name a schema that is not read.
+void refuse_ifc_schema(const std::string& name, const std::string& first_bytes);
 
 }  // namespace bp

@@ -112,6 +112,8 @@ void SceneVoxelizer::measure() {
   counts_.scene = source_.counts();
   counts_.area = scene_.area();
   counts_.extent = scene_.extent();
+  counts_.stray = scene_.sums().stray();
+  counts_.signed_volume = scene_.sums().volume();
   counts_.input_hash = scene_.input_hash();
   counts_.read_twice = scene_.reads_twice();
 }

@@ -6,6 +6,7 @@
 #include "lib/device/backend.h"
 #include "lib/grid/stream.h"
 #include "lib/pass/context.h"
+#include "lib/pass/voxelize/stray_part.h"
 
 /// bpvox's work: a stream of triangles in, a stream of solid bricks out, tile by tile, out of core.
 ///
@@ -35,6 +36,8 @@ struct VoxelizeCounts {
   SceneCounts scene;
   std::string input_hash;           ///< XXH3-128 of the triangles' coordinates in their order, hex
   double area = 0, extent = 0;      ///< of all triangles: areas, and sides of their boxes; scene units, for estimates
+  std::optional<StrayPart> stray;   ///< a small part that makes the bounds large
+  double signed_volume = 0;         ///< that the triangles go around, scene units; of a closed surface its volume
   double voxel_asked = 0;           ///< scene units; the frame's may be larger
   std::uint64_t tiles = 0;          ///< of the grid
   std::uint64_t tiles_touched = 0;  ///< that hold triangles

@@ -18,7 +18,7 @@ rm o.bpv o.0.ply o.1.ply
 # Little in a wide grid.
 printf 'v 0 0 0\nv .001 0 0\nv 0 .001 0\nv 1 1 1\nv .999 1 1\nv 1 .999 1\nf 1 2 3\nf 4 5 6\n' > corners.obj
 for fill in flood winding; do
-  ask bpvox corners.obj --resolution 60000 --fill $fill -j 1 --memory 128M -o o.bpv --overwrite
+  ask bpvox corners.obj --voxel 0.00096225% --fill $fill -j 1 --memory 128M -o o.bpv --overwrite
 done
 rm o.bpv corners.obj cube.obj
 # Counts that no data stand behind.

@@ -44,9 +44,21 @@ files
 points='{"asset":{"version":"2.0"},"buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],"bufferViews":[{"buffer":0,"byteLength":36}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}],"meshes":[{"primitives":[{"attributes":{"POSITION":0},"mode":0}]}],"nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}],"scene":0}'
 echo "$points" > points.gltf
 try bpvox points.gltf -o points.bpv
+# So are lines named, in OBJ and glTF.
+echo "${points/\"mode\":0/\"mode\":3}" > lines.gltf
+try bpvox lines.gltf -o lines.bpv
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2 3\nl 1 3\n' > lines.obj
+try bpvox lines.obj -o lines.bpv
+# Of IFC one schema is read.
+printf "ISO-10303-21;\nHEADER;\nFILE_SCHEMA(('IFC4'));\nENDSEC;\nDATA;\nENDSEC;\nEND-ISO-10303-21;\n" > new.ifc
+try bpvox new.ifc -o new.bpv
+# Endings of other formats.
+for name in x.fbx x.dae x.usd x.blend x.gltf.gz x.png; do try bpvox cube.obj -o $name; done
+# A grid by its resolution is questioned as one by its voxel.
+try bpvox cube.obj --resolution 100000 -o grid.bpv
 
-# A winding that does not close is told.
+# A winding that does not close is told: the first quad is turned as a whole.
 write_cube turned.obj
-awk '/^f / && !n++ { print $1, $2, $4, $3; next } { print }' turned.obj > mixed.obj
+awk '/^f / && !n++ { printf "f"; for (i = NF; i > 1; --i) printf " %s", $i; print ""; next } { print }' turned.obj > mixed.obj
 try bpvox mixed.obj --resolution 16 --fill winding -o mixed.bpv
 try bpvox mixed.obj --resolution 16 -o flooded.bpv

@@ -51,7 +51,7 @@ bool is_rounded(const ExactNode& exact, const aiNode& node) {
   const aiMatrix4x4& m = node.mTransformation;
   const std::array<std::array<float, 4>, 3> rounded{
       {{m.a1, m.a2, m.a3, m.a4}, {m.b1, m.b2, m.b3, m.b4}, {m.c1, m.c2, m.c3, m.c4}}};
-  double largest = 0, farthest = 0;
+  double largest = exact.largest, farthest = exact.farthest;
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) largest = std::max(largest, std::abs(exact.transform.m[i][j]));
     farthest = std::max(farthest, std::abs(exact.transform.m[i][3]));

@@ -5,6 +5,7 @@
 
 #include "io/scene/affine.h"
 #include "lib/core/coords.h"
+#include "lib/core/triangle_source.h"
 
 struct aiMesh;
 struct aiNode;
@@ -24,12 +25,18 @@ struct ExactMesh {
 
 struct ExactNode {
   Affine transform;
+  /// Terms of the sums that its matrix is made of: of the 3 x 3 numbers, and of the translation. Float32 rounds those.
+  double largest = 0, farthest = 0;
   std::vector<ExactNode> children;
 };
 
 struct ExactScene {
   std::vector<ExactMesh> meshes;
   ExactNode root;
+  /// The format's nodes are always understood: a node of Assimp's that differs is read in two ways.
+  bool knows_nodes = false;
+  Unfollowed unfollowed;
+  const char* unread = nullptr;  ///< why Assimp must not read the file
 };
 
 /// A list that fits the mesh: number `i` of those without names, else one of its name. Null if there is none, or if two

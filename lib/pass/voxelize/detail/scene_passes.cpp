@@ -23,13 +23,21 @@ struct ScenePasses::Item {
   std::vector<std::uint32_t> places;
   Bounds3d bounds;
   double area = 0, extent = 0;
+  std::optional<SurfaceSums> sums;
 };
 
 void ScenePasses::measure(const PassProgress& progress) {
   PassSteps steps(progress, "reading", "triangles", 0);
   ContentHash hash;
+  std::optional<Vec3d> origin;
   pipeline<Item>(
-      thread_count() + 2, [&](Item& item) { return source_.read(item.triangles); },
+      thread_count() + 2,
+      [&](Item& item) {
+        if (!source_.read(item.triangles)) return false;
+        if (!origin) sums_ = SurfaceSums(*(origin = item.triangles[0][0]));
+        item.sums.emplace(*origin);
+        return true;
+      },
       [&](Item& item) {
         for (const TriangleD& t : item.triangles) {
           Bounds3d box;
@@ -38,6 +46,7 @@ void ScenePasses::measure(const PassProgress& progress) {
           for (std::size_t i = 0; i < 3; ++i) item.extent += box.max[i] - box.min[i];
           item.area += length(cross(t[1] - t[0], t[2] - t[0])) / 2;
         }
+        item.sums->add(item.triangles);
         if (chunks_) item.places = ChunkCutter::places(item.triangles);
         if (item.triangles.capacity() > item.triangles.size() / 4 * 5) item.triangles.shrink_to_fit();
       },
@@ -45,6 +54,8 @@ void ScenePasses::measure(const PassProgress& progress) {
         hash.add(std::as_bytes(std::span(item.triangles)));
         if (chunks_) chunks_->measure(item.triangles, item.places);
         bounds_.merge(item.bounds);
+        sums_.merge(*item.sums);
+        item.sums.reset();
         area_ += item.area;
         extent_ += item.extent;
         steps.add(item.triangles.size());

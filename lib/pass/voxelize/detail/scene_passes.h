@@ -6,6 +6,7 @@
 #include "lib/core/box.h"
 #include "lib/pass/pass_progress.h"
 #include "lib/pass/voxelize/detail/chunked_surface.h"
+#include "lib/pass/voxelize/detail/surface_sums.h"
 
 namespace bp {
 
@@ -27,6 +28,7 @@ class ScenePasses {
   /// Sums over the triangles, scene units: areas, and sides of their boxes.
   [[nodiscard]] double area() const { return area_; }
   [[nodiscard]] double extent() const { return extent_; }
+  [[nodiscard]] const SurfaceSums& sums() const { return sums_; }
   [[nodiscard]] const std::string& input_hash() const { return input_hash_; }  ///< of VoxelizeCounts
   [[nodiscard]] bool reads_twice() const { return reads_twice_; }
 
@@ -48,6 +50,7 @@ class ScenePasses {
   ChunkedSurface* const chunks_;
   Bounds3d bounds_;
   double area_ = 0, extent_ = 0;
+  SurfaceSums sums_;
   std::string input_hash_;
   bool reads_twice_ = false;
   std::vector<Portion> kept_;

@@ -78,9 +78,9 @@ TEST_CASE("glTF strips, fans and plain corners become triangles", "[quick][io]")
     d.node({{"mesh", d.mesh(d.floats({kQuad[0], kQuad[1], kQuad[2], kQuad[0], kQuad[2], kQuad[3]}))}});
     CHECK(read_glb(d) == kQuadFan);
   }
-  SECTION("lines") {
+  SECTION("lines alone, which are no surface") {
     d.node({{"mesh", d.mesh(d.quad(), -1, 3)}});
-    CHECK(read_glb(d).empty());
+    CHECK_THROWS_WITH(read_glb(d), Contains("1 line; lines need a thickness first"));
   }
   SECTION("points alone, which are no surface") {
     d.node({{"mesh", d.mesh(d.quad(), -1, 0)}});

@@ -67,11 +67,22 @@ TEST_CASE("a grid that is too coarse or too fine is questioned", "[quick][tools]
   CHECK_THAT(voxel("256", scene), Contains("did you mean --resolution 256?"));
   CHECK_THAT(voxel("0.00001", scene),
              Contains("--voxel 1e-05 makes a grid of 120000 voxels along the scene's longest side (1.2), more than "
-                      "16384: is the scene in other units? to insist, give that number to --resolution"));
+                      "16384: is the scene in other units? to insist, say --voxel 0.000769%"));
+  CHECK_NOTHROW(question_resolution(16384, scene));
+  CHECK_THROWS_WITH(question_resolution(100000, scene), Contains("more than 16384: to insist, say --voxel 0.000923%"));
   CHECK_FALSE(voxel("1e-300", scene).empty());
   CHECK_FALSE(voxel("1e300", scene).empty());
   for (const char* word : {"0.15", "0.0001", "769%", "1e-9%"}) CHECK(voxel(word, scene).empty());
   CHECK(voxel("10", box(0, 0, 0)).empty());
+}
+
+TEST_CASE("a scale that is a large share of the scene is told, with the same number of percent", "[quick][tools]") {
+  const Bounds3d scene = box(8.8, 0, 0);
+  CHECK(scale_share_note(Length{2, Length::Unit::scene}, scene) ==
+        "--scale 2 is 22.7 % of the scene's diagonal (8.8), and gaps up to 4 are closed; --scale 2% would be 0.176");
+  CHECK(scale_share_note(Length{0.8, Length::Unit::scene}, scene).empty());
+  CHECK(scale_share_note(Length{20, Length::Unit::percent}, scene).empty());
+  CHECK(scale_share_note({}, scene).empty());
 }
 
 TEST_CASE("only a run of more than ten seconds is announced", "[quick][tools]") {

@@ -31,5 +31,6 @@ TEST_CASE("a scene that stands on y = 0, or on nothing, is not taken for one wit
   CHECK(note_on({-15, 0, -5}, {16, 32, 4}).empty());
   CHECK(note_on({0, 0, 0}, {1, 1, 1}).empty());
   CHECK(note_on({-1, -1, -1}, {1, 1, 1}).empty());
-  CHECK(note_on({0, -2, 0}, {62, 2, 62}).empty());  // flat along y
+  CHECK(note_on({0, -2, 0}, {62, 2, 62}).empty());       // flat along y
+  CHECK(note_on({-5, 0, -0.15}, {5, 4, 0.15}).empty());  // a wall
 }

@@ -1,0 +1,37 @@
+#pragma once
+#include <pugixml.hpp>
+#include <string>
+#include <string_view>
+
+#include "io/scene/detail/exact/exact_scene.h"
+
+/// What the two halves of the COLLADA reader share: meshes (collada.cpp) and nodes (collada_nodes.cpp).
+namespace bp {
+
+using ColladaXml = pugi::xml_node;
+
+struct ColladaUnfit {};  // thrown where the document is anything else
+
+inline std::string_view collada_text(const ColladaXml& node) {
+  return node.child_value();
+}
+
+/// Of an element of this document: "#id".
+inline std::string collada_target(const char* uri) {
+  return uri[0] == '#' ? uri + 1 : "";
+}
+
+inline std::uint64_t collada_number(const ColladaXml& node, const char* attribute, std::uint64_t otherwise) {
+  const pugi::xml_attribute found = node.attribute(attribute);
+  return found.empty() ? otherwise : found.as_ullong();
+}
+
+inline bool is_element(const ColladaXml& node, std::string_view name) {
+  return name == node.name();
+}
+
+/// The nodes of the visual scene that the document shows, under one root; and what they hold that no reader follows.
+/// A document that cannot be understood gives a root without children, unlike Assimp's.
+void read_collada_nodes(const ColladaXml& document, ExactScene& scene);
+
+}  // namespace bp

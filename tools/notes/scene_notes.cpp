@@ -1,0 +1,62 @@
+#include "tools/notes/scene_notes.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "tools/cli/names.h"
+#include "tools/notes/proportion.h"
+
+namespace bp {
+
+namespace {
+
+std::string point_text(const Vec3d& p) {
+  return fmt::format("{:.6g},{:.6g},{:.6g}", p[0], p[1], p[2]);
+}
+
+/// Voxels that suit the rest of the scene, if the grid of the whole scene can have them.
+std::string voxel_for_the_rest(const StrayPart& stray, const Bounds3d& scene) {
+  constexpr double kAlong = 256;
+  const double voxel = stray.rest.longest_side() / kAlong;
+  if (scene.longest_side() > kMostVoxels * voxel) return "";
+  return fmt::format(", or say --voxel {:.3g} for {} voxels along the rest", voxel, kAlong);
+}
+
+std::string stray_note(const VoxelizeCounts& counts, const StreamHeader& header) {
+  if (!counts.stray) return "";
+  const StrayPart& stray = *counts.stray;
+  return fmt::format(
+      "{:.2g} % of the surface, from {} to {}, makes the scene {:.4g} long, and the rest is {:.4g} long: its voxels "
+      "are as large as for that ({:.4g}); take it out of the file if it was left there by mistake{}",
+      100 * stray.share, point_text(stray.part.min), point_text(stray.part.max), header.bounds.longest_side(),
+      stray.rest.longest_side(), header.frame.voxel, voxel_for_the_rest(stray, header.bounds));
+}
+
+/// Of a surface with an opening that the flood comes in by. A closed one has its volume filled, and parts that are
+/// thinner than two voxels have next to none.
+std::string leak_note(const VoxelizeCounts& counts, const StreamHeader& header) {
+  constexpr double kFilled = 0.02, kSolid = 0.5;  // of the volume that the triangles go around
+  if (header.fill != FillMode::flood) return "";
+  const double voxel_volume = std::pow(header.frame.voxel, 3), around = std::abs(counts.signed_volume);
+  const double solid = double(counts.solid_voxels) * voxel_volume;
+  const double filled = double(counts.solid_voxels - counts.surface_voxels) * voxel_volume;
+  if (filled >= kFilled * around || solid >= kSolid * around) return "";
+  return fmt::format(
+      "the flood found next to no inside ({:.2g}), and the surface goes around about {:.2g}: it is open somewhere; "
+      "--fill winding fills it all the same, and larger voxels close narrow openings",
+      filled, around);
+}
+
+}  // namespace
+
+std::vector<std::string> scene_notes(const VoxelizeCounts& counts, const StreamHeader& header) {
+  std::vector<std::string> notes;
+  for (std::string text :
+       {reading_note(counts.scene, header.frame.voxel), stray_note(counts, header), leak_note(counts, header)}) {
+    if (!text.empty()) notes.push_back(std::move(text));
+  }
+  return notes;
+}
+
+}  // namespace bp
