@@ -60,6 +60,10 @@ tbb::filter<void, void*> items_of(const std::function<void*()>& produce) {
 
 }  // namespace
 
+void isolated(const std::function<void()>& body) {
+  tbb::this_task_arena::isolate(body);
+}
+
 namespace detail {
 
 void run_jobs(int in_flight, const std::function<void*()>& produce, const std::function<void(void*)>& work) {

@@ -30,6 +30,9 @@ void parallel_for(std::int64_t n, const std::function<void(std::int64_t)>& body)
 /// body(begin, end) over consecutive chunks of `grain` items; the last one may have fewer.
 void parallel_ranges(std::int64_t n, std::int64_t grain, const std::function<void(std::int64_t, std::int64_t)>& body);
 
+/// body(), whose parallel loops begin no other work of this thread while they wait: so it may hold a lock.
+void isolated(const std::function<void()>& body);
+
 /// A pipeline with at most `in_flight` items: produce() in order on one thread at a time until it returns false, work()
 /// in parallel, consume() in the order of production. `Item` is default-constructible and movable.
 ///   produce: bool(Item&)   work: void(Item&)   consume: void(Item&)

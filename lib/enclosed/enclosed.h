@@ -32,8 +32,8 @@ class Enclosed {
   /// units; rounded. They guide the search, allows() decides.
   [[nodiscard]] virtual std::vector<Vec3d> contact_points(const LatticeCoord& origin,
                                                           const LatticeBox& within) const = 0;
-  /// True if every point of the faces is within `distance`, lattice units, of the enclosed set. May also return true up
-  /// to kUpTo times that distance (and lattice units of rounding), or if unknown.
+  /// Whether every point of the faces is within `distance`, lattice units, of the enclosed set; as a guide, with the
+  /// error of the class that answers; true if that is unknown.
   [[nodiscard]] virtual bool is_near(std::span<const NewFace> faces, double distance) const {
     static_cast<void>(faces), static_cast<void>(distance);
     return true;

@@ -49,7 +49,7 @@ class EnclosedScene final : public EnclosedTriangles {
 
  private:
   std::unique_ptr<const NearTriangles> near_;
-  std::optional<EnclosedVoxels> voxels_;  // where triangles do not tell what is near
+  std::optional<NearMasks> voxels_;  // where triangles do not tell what is near
   std::optional<EnclosedVoxels> held_;
 };
 

@@ -64,15 +64,6 @@ std::uint64_t columns_of(const BrickBits& bits, std::size_t b) {
   return any;
 }
 
-/// Of a point and a cube.
-inline double squared_to_box(const LatticeCoord& p, const LatticeCoord& low, std::int64_t edge) {
-  const auto away = [edge](std::int64_t at, std::int64_t from) {
-    return double(std::max({std::int64_t(0), from - at, at - from - edge}));
-  };
-  const double x = away(p.x, low.x), y = away(p.y, low.y), z = away(p.z, low.z);
-  return x * x + y * y + z * z;
-}
-
 LatticeCoord low_corner(VoxelCoord v) {
   return LatticeCoord{v.x, v.y, v.z} * kLatticePerVoxel;
 }
@@ -96,7 +87,7 @@ bool is_clear_of(const LatticeCoord& low, const Tetrahedron& t) {
 
 }  // namespace
 
-EnclosedVoxels::EnclosedVoxels(const BrickShelf& shelf) {
+EnclosedVoxels::EnclosedVoxels(const BrickShelf& shelf) : near_(shelf) {
   const std::vector<BrickCoord> coords = shelf.coords();
   struct Found {
     BoundaryBrick brick{};
@@ -213,115 +204,8 @@ void EnclosedVoxels::outer_boxes(const UseBoxes& use) const {
   }
 }
 
-/// The nearest voxel to the middle of a triangle, of those that are shown; or one that is near enough to all of it.
-class EnclosedVoxels::Nearest {
- public:
-  Nearest(const std::array<LatticeCoord, 3>& t, double distance)
-      : reach_(std::int64_t(distance)), squared_(distance * distance) {
-    const LatticeCoord sum = t[0] + t[1] + t[2];
-    for (int i = 0; i < 3; ++i) middle_[i] = floor_div(sum[i], std::int64_t(3));
-    double radius = 0;
-    for (const LatticeCoord& p : t) radius = std::max(radius, length(to_double(p - middle_)));
-    enough_ = radius < distance ? (distance - radius) * (distance - radius) : -1;
-    // Two corners are at least 1.5 radii apart.
-    is_large_ = 1.5 * radius > 2 * distance + 1.75 * kLatticePerVoxel;
-  }
-
-  [[nodiscard]] LatticeBox window() const { return LatticeBox{middle_, middle_}.grown(reach_); }
-  [[nodiscard]] bool may_hold(const LatticeCoord& low, std::int64_t edge) const {
-    return squared_to_box(middle_, low, edge) <= squared_;
-  }
-  [[nodiscard]] bool may_hold_layer(std::int64_t low_z) const {
-    const auto away = double(std::max({std::int64_t(0), low_z - middle_.z, middle_.z - low_z - kLatticePerVoxel}));
-    return away * away <= squared_;
-  }
-  void show(const LatticeCoord& low) {
-    const double squared = squared_to_box(middle_, low, kLatticePerVoxel);
-    if (squared > squared_ || (found_ && squared == squared_)) return;
-    squared_ = squared;
-    found_ = low;
-  }
-  [[nodiscard]] bool is_enough() const { return found_ && squared_ <= enough_; }
-  /// Whether others need not be shown: no single voxel is near all of a large triangle, and any tells of its middle.
-  [[nodiscard]] bool is_settled() const { return found_ && (is_large_ || squared_ <= enough_); }
-  [[nodiscard]] const std::optional<LatticeCoord>& found() const { return found_; }
-
- private:
-  LatticeCoord middle_;
-  std::int64_t reach_;
-  double squared_, enough_;
-  bool is_large_;
-  std::optional<LatticeCoord> found_;
-};
-
 bool EnclosedVoxels::is_near(std::span<const NewFace> faces, double distance) const {
-  std::optional<LatticeCoord> hint;
-  return std::all_of(faces.begin(), faces.end(), [&](const NewFace& f) { return is_near(f.corners, distance, hint); });
-}
-
-/// Distances from one voxel, which is convex, are largest at corners. `hint`: a voxel not far from here, if one is
-/// known; afterwards, too.
-bool EnclosedVoxels::is_near(const std::array<LatticeCoord, 3>& t, double distance,
-                             std::optional<LatticeCoord>& hint) const {
-  constexpr std::int64_t edge = std::int64_t(kBrickEdge) * kLatticePerVoxel;
-  constexpr double kUnsure = 0.3;  // of the distance: what is that small is not halved
-  Nearest nearest(t, distance);
-  if (hint) nearest.show(*hint);
-  if (nearest.is_enough()) return true;
-  BrickCoord low, high;
-  for (int i = 0; i < 3; ++i) {
-    low[i] = std::int32_t(floor_div(nearest.window().min[i], edge));
-    high[i] = std::int32_t(floor_div(nearest.window().max[i], edge));
-  }
-  for (std::int32_t z = low.z; z <= high.z; ++z) {
-    for (std::int32_t y = low.y; y <= high.y; ++y) {
-      for (std::int32_t x = low.x; x <= high.x && !nearest.is_settled(); ++x) {
-        if (const auto it = bricks_.find({x, y, z}); it != bricks_.end()) look({x, y, z}, it->second, nearest);
-      }
-    }
-  }
-  if (!nearest.found()) return false;
-  hint = nearest.found();
-  if (nearest.is_enough()) return true;
-  const auto is_reached = [&](const LatticeCoord& p) {
-    return squared_to_box(p, *nearest.found(), kLatticePerVoxel) <= distance * distance;
-  };
-  if (std::all_of(t.begin(), t.end(), is_reached)) return true;
-  const LatticeBox box = box_of(t[0], t[1], t[2]);
-  const LatticeCoord size = box.max - box.min;
-  if (double(std::max({size.x, size.y, size.z})) < kUnsure * distance) return true;
-  const auto middle = [](const LatticeCoord& a, const LatticeCoord& b) {
-    return LatticeCoord{(a.x + b.x) / 2, (a.y + b.y) / 2, (a.z + b.z) / 2};
-  };
-  const std::array<LatticeCoord, 3> m = {middle(t[0], t[1]), middle(t[1], t[2]), middle(t[2], t[0])};
-  return is_near(m, distance, hint) && is_near({t[0], m[0], m[2]}, distance, hint) &&
-         is_near({m[0], t[1], m[1]}, distance, hint) && is_near({m[2], m[1], t[2]}, distance, hint);
-}
-
-void EnclosedVoxels::look(BrickCoord coord, const BoundaryBrick& brick, Nearest& nearest) const {
-  constexpr std::int64_t edge = 8 * kLatticePerVoxel;
-  const VoxelCoord first = first_voxel(coord);
-  const LatticeBox box = nearest.window();
-  const CellWindow window(box, low_corner(first), edge);
-  for (std::int64_t z = window.low_z(); z <= window.high_z(); ++z) {
-    const std::uint64_t word = brick.blocks[std::size_t(z)];
-    for (std::uint64_t rest = word & window.word(); rest != 0; rest &= rest - 1) {
-      const int bit = std::countr_zero(rest);
-      const VoxelCoord voxel{first.x + bit % 8 * 8, first.y + bit / 8 * 8, first.z + std::int32_t(z) * 8};
-      if (!nearest.may_hold(low_corner(voxel), edge)) continue;
-      const auto before = std::uint32_t(std::popcount(word & ((std::uint64_t(1) << bit) - 1)));
-      const Block& block = blocks_[brick.first[std::size_t(z)] + before];
-      const CellWindow voxels(box, low_corner(voxel), kLatticePerVoxel);
-      for (std::int64_t i = voxels.low_z(); i <= voxels.high_z(); ++i) {
-        if (!nearest.may_hold_layer((voxel.z + i) * kLatticePerVoxel)) continue;
-        for (std::uint64_t left = block[std::size_t(i)] & voxels.word(); left != 0; left &= left - 1) {
-          const int b = std::countr_zero(left);
-          nearest.show(low_corner({voxel.x + b % 8, voxel.y + b / 8, voxel.z + std::int32_t(i)}));
-          if (nearest.is_settled()) return;
-        }
-      }
-    }
-  }
+  return near_.is_near(faces, distance);
 }
 
 bool EnclosedVoxels::clear(const Tetrahedron& t, Blocker* blocker) const {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lib/enclosed/enclosed.h"
+#include "lib/enclosed/near_masks.h"
 #include "lib/grid/stream.h"
 
 namespace bp {
@@ -15,7 +16,7 @@ namespace bp {
 /// the box around the tetrahedron meets; of contact_points(), the points of all bricks that `within` meets.
 class EnclosedVoxels : public Enclosed {
  public:
-  explicit EnclosedVoxels(const BrickShelf& shelf);
+  explicit EnclosedVoxels(const BrickShelf& shelf);  ///< which must outlive it
   [[nodiscard]] bool allows(std::span<const NewFace> star, std::span<const Tetrahedron> swept,
                             Blocker* blocker) const override;
   [[nodiscard]] std::vector<Vec3d> contact_points(const LatticeCoord& origin, const LatticeBox& within) const override;
@@ -37,16 +38,13 @@ class EnclosedVoxels : public Enclosed {
   [[nodiscard]] bool brick_clear(class Separator& separator, BrickCoord coord, const BoundaryBrick& brick,
                                  Blocker* blocker) const;
   [[nodiscard]] bool block_clear(Separator& separator, VoxelCoord first, const Block& block, Blocker* blocker) const;
-  class Nearest;
-  [[nodiscard]] bool is_near(const std::array<LatticeCoord, 3>& t, double distance,
-                             std::optional<LatticeCoord>& hint) const;
-  void look(BrickCoord coord, const BoundaryBrick& brick, Nearest& nearest) const;
   struct Hash {
     std::size_t operator()(const BrickCoord& c) const {
       return std::size_t(std::uint32_t(c.x) * 0x9e3779b1u ^ std::uint32_t(c.y) * 0x85ebca77u ^
                          std::uint32_t(c.z) * 0xc2b2ae3du);
     }
   };
+  NearMasks near_;
   std::unordered_map<BrickCoord, BoundaryBrick, Hash> bricks_;
   std::vector<Block> blocks_;
   /// Corners with one occupied voxel around them, and of straight edges and flat sides those 8 voxels apart; some on

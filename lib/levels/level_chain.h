@@ -44,7 +44,7 @@ struct ChainRange {
   LevelRequest request;              ///< as with_defaults() gives it
   std::size_t first = 0, count = 0;  ///< `first` is the first in one mesh
   double diagonal = 0;               ///< of the scene
-  double detail = 1;                 ///< LodTarget::detail of all of them
+  bool keep_voxels = false;          ///< LodTarget::keep_voxels of the first
 };
 
 /// A level of a request that is not there, and why.
@@ -64,28 +64,6 @@ struct MadeLevels {
 /// At most range.count levels, finest first. A level that has no fewer faces than the one before, or an error above the
 /// scene's diagonal, is left out; the first is always kept. Where the first has clearly fewer faces than its budget,
 /// the budgets that follow from it are quarters of what it has, and scales double. Errors never fall.
-///   finest  the first level, if it is there already
-[[nodiscard]] MadeLevels make_levels(LodChain& chain, const ChainRange& range, const LevelSteps& steps,
-                                     std::optional<LodLevel> finest = {});
-
-/// What a chain is made from.
-struct ChainSource {
-  std::function<VoxelizedScene(int halvings)> voxelize;  ///< with voxels of half the size, so often
-  std::function<LodOptions()> options;                   ///< after voxelize()
-  std::function<LevelRequest(const StreamHeader&, std::uint64_t triangles)> request;  ///< with_defaults()
-  std::function<VoxelRequest(const Bounds3d&)> voxels;
-  bool may_refine = false;  ///< smaller voxels may be tried; the scene can be voxelized again
-};
-
-struct MadeChain {
-  VoxelizedScene scene;  ///< without its voxels
-  MadeLevels made;
-};
-
-/// All levels, in one mesh each. If the finest takes less than two thirds of its budget, has fewer faces than the scene
-/// has triangles, and an error above one and a half voxels, and source.may_refine, voxels and scale are halved, as long
-/// as that takes a fifth off the error, and kMostResolution lets them get clearly smaller; the nearest one is taken.
-/// Throws out_of_resource where the memory does not suffice: it must not decide what is made.
-[[nodiscard]] MadeChain make_chain(const ChainSource& source, Backends& backends, const LevelSteps& steps);
+[[nodiscard]] MadeLevels make_levels(LodChain& chain, const ChainRange& range, const LevelSteps& steps);
 
 }  // namespace bp

@@ -23,22 +23,14 @@ namespace bp {
 
 namespace {
 
-constexpr int kMostAttempts = 12;    // scales for one level
 constexpr double kExactVox = 0.125;  // of error: a level of so little is not tried to come nearer
 
-// Faces that a part or a hole of a closing at half of the scale should leave to show its shape. Balls leave more holes
-// than cubes, and what a fit has of a hole need not lie around anything.
-constexpr std::uint64_t kFacesPerPart = 100, kFacesPerPartOfFit = 50;
-
-// Of simple scenes, whose triangles tell quickly what is near, levels are tried at other scales, too. At twice the
-// scale where the error is so many scales: faces are too few for what is left open, and spikes bridge it. At these
-// parts where a level has a face for so many triangles; until its error is so small, as long as each part or hole has
-// so many faces, and no room opens.
-constexpr double kSpikes = 2.3;
-constexpr std::uint64_t kTrianglesPerFace = 4;
-constexpr std::array kPartsOfScale{0.25, 0.125};
-constexpr std::uint64_t kLeastFacesPerPart = 8;
-constexpr double kNearEnoughVox = 0.5, kOpens = 1.5;  // opens: so many times the surface
+// A budget is closed at the least of the scales from a kFinest-th of its own on at which each part and hole of the
+// closing has so many faces to show its shape. Where parts and holes take all faces, the rest of the level is far off.
+constexpr double kFinest = 8;
+constexpr std::uint64_t kFacesPerPart = 50;
+constexpr std::uint64_t kLeastFacesPerPart = 4;  // of a closed surface, or of a handle
+constexpr double kNearEnoughVox = 0.5;           // of error: no other closing of a simple scene is tried
 
 }  // namespace
 
@@ -64,11 +56,10 @@ struct LodChain::State {
   }
 
   LodLevel make(const LodTarget& target) {
-    const double before = last_scale;
     if (std::optional<LodLevel> level = exact(target)) return std::move(*level);
-    LodLevel level = options.cage ? cage(target) : closed(target);
-    if (options.cage || !has_ways(target)) measure(level);
-    if (is_simple(target)) level = nearest_scale(std::move(level), target, before);
+    LodLevel level = options.cage ? cage(target) : continues(target) ? coarser(target) : closed(target);
+    if (options.mode == MeshMode::bounding && !options.cage)
+      finer = {level.mesh, level.counts.levels.front().measures, level.scale_world};
     return may_be_convex(target) ? convex_or(std::move(level), target) : level;
   }
 
@@ -92,6 +83,7 @@ struct LodChain::State {
     context.report("meshing", "levels", 0, 1);
     ShelfSource source(header, *solid, nullptr, ShelfSource::Keep::solid);
     level.mesh = std::move(mesh_stream(source, context, std::move(params), level.counts).front());
+    measure(level);
     return level;
   }
 
@@ -101,68 +93,76 @@ struct LodChain::State {
     std::unique_ptr<BrickShelf> voxels;
   };
 
+  /// The nearest of the levels from the closings that are tried, measured: one, but of simple scenes, which take little
+  /// time, each up to twice the scale of the budget. What a closing joins, few faces need not show; what it leaves
+  /// apart, they follow.
   LodLevel closed(const LodTarget& target) {
-    double scale = first_scale(ground(), target, last_scale);
-    Closed closing = half_scale(target, scale);
-    for (int attempt = 1;; ++attempt) {
-      if (closing.voxels == nullptr) {
+    const double whole = first_scale(ground(), target, last_scale);
+    reduce_to(reductions_for(ground(), target, finest_scale(options.field, whole), reductions));
+    std::optional<LodLevel> best;
+    int attempts = 1;
+    for (double scale = is_by_budget(target) ? std::max(whole / kFinest, last_scale) : whole;; scale *= 2) {
+      if (scale > whole) {
+        ++attempts;
         reduce_to(reductions_for(ground(), target, finest_scale(options.field, scale), reductions));
-        closing = closing_at(scale);
       }
+      const bool last = 2 * scale > diagonal / 2;
+      const Closed closing = closing_at(scale);
+      if (!last && !may_have_faces_for_parts(closing, target, scale < whole)) continue;
       LodLevel level = has_ways(target) ? nearest(target, scale, closing) : mesh(mesh_params(target), scale, closing);
-      level.attempts = attempt;
+      level.attempts = attempts;
       level.reached = target.faces == 0 || level.mesh.triangles.size() <= target.faces;
-      if (!level.reached && 2 * scale <= diagonal / 2 && attempt < kMostAttempts) {
-        scale *= 2;
-        closing = {};
-        continue;
-      }
-      last_scale = scale;
-      return level;
+      if (!level.reached && !last) continue;
+      if (!has_ways(target)) measure(level);
+      if (!best || is_better(level, *best, target.faces)) best = std::move(level);
+      const bool is_near = best->error_world <= kNearEnoughVox * outside->voxel();
+      if (is_simple(target) && !is_near && !last && scale < 2 * whole) continue;
+      last_scale = best->scale_world;
+      return std::move(*best);
     }
   }
 
   /// Whether nothing is asked but a number of faces, of a scene of few triangles: these tell quickly what is near.
   [[nodiscard]] bool is_simple(const LodTarget& target) const {
-    return options.mode == MeshMode::bounding && has_triangles() && !options.cage && !options.field &&
-           target.faces > 0 && target.error_world == 0 && !target.scale_world &&
+    return options.mode == MeshMode::bounding && has_triangles() && !options.field && is_by_budget(target) &&
            options.scene.size() <= MeshParams::kSimpleScene;
   }
 
-  /// The nearest of a measured level and those at other scales, `least` or more. Budgets decide scales by the area
-  /// alone, as if all of it were curved. A larger scale leaves less to show with the same faces. A smaller one keeps a
-  /// level nearer.
-  LodLevel nearest_scale(LodLevel level, const LodTarget& target, double least) {
-    const auto is_near = [&] { return level.error_world <= kNearEnoughVox * outside->voxel(); };
-    if (!level.reached || level.attempts > 1 || is_near()) return level;
-    const double whole = level.scale_world;
-    const auto try_to_mesh = [&](double scale, const Closed& closing) {
-      LodLevel other = mesh(mesh_params(target), scale, closing);
-      if (other.mesh.triangles.size() > target.faces) return;
-      measure(other);
-      other.attempts = 1;
-      if (other.error_world >= level.error_world) return;
-      level = std::move(other);
-      last_scale = scale;
-    };
-    if (level.error_world > kSpikes * whole) try_to_mesh(2 * whole, closing_at(2 * whole));
-    if (options.scene.size() > kTrianglesPerFace * target.faces) return level;
-    const auto surface_of = [&](const Closed& c) { return double(count_faces(ShelfSurface(*c.voxels, header.frame))); };
-    // Where a room opens that the whole scale closes, its walls would take as many faces again. All of the scene's
-    // triangles are enough for them.
-    const bool may_open = options.scene.size() <= target.faces;
-    const double most_surface = may_open ? 0 : kOpens * surface_of(closing_at(whole));
-    double last = whole;
-    for (const double part : kPartsOfScale) {
-      const double scale = std::max(part * whole, least);
-      if (is_near() || scale >= last) break;
-      const Closed closing = closing_at(scale);
-      if (!has_faces_for_parts(*closing.voxels, target.faces, kLeastFacesPerPart)) break;
-      if (!may_open && surface_of(closing) > most_surface) break;
-      try_to_mesh(scale, closing);
-      last = scale;
-    }
+  /// Whether the target follows from the level before: parts and holes of that have faces enough for their shape.
+  [[nodiscard]] bool continues(const LodTarget& target) const {
+    if (!is_by_budget(target) || options.mode != MeshMode::bounding || has_ways(target)) return false;
+    if (finer.mesh.triangles.empty() || !(finer.mesh.frame == header.frame)) return false;
+    return (finer.measures.shells + finer.measures.handles) * kFacesPerPart <= target.faces;
+  }
+
+  /// The level before with fewer faces, measured.
+  LodLevel coarser(const LodTarget& target) {
+    LodLevel level;
+    level.scale_world = finer.scale_world;
+    level.reductions = reductions;
+    level.attempts = 1;
+    MeshParams params = mesh_params(target);
+    params.start = &finer.mesh;
+    context.report("meshing", "levels", 0, 1);
+    ShelfSource source(header, *solid, nullptr, Keep::solid);
+    level.mesh = std::move(mesh_stream(source, context, std::move(params), level.counts).front());
+    level.reached = level.mesh.triangles.size() <= target.faces;
+    measure(level);
     return level;
+  }
+
+  /// Whether nothing but a number of faces decides the scale.
+  [[nodiscard]] static bool is_by_budget(const LodTarget& target) {
+    return target.faces > 0 && target.error_world == 0 && !target.scale_world;
+  }
+
+  /// Whether the faces of the target suffice for the parts and holes of a closing; `shown`: for their shape, too.
+  [[nodiscard]] bool may_have_faces_for_parts(const Closed& closing, const LodTarget& target, bool shown) const {
+    if (target.faces == 0) return true;
+    repair_contacts(*closing.voxels);  // as meshing would: it closes the tiniest holes
+    check_memory_for_topology(*closing.voxels);
+    const SolidTopology topology = topology_of(*closing.voxels);
+    return (topology.parts + topology.handles) * (shown ? kFacesPerPart : kLeastFacesPerPart) <= target.faces;
   }
 
   /// Whether several ways lead to the level, which is measured then, and the nearest one is taken.
@@ -175,7 +175,7 @@ struct LodChain::State {
     measure(level);
     if (!may_have_faces(level, target.faces)) return level;
     MeshParams params = mesh_params(target);  // anew: they hold the scene's triangles
-    params.near = false;
+    params.near_world.reset();
     params.convex = false;  // convex_or() chooses by distance
     LodLevel by_volume = mesh(std::move(params), scale, closing);
     measure(by_volume);
@@ -249,6 +249,11 @@ struct LodChain::State {
   std::unique_ptr<Outside> outside;
   int reductions = 0;
   double last_scale = 0;
+  struct {
+    LatticeMesh mesh;
+    MeshMeasures measures;
+    double scale_world = 0;
+  } finer;  // the bounding level made last
 
  private:
   void take_off(std::uint64_t bytes) {
@@ -293,33 +298,6 @@ struct LodChain::State {
     return {std::move(field), std::move(voxels)};
   }
 
-  /// The closing at half of `scale`, which is halved then, where a budget has faces enough for what parts and holes it
-  /// leaves. Where it does not, they take the faces that shape wants, and all of the level is farther off.
-  Closed half_scale(const LodTarget& target, double& scale) {
-    const double half = std::max(scale / 2, last_scale);
-    const bool by_budget = target.faces > 0 && target.error_world == 0 && !target.scale_world;
-    if (!by_budget || half >= scale) return {};
-    const int n = reductions_for(ground(), target, finest_scale(options.field, half), reductions);
-    if (half < kLeastScaleVox * outside->voxel() * std::ldexp(1.0, n)) return {};
-    reduce_to(n);
-    Closed closing = closing_at(half);
-    if (!has_faces_for_parts(*closing.voxels, target.faces, faces_per_part())) return {};
-    scale = half;
-    return closing;
-  }
-
-  /// Of a closing: whether so many faces are enough for each of its parts and holes.
-  [[nodiscard]] bool has_faces_for_parts(BrickShelf& closing, std::uint64_t faces, std::uint64_t per_part) const {
-    repair_contacts(closing);  // as meshing would: it closes the tiniest holes
-    check_memory_for_topology(closing);
-    const SolidTopology topology = topology_of(closing);
-    return (topology.parts + topology.handles) * per_part <= faces;
-  }
-
-  [[nodiscard]] std::uint64_t faces_per_part() const {
-    return options.mode == MeshMode::fit ? kFacesPerPartOfFit : kFacesPerPart;
-  }
-
   /// Against what the surface is to be meshed in, of which nothing is taken yet.
   void check_memory_for_topology(const BrickShelf& closing) const {
     const std::uint64_t bytes = topology_bytes(closing), most = context.pieces.bytes();
@@ -334,6 +312,7 @@ struct LodChain::State {
     level.scale_world = scale;
     level.reductions = reductions;
     context.report("meshing", "levels", 0, 1);
+    if (params.near_world) params.near_world = scale;
     ShelfSource source(closed_header(closing.field), *solid, closing.voxels.get(), keep);
     level.mesh = std::move(mesh_stream(source, context, std::move(params), level.counts).front());
     return level;
@@ -346,7 +325,7 @@ struct LodChain::State {
     if (target.error_world > 0)
       params.error_world = std::max(target.error_world - std::sqrt(3.0) * (header.frame.voxel + outside->voxel()),
                                     target.error_world / 4);
-    params.near = true;
+    params.near_world = first_scale(ground(), target, last_scale);
     params.mode = options.mode;
     params.enclose = options.enclose;
     if (options.enclose == Enclose::scene) {  // distances are to its voxels, as without

@@ -22,10 +22,10 @@ double area_of_cube_like(const Bounds3d& b) {
 }
 
 /// The edge for a dense surface of `dense_faces` triangles over `area`, within two resolutions.
-double voxel_for(double dense_faces, double area, const Bounds3d& bounds, std::int64_t most, int halvings) {
+double voxel_for(double dense_faces, double area, const Bounds3d& bounds, std::int64_t most) {
   const double coarse = voxel_size_of(bounds, kDefaultResolution);
   const double fine = std::min(coarse, std::sqrt(2 * kSlantedSteps * area / dense_faces));
-  return std::min(coarse, std::max(std::ldexp(fine, -halvings), voxel_size_of(bounds, most)));
+  return std::min(coarse, std::max(fine, voxel_size_of(bounds, most)));
 }
 
 }  // namespace
@@ -35,7 +35,7 @@ double area_of(const Bounds3d& b) {
   return 2 * (x * y + y * z + z * x);
 }
 
-double chosen_voxel(const VoxelRequest& voxels, const LevelRequest& levels, const SceneSize& scene, int halvings) {
+double chosen_voxel(const VoxelRequest& voxels, const LevelRequest& levels, const SceneSize& scene) {
   const Bounds3d& bounds = scene.bounds;
   if (voxels.voxel > 0) return voxels.voxel;
   if (voxels.resolution > 0) return voxel_size_of(bounds, voxels.resolution);
@@ -44,19 +44,12 @@ double chosen_voxel(const VoxelRequest& voxels, const LevelRequest& levels, cons
   if (voxels.use == VoxelUse::tiles) {
     if (!levels.faces.empty()) return voxel_size_of(bounds, kDefaultResolution);
     const double faces = double(std::min(scene.triangles, kTilesetFaces));
-    return voxel_for(double(kDensePerFace) * faces, area_of_cube_like(bounds), bounds, kMostTilesetResolution,
-                     halvings);
+    return voxel_for(double(kDensePerFace) * faces, area_of_cube_like(bounds), bounds, kMostTilesetResolution);
   }
   if (levels.faces.empty()) return voxel_size_of(bounds, kDefaultResolution);
   const double faces = std::min(double(levels.faces.front()), double(kFacesPerTriangle) * double(scene.triangles));
   const double dense = std::max(double(kDensePerFaceAsked) * faces, kLeastDenseFaces);
-  return voxel_for(dense, area_of(bounds), bounds, kMostResolution, halvings);
-}
-
-bool halving_helps(const VoxelRequest& voxels, const LevelRequest& levels, const SceneSize& scene, int halvings) {
-  constexpr double kClearly = 1.25;
-  const auto edge = [&](int times) { return chosen_voxel(voxels, levels, scene, times); };
-  return edge(halvings) >= kClearly * edge(halvings + 1);
+  return voxel_for(dense, area_of(bounds), bounds, kMostResolution);
 }
 
 }  // namespace bp

@@ -34,17 +34,12 @@ struct VoxelRequest {
 ///   - an eighth of the finest error;
 ///   - kOccluderResolution, of an occluder;
 ///   - the faces of the finest level, at most four for each triangle of the scene: a surface as large as that of the
-///     bounds has 190 triangles for each, and at least kLeastDenseFaces. The edge is halved `halvings` times, within
+///     bounds has 190 triangles for each, and at least kLeastDenseFaces, within
 ///     kDefaultResolution and kMostResolution;
 ///   - for tiles without a budget: the triangles of the scene, at most kTilesetFaces. The cube as large as the bounds
 ///     has kDensePerFace triangles for each. The most is kMostTilesetResolution;
 ///   - kDefaultResolution.
-[[nodiscard]] double chosen_voxel(const VoxelRequest& voxels, const LevelRequest& levels, const SceneSize& scene,
-                                  int halvings = 0);
-
-/// Whether one more halving makes that edge clearly smaller: the limit on the resolution may leave next to nothing.
-[[nodiscard]] bool halving_helps(const VoxelRequest& voxels, const LevelRequest& levels, const SceneSize& scene,
-                                 int halvings);
+[[nodiscard]] double chosen_voxel(const VoxelRequest& voxels, const LevelRequest& levels, const SceneSize& scene);
 
 /// Of the six sides of a box.
 [[nodiscard]] double area_of(const Bounds3d& bounds);

@@ -70,7 +70,7 @@ SceneOptions Build::scene_options(bool beside) const {
   return scene;
 }
 
-VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int halvings, bool ground) {
+VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, bool ground) {
   report.begin("voxelize");
   VoxelizeOptions v;
   v.cell_vox = cell_vox;
@@ -90,15 +90,14 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
   if (ground) source = std::make_unique<GroundedSource>(std::move(source), options.voxels.up);
   v.voxel_size = [&](const Bounds3d& bounds) {  // asked for when the scene has been read
     const SceneSize size{bounds, source->counts().triangles};
-    if (halvings == 0) question_proportions(options, size);
+    if (!ground) question_proportions(options, size);
     const double diagonal = bounds.diagonal();
-    return chosen_voxel(voxel_request(options, diagonal), request_for(options, size.triangles, diagonal), size,
-                        halvings);
+    return chosen_voxel(voxel_request(options, diagonal), request_for(options, size.triangles, diagonal), size);
   };
   const auto open = [&](const StreamHeader& header, const VoxelizeCounts& counts) -> BrickSink& {
     out.header = header;
     out.header.scene.triangles = counts.scene.triangles;
-    note_time(header, counts);
+    tell_time(header, counts, ground);
     return sink;
   };
   out.counts = voxelize_stream(*source, open, backends, v);
@@ -111,20 +110,10 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, int 
   return out;
 }
 
-void Build::note_time(const StreamHeader& header, const VoxelizeCounts& counts) {
-  using Clock = std::chrono::steady_clock;
-  const double voxel = header.frame.voxel;
-  const Attempt before = std::exchange(attempt_, {Clock::now(), voxel});
-  if (options.profile == LodProfile::occluder) return;  // nothing that is known here tells: up to 11 times as long
-  if (!tells_time) return;
-  if (before.voxel == 0)
-    return note_estimate(estimate_build(options, header.bounds, counts, voxel), options.common, progress, report);
-  if (before.voxel == voxel) return;
-  const double seconds = std::chrono::duration<double>(attempt_.begin - before.begin).count();
-  const std::string text = attempt_note(seconds, before.voxel, voxel);
-  if (text.empty()) return;
-  progress.end();
-  note(text);
+/// Of an occluder nothing that is known here tells it: up to 11 times as long.
+void Build::tell_time(const StreamHeader& header, const VoxelizeCounts& counts, bool again) {
+  if (again || !tells_time || options.profile == LodProfile::occluder) return;
+  note_estimate(estimate_build(options, header.bounds, counts, header.frame.voxel), options.common, progress, report);
 }
 
 /// Levels have scales of their own: the rules say how much finer or coarser a place is.
@@ -360,28 +349,23 @@ void Build::write_report(const VoxelizedScene& scene) {
 
 MadeChain make_chain(Build& build) {
   const BuildOptions& o = build.options;
-  std::string input_hash;
-  ChainSource source;
-  source.voxelize = [&](int halvings) {
-    VoxelizedScene scene = build.voxelize(0, nullptr, halvings);
-    build.scene_parts = parts_of(scene, o, build.budget.work.bytes);
-    if (o.is_cage()) build.make_room(scene);
-    input_hash = scene.counts.input_hash;
-    return scene;
-  };
-  source.options = [&] { return build.lod_options(); };
-  source.request = [&](const StreamHeader& header, std::uint64_t triangles) {
-    return request_for(o, triangles, header.bounds.diagonal(), header.frame.voxel);
-  };
-  source.voxels = [&](const Bounds3d& bounds) { return voxel_request(o, bounds.diagonal()); };
-  source.may_refine = may_refine(o);
-  return make_chain(source, build.backends, build.level_steps([&] { return input_hash; }));
+  VoxelizedScene scene = build.voxelize(0);
+  build.scene_parts = parts_of(scene, o, build.budget.work.bytes);
+  if (o.is_cage()) build.make_room(scene);
+  build.report.begin("measure the scene");
+  const StreamHeader& header = scene.header;
+  const double diagonal = header.bounds.diagonal();
+  LodChain chain(header, std::move(scene.solid), build.backends, build.lod_options());
+  const LevelRequest request = request_for(o, scene.counts.scene.triangles, diagonal, header.frame.voxel);
+  const ChainRange range{request, 0, level_count(request), diagonal, is_named(voxel_request(o, diagonal))};
+  MadeLevels made = make_levels(chain, range, build.level_steps([&] { return scene.counts.input_hash; }));
+  return {std::move(scene), std::move(made)};
 }
 
 MadeOccluder make_occluder(Build& build) {
   const BuildOptions& o = build.options;
   OccluderSource source;
-  source.voxelize = [&](bool ground) { return build.voxelize(0, nullptr, 0, ground); };
+  source.voxelize = [&](bool ground) { return build.voxelize(0, nullptr, ground); };
   source.request = [&](const StreamHeader& header) {
     return request_of(o, header.bounds.diagonal(), header.frame.voxel);
   };

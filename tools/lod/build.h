@@ -1,5 +1,4 @@
 #pragma once
-#include <chrono>
 #include <functional>
 #include <memory>
 #include <string>
@@ -35,9 +34,9 @@ class Build {
   Build(const Build&) = delete;
   Build& operator=(const Build&) = delete;
 
-  /// cell_vox, results: as in VoxelizeOptions. halvings: as in chosen_voxel().
+  /// cell_vox, results: as in VoxelizeOptions.
   /// ground: as if it stood on the ground (tools/run/grounded_source.h); the scene was voxelized without before.
-  [[nodiscard]] VoxelizedScene voxelize(std::int32_t cell_vox, ResultStore* results = nullptr, int halvings = 0,
+  [[nodiscard]] VoxelizedScene voxelize(std::int32_t cell_vox, ResultStore* results = nullptr,
                                         bool ground = false);
   /// Of a cage, after voxelize(): the voxels are their own mirror image where that is wanted, and hold the margin.
   void make_room(VoxelizedScene& scene);
@@ -88,18 +87,12 @@ class Build {
   /// The report, then the list; a failure says that what was `made` is there.
   void tell(const VoxelizedScene& scene, const std::string& list, const std::string& made);
   void write_report(const VoxelizedScene& scene);
-  /// What the time of the next attempt follows from.
-  struct Attempt {
-    std::chrono::steady_clock::time_point begin;
-    double voxel = 0;
-  };
-  /// Of the first attempt, and of each with voxels of another size.
-  void note_time(const StreamHeader& header, const VoxelizeCounts& counts);
+  /// Says how long the work will take, unless the scene is voxelized `again`.
+  void tell_time(const StreamHeader& header, const VoxelizeCounts& counts, bool again);
   SceneSize size_;
   bool scene_met_ = false;            // by voxelize(), which tells of it once
   std::optional<MirrorPlane> plane_;  // of a cage
   double voxel_ = 0, margin_ = 0;     // of the scene, scene units
-  Attempt attempt_;
   Enclose enclosed_ = Enclose::input;
   std::optional<ScalePlan> field_;  // of --field
   std::unique_ptr<SceneColors> colors_;
@@ -108,6 +101,10 @@ class Build {
   std::unique_ptr<SceneLooks> looks_;
 };
 
+struct MadeChain {
+  VoxelizedScene scene;  ///< without its voxels
+  MadeLevels made;
+};
 /// All levels of a scene, in one mesh each.
 [[nodiscard]] MadeChain make_chain(Build& build);
 

@@ -57,11 +57,6 @@ bool can_read_again(const BuildOptions& o) {
   });
 }
 
-bool may_refine(const BuildOptions& o) {
-  return !o.voxels.voxel && !o.voxels.resolution && o.levels.errors.empty() && !o.is_tileset() && !o.is_cage() &&
-         can_read_again(o);
-}
-
 bool may_enclose_scene(const BuildOptions& o) {
   return !o.is_cage() && o.proxy.mode == MeshMode::bounding;
 }

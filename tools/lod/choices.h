@@ -23,9 +23,6 @@ namespace bp {
 
 /// Whether the scene is of files, which can be read any number of times.
 [[nodiscard]] bool can_read_again(const BuildOptions& options);
-/// Whether smaller voxels may be tried where the finest level does not come to its faces: nobody said which, the
-/// scene can be read again, and no cells depend on them.
-[[nodiscard]] bool may_refine(const BuildOptions& options);
 
 /// Whether the scene may be read once more while its voxels are in memory: for its triangles, textures or field.
 [[nodiscard]] bool may_read_again(const BuildOptions& options);

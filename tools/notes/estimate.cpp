@@ -124,14 +124,6 @@ std::string estimate_note(const Estimate& e, std::uint64_t memory, const std::ve
                      work_text(e, memory, backends));
 }
 
-std::string attempt_note(double seconds, double voxel_before, double voxel) {
-  const double expected = seconds * std::pow(voxel_before / voxel, 2);
-  if (!(expected > kNoteSeconds)) return "";
-  const char* const why = voxel < voxel_before ? "are tried, since faces are left over" : "came nearer, and are taken";
-  return fmt::format("voxels of {:.4g} instead of {:.4g} {}: about {}", voxel, voxel_before, why,
-                     duration_text(expected));
-}
-
 void note_estimate(const Estimate& estimate, const CommonOptions& common, Progress& progress, Report& report,
                    const std::vector<std::string>& backends) {
   const std::string text = estimate_note(estimate, common.memory_bytes, backends);

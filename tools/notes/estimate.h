@@ -52,10 +52,6 @@ constexpr double kTilesOfSceneEffort = 2;  ///< tilesets, the same
 /// min on 2 threads, with 550 MiB of memory".
 [[nodiscard]] std::string estimate_note(const Estimate& estimate, std::uint64_t memory,
                                         const std::vector<std::string>& backends = {});
-/// Of an attempt that follows another one with voxels of another size, if it takes more than ten seconds: "voxels of
-/// 0.1 instead of 0.2 are tried, since faces are left over: about 40 s". seconds: of the attempt before. Time grows
-/// with the square of the voxels along a side.
-[[nodiscard]] std::string attempt_note(double seconds, double voxel_before, double voxel);
 /// Says it, on a line of its own.
 void note_estimate(const Estimate& estimate, const CommonOptions& common, Progress& progress, Report& report,
                    const std::vector<std::string>& backends = {});

@@ -26,7 +26,7 @@ double edge_of(const LodGround& ground, std::uint64_t faces) {
 double first_scale(const LodGround& ground, const LodTarget& target, double last) {
   if (target.scale_world) return std::max(*target.scale_world, last);
   double scale = ground.diagonal;
-  if (target.faces > 0) scale = std::min(scale, edge_of(ground, target.faces) / (kScalesPerEdge * target.detail));
+  if (target.faces > 0) scale = std::min(scale, edge_of(ground, target.faces) / kScalesPerEdge);
   if (target.error_world > 0) scale = std::min(scale, target.error_world / kScalesPerError);
   // Never below the level before: a coarser level closes at least as much.
   return std::max({scale, last, kLeastScaleVox * ground.voxel});
@@ -37,7 +37,7 @@ int reductions_for(const LodGround& ground, const LodTarget& target, double scal
   double coarsest = std::min(scale / kLeastScaleVox, double(ground.longest_side_vox) / kLeastSideVox * ground.voxel);
   if (target.faces > 0) {
     const double per_face = double(ground.dense_faces) / double(target.faces);
-    coarsest = std::min(coarsest, std::sqrt(per_face / kDenseFacesPerFace) / target.detail * ground.voxel);
+    coarsest = std::min(coarsest, std::sqrt(per_face / kDenseFacesPerFace) * ground.voxel);
     coarsest = std::min(coarsest, std::sqrt(double(ground.dense_faces) / kLeastDenseFaces) * ground.voxel);
   }
   if (target.error_world > 0) coarsest = std::min(coarsest, target.error_world / kVoxelsPerError);

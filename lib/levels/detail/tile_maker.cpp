@@ -177,7 +177,7 @@ MeshParams TileMaker::mesh_params(TileMeasures& measures) const {
   mesh.mode = params_.mode;
   mesh.enclose = params_.enclose;
   mesh.error_world = params_.error_world;
-  mesh.near = true;  // where the error below is no limit
+  mesh.near_world = params_.scale_world;  // where the error below is no limit
   if (params_.error_world == 0) {
     const std::uint64_t solid_faces = 2 * boundary_.faces;
     measures.faces_asked = params_.faces > 0

@@ -95,45 +95,16 @@ LatticeMesh use_room(LatticeMesh proxy, const Enclosed& enclosed, SimplifyParams
   return proxy;
 }
 
-/// From a coarse start. Tightening may leave folds of it where sides are flat. Many faces are needless there. So where
-/// clearly fewer than wanted are left, another one follows from a finer start: the one of less volume, or of fewer
-/// faces where that is the same.
-LatticeMesh proxy_of(const CoarseStarts& starts, const SurfaceSource& dense, const Enclosed& enclosed,
-                     const SimplifyParams& params, LevelCounts& counts) {
-  constexpr double kClearly = 0.9, kSame = 1e-3;
-  constexpr std::size_t kQuick = 512;  // faces of flat sides
-  const auto make = [&](const CoarseStart& start, LevelCounts& to) {
-    return tight_proxy(start.surface ? *start.surface : dense, dense.frame(), enclosed, params, to.simplify,
-                       to.tighten);
-  };
-  CoarseStart start = starts.first(params.faces);
-  const double voxel = start.voxel;
-  LatticeMesh proxy = make(start, counts);
-  const std::size_t faces = proxy.triangles.size();
-  if (starts.has_flat_sides(params.faces) || faces >= kQuick || double(faces) >= kClearly * double(params.faces))
-    return proxy;
-  start = {};
-  start = starts.finer(params.faces);
-  if (start.voxel == voxel) return proxy;
-  LevelCounts counts_of_finer;
-  LatticeMesh finer = make(start, counts_of_finer);
-  if (finer.triangles.size() > params.faces) return proxy;
-  const double volume = counts.tighten.volume_after, now = counts_of_finer.tighten.volume_after;
-  const bool same = std::abs(now - volume) <= kSame * std::abs(volume);
-  if (same ? finer.triangles.size() >= faces : now > volume) return proxy;
-  counts.simplify = std::move(counts_of_finer.simplify);
-  counts.tighten = counts_of_finer.tighten;
-  return finer;
-}
-
 /// One level, from the surface of all that it must enclose, or a coarse one around it. `few`: nothing but a number of
 /// faces below kFewFaces matters.
 LatticeMesh make_level(const SurfaceSource& dense, const CoarseStarts* starts, const Enclosed* enclosed,
                        const SimplifyParams& params, bool few, LevelCounts& counts) {
   if (enclosed == nullptr) return simplify(dense, params, counts.simplify);
   if (few) return tight_proxy_of_few(dense, *enclosed, params, counts.simplify, counts.tighten);
-  if (starts != nullptr) return proxy_of(*starts, dense, *enclosed, params, counts);
-  LatticeMesh proxy = tight_proxy(dense, *enclosed, params, counts.simplify, counts.tighten);
+  CoarseStart start;
+  if (starts != nullptr) start = starts->first(params.faces);
+  const SurfaceSource& from = start.surface ? *start.surface : dense;
+  LatticeMesh proxy = tight_proxy(from, dense.frame(), *enclosed, params, counts.simplify, counts.tighten);
   return params.limits == nullptr ? proxy : use_room(std::move(proxy), *enclosed, params, counts);
 }
 
@@ -304,11 +275,14 @@ class LevelMaker {
                      const CoarseStarts* starts = nullptr) {
     return finish(dense.frame(), faces, [&](SimplifyParams params, LevelCounts& counts) {
       if (faces >= kLeastFacesWithRoom) params.room = room_around(dense.box(), faces);  // the box reads all voxels
-      if (params_.near && params.limits == nullptr && faces > 0)
-        params.reach = (header_.scale.base / dense.frame().voxel + 1) * kLatticePerVoxel;
-      const bool only_faces = faces > 0 && params.limits == nullptr && !params.edge_limit && !params_.near && !inside();
+      if (params_.near_world && params.limits == nullptr && faces > 0)
+        params.reach = (*params_.near_world / dense.frame().voxel + 1) * kLatticePerVoxel;
+      const bool only_faces = faces > 0 && params.limits == nullptr && !params.edge_limit && !params_.near_world && !inside();
       const bool few = only_faces && faces < kFewFaces;
-      LatticeMesh proxy = make_level(dense, starts, enclosed, params, few, counts);
+      params.dense = params_.start == nullptr;
+      LatticeMesh proxy =
+          params_.start ? tight_proxy(*params_.start, *enclosed, params, counts.simplify, counts.tighten)
+                        : make_level(dense, starts, enclosed, params, few, counts);
       if (only_faces && params_.convex && enclosed != nullptr) take_convex(proxy, *enclosed, faces, counts);
       if (!params_.quads) return proxy;
       if (enclosed != nullptr) proxy = make_room_for_quads(proxy, *enclosed, params);
@@ -374,7 +348,7 @@ std::vector<LatticeMesh> mesh_stream(BrickSource& source, const PassContext& con
   const StreamHeader& header = source.header();
   check_fill(params, header);
   const bool distances = params.error_world > 0 || params.distances;
-  const bool near_scene = params.mode == MeshMode::bounding && params.near && params.enclose == Enclose::scene;
+  const bool near_scene = params.mode == MeshMode::bounding && params.near_world && params.enclose == Enclose::scene;
   const bool want_input = (params.tighten && (params.enclose == Enclose::input || near_scene)) ||
                           (distances && params.distances_to.value_or(params.enclose) == Enclose::input);
   const Shelves shelves = read_layers(source, context.make_shelf, want_input, counts);

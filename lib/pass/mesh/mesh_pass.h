@@ -37,9 +37,10 @@ struct MeshParams {
   /// Largest distance of the proxy to what it encloses (proxy_limits.h), scene units; 0: none. Of n levels that enclose
   /// each other, the first may use 1/n of it, the second 2/n, and so on.
   double error_world = 0;
-  /// With nothing but `faces` wanted, in bounding mode: no step takes a face farther from what is enclosed than the
-  /// scale and a voxel, as far as so few faces allow it. Volume alone does not mind a face far out.
-  bool near = false;
+  /// With nothing but `faces` wanted, in bounding mode: no step takes a face farther from what is enclosed than this
+  /// and a voxel, scene units, as far as so few faces allow it. Volume alone does not mind a face far out. None: no
+  /// matter how far.
+  std::optional<double> near_world;
   /// Triangles of a scene, at most, that tell what is near sooner than voxels: of more, each is near a small part of a
   /// face.
   static constexpr std::size_t kSimpleScene = 4096;
@@ -52,6 +53,9 @@ struct MeshParams {
   Enclose enclose = Enclose::closing;
   std::vector<TriangleD> scene;  ///< for Enclose::scene; scene units, as read
   bool known_within = false;     ///< the scene was found to lie in the voxels that the stream's were reduced from
+  /// A bounding proxy of more faces, in the frame of the stream, of the same scene: the first level begins from it in
+  /// place of the voxels' surface. Not owned; null: none.
+  const LatticeMesh* start = nullptr;
   /// Of bounding proxies of a part of the scene, with `near`: the rest of it may lie outside the voxels.
   std::optional<ScenePart> part;
   /// What distances count from, if not from what is enclosed; closing: the surface of what is meshed.

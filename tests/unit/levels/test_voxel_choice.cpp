@@ -20,28 +20,8 @@ TEST_CASE("voxels that are asked for are taken, then an eighth of the error, the
   levels.faces = {20000};
   const double voxel = chosen_voxel({}, levels, kCube);
   CHECK(voxel < 1.0 / kDefaultResolution);
-  CHECK(chosen_voxel({}, levels, kCube, 1) == voxel / 2);
-  CHECK(chosen_voxel({}, levels, kCube, 9) == Approx(1.0 / kMostResolution).epsilon(0.01));
   levels.faces = {12};
   CHECK(chosen_voxel({}, levels, kCube) == chosen_voxel({0, kDefaultResolution}, levels, kCube));
-}
-
-TEST_CASE("voxels that the limit on the resolution makes hardly smaller are not halved", "[quick][levels]") {
-  LevelRequest levels;
-  levels.faces = {20000};
-  CHECK(halving_helps({}, levels, kCube, 0));
-  const double finest = chosen_voxel({}, levels, kCube, 9);
-  int halvings = 0;
-  while (chosen_voxel({}, levels, kCube, halvings) > 2 * finest) ++halvings;
-  const double left = chosen_voxel({}, levels, kCube, halvings) / finest;  // what the limit leaves
-  REQUIRE(left > 1);
-  CHECK(halving_helps({}, levels, kCube, halvings) == (left >= 1.25));
-  CHECK_FALSE(halving_helps({}, levels, kCube, halvings + 1));
-  const SceneSize blade{Bounds3d{{0, 0, 0}, {10, 129.2, 0.65}}, 100000};
-  levels.faces = {2000};
-  CHECK(chosen_voxel({}, levels, blade) > chosen_voxel({}, levels, blade, 1));
-  CHECK_FALSE(halving_helps({}, levels, blade, 0));
-  CHECK_FALSE(halving_helps({0, 100}, levels, blade, 0));  // that are asked for
 }
 
 TEST_CASE("a scene of few triangles has no voxels for more faces than it can use", "[quick][levels]") {

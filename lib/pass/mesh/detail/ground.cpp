@@ -55,7 +55,7 @@ std::unique_ptr<Enclosed> make_enclosed(const Shelves& shelves, MeshParams& para
     const GridFrame& frame = start.surface->frame();
     if (params.mode == MeshMode::bounding && !params.part && !params.known_within)
       require_within(params.scene, frame, *shelves.meshed);
-    if (params.near && params.mode == MeshMode::bounding) {
+    if (params.near_world && params.mode == MeshMode::bounding) {
       auto near = near_triangles(params, frame, fill);
       return std::make_unique<EnclosedScene>(std::move(params.scene), frame, *shelves.input, params.part,
                                              std::move(near));

@@ -55,7 +55,7 @@ TEST_CASE("more faces asked make no proxy of flat sides worse, known or not", "[
   source.header().scale.base = 16;
   MeshParams params;
   params.faces = {faces};
-  params.near = true;
+  params.near_world = 0;
   params.enclose = knows == Knows::scene ? Enclose::scene : Enclose::input;
   if (knows == Knows::scene) params.scene = turned_box();
   if (knows != Knows::none) source.header().scene.triangles = 12;

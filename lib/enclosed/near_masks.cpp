@@ -1,0 +1,206 @@
+#include "lib/enclosed/near_masks.h"
+
+#include <algorithm>
+#include <bit>
+#include <array>
+#include <unordered_map>
+#include <utility>
+
+#include "lib/core/parallel.h"
+#include "lib/grid/coord_hash.h"
+#include "lib/mesh/lattice_geometry.h"
+#include "lib/volume/dilate_ball.h"
+
+namespace bp {
+
+namespace {
+
+constexpr double kLeastReach = 8;  // of a mask with larger voxels, in these
+constexpr std::int64_t kMostRows = 256;  // rows of voxels that are looked at for a piece; others are halved first
+
+/// Bricks in memory, each once.
+class Bricks final : public BrickShelf {
+ public:
+  void put(BrickCoord coord, BrickFill fill, const BrickBits& bits) override {
+    const std::lock_guard lock(mutex_);
+    if (fill == BrickFill::empty) return drop(coord);
+    bricks_[coord] = fill == BrickFill::full ? nullptr : std::make_unique<BrickBits>(bits);
+  }
+  BrickFill get(BrickCoord coord, BrickBits& out) const override {
+    const BrickFill fill = this->fill(coord);
+    if (fill == BrickFill::mixed) {
+      out = *bricks_.find(coord)->second;
+    } else {
+      out.fill(fill == BrickFill::full ? ~std::uint64_t(0) : 0);
+    }
+    return fill;
+  }
+  [[nodiscard]] BrickFill fill(BrickCoord coord) const override {
+    const auto it = bricks_.find(coord);
+    if (it == bricks_.end()) return BrickFill::empty;
+    return it->second ? BrickFill::mixed : BrickFill::full;
+  }
+  void drop(BrickCoord coord) override { bricks_.erase(coord); }
+  [[nodiscard]] std::vector<BrickCoord> coords() const override {
+    std::vector<BrickCoord> all;
+    for (const auto& [coord, bits] : bricks_) all.push_back(coord);
+    std::sort(all.begin(), all.end(), [](const BrickCoord& a, const BrickCoord& b) {
+      return std::array{a.x, a.y, a.z} < std::array{b.x, b.y, b.z};
+    });
+    return all;
+  }
+  [[nodiscard]] std::uint64_t memory_bytes() const override {
+    std::uint64_t sum = 0;
+    for (const auto& [coord, bits] : bricks_) sum += bits ? sizeof(BrickBits) : 0;
+    return sum;
+  }
+  /// Null: full. False: empty.
+  [[nodiscard]] bool find(BrickCoord coord, const BrickBits*& bits) const {
+    const auto it = bricks_.find(coord);
+    if (it == bricks_.end()) return false;
+    bits = it->second.get();
+    return true;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::unordered_map<BrickCoord, std::unique_ptr<BrickBits>, CoordHash> bricks_;
+};
+
+/// The voxels that are 2^halvings times as large, each with a voxel of `fine` in it.
+void put_larger(const BrickShelf& fine, int halvings, Bricks& out) {
+  const std::int32_t parts = 1 << halvings;
+  BrickBits bits;
+  std::unordered_map<BrickCoord, std::unique_ptr<BrickBits>, CoordHash> all;
+  for (const BrickCoord& c : fine.coords()) {
+    static_cast<void>(fine.get(c, bits));
+    const VoxelCoord first = first_voxel(c);
+    for (std::int32_t z = 0; z < kBrickEdge; ++z) {
+      for (std::int32_t y = 0; y < kBrickEdge; ++y) {
+        std::uint64_t row = bits[std::size_t(z * kBrickEdge + y)];
+        while (row != 0) {
+          const std::int32_t x = std::countr_zero(row);
+          const VoxelCoord p{floor_div(first.x + x, parts), floor_div(first.y + y, parts),
+                             floor_div(first.z + z, parts)};
+          const BrickCoord b{floor_div(p.x, kBrickEdge), floor_div(p.y, kBrickEdge), floor_div(p.z, kBrickEdge)};
+          std::unique_ptr<BrickBits>& to = all[b];
+          if (!to) to = std::make_unique<BrickBits>(BrickBits{});
+          const VoxelCoord at = p - first_voxel(b);
+          (*to)[std::size_t(at.z * kBrickEdge + at.y)] |= std::uint64_t(1) << at.x;
+          const std::int32_t end = std::min<std::int32_t>(64, (p.x + 1) * parts - first.x);  // of this voxel's row
+          row = end >= 64 ? 0 : row & (~std::uint64_t(0) << end);
+        }
+      }
+    }
+  }
+  for (const auto& [coord, brick] : all) out.put(coord, classify(*brick), *brick);
+}
+
+}  // namespace
+
+struct NearMasks::Mask {
+  double distance = 0;
+  std::int64_t edge = kLatticePerVoxel;  // of its voxels, lattice units
+  Bricks bricks;
+  const Mask* next = nullptr;
+
+  Mask(const BrickShelf& voxels, double of) : distance(of) {
+    int halvings = 0;
+    while (distance / double(2 * edge) >= kLeastReach) edge *= 2, ++halvings;
+    Bricks larger;
+    if (halvings > 0) put_larger(voxels, halvings, larger);
+    const double reach = std::min(distance / double(edge), kMostReach);
+    dilate_ball(halvings > 0 ? larger : voxels, reach, bricks);
+  }
+
+  [[nodiscard]] VoxelCoord voxel_of(const LatticeCoord& p) const {
+    return {std::int32_t(floor_div(p.x, edge)), std::int32_t(floor_div(p.y, edge)), std::int32_t(floor_div(p.z, edge))};
+  }
+
+  /// Whether all voxels from `low` to `high` are set.
+  [[nodiscard]] bool holds(const VoxelCoord& low, const VoxelCoord& high) const {
+    const auto brick_of = [](std::int32_t v) { return floor_div(v, kBrickEdge); };
+    for (std::int32_t bz = brick_of(low.z); bz <= brick_of(high.z); ++bz) {
+      for (std::int32_t by = brick_of(low.y); by <= brick_of(high.y); ++by) {
+        for (std::int32_t bx = brick_of(low.x); bx <= brick_of(high.x); ++bx) {
+          if (!holds({bx, by, bz}, low, high)) return false;
+        }
+      }
+    }
+    return true;
+  }
+
+  [[nodiscard]] bool holds(const BrickCoord& brick, const VoxelCoord& low, const VoxelCoord& high) const {
+    const BrickBits* bits = nullptr;
+    if (!bricks.find(brick, bits)) return false;
+    if (bits == nullptr) return true;
+    const VoxelCoord first = first_voxel(brick);
+    VoxelCoord a, b;
+    for (int i = 0; i < 3; ++i) {
+      a[i] = std::max(low[i] - first[i], 0);
+      b[i] = std::min(high[i] - first[i], kBrickEdge - 1);
+    }
+    const std::uint64_t row = (~std::uint64_t(0) << a.x) & (~std::uint64_t(0) >> (kBrickEdge - 1 - b.x));
+    for (std::int32_t z = a.z; z <= b.z; ++z) {
+      for (std::int32_t y = a.y; y <= b.y; ++y) {
+        if ((~(*bits)[std::size_t(z * kBrickEdge + y)] & row) != 0) return false;
+      }
+    }
+    return true;
+  }
+
+  [[nodiscard]] bool holds(const std::array<LatticeCoord, 3>& t) const {
+    const LatticeBox box = box_of(t[0], t[1], t[2]);
+    const VoxelCoord low = voxel_of(box.min), high = voxel_of(box.max);
+    const VoxelCoord size = high - low;
+    const bool is_small = std::max({size.x, size.y, size.z}) <= 1;
+    if (is_small || std::int64_t(size.y + 1) * (size.z + 1) <= kMostRows) {
+      if (holds(low, high)) return true;
+      if (is_small) return false;
+    }
+    const auto middle = [](const LatticeCoord& a, const LatticeCoord& b) {
+      return LatticeCoord{(a.x + b.x) / 2, (a.y + b.y) / 2, (a.z + b.z) / 2};
+    };
+    const std::array<LatticeCoord, 3> m = {middle(t[0], t[1]), middle(t[1], t[2]), middle(t[2], t[0])};
+    return holds(m) && holds({t[0], m[0], m[2]}) && holds({m[0], t[1], m[1]}) && holds({m[2], m[1], t[2]});
+  }
+};
+
+NearMasks::~NearMasks() {
+  for (const Mask* mask = masks_; mask != nullptr;) delete std::exchange(mask, mask->next);
+}
+
+const NearMasks::Mask& NearMasks::mask(double distance) const {
+  const auto find = [&]() -> const Mask* {
+    const Mask* mask = masks_.load(std::memory_order_acquire);
+    while (mask != nullptr && mask->distance != distance) mask = mask->next;
+    return mask;
+  };
+  if (const Mask* known = find()) return *known;
+  const std::lock_guard lock(making_);
+  if (const Mask* known = find()) return *known;
+  std::unique_ptr<Mask> made;
+  isolated([&] { made = std::make_unique<Mask>(voxels_, distance); });
+  made->next = masks_.load(std::memory_order_relaxed);
+  masks_.store(made.get(), std::memory_order_release);
+  return *made.release();
+}
+
+bool NearMasks::is_near(std::span<const NewFace> faces, double distance) const {
+  const Mask& mask = this->mask(distance);
+  const auto is_set = [&](const LatticeCoord& p) {
+    const VoxelCoord at = mask.voxel_of(p);
+    return mask.holds(at, at);
+  };
+  return std::all_of(faces.begin(), faces.end(), [&](const NewFace& f) {  // far corners tell most
+    return std::all_of(f.corners.begin(), f.corners.end(), is_set) && mask.holds(f.corners);
+  });
+}
+
+std::uint64_t NearMasks::bytes() const {
+  std::uint64_t sum = 0;
+  for (const Mask* mask = masks_; mask != nullptr; mask = mask->next) sum += mask->bricks.memory_bytes();
+  return sum;
+}
+
+}  // namespace bp
