@@ -1,8 +1,8 @@
 #include "lib/enclosed/near_masks.h"
 
 #include <algorithm>
-#include <bit>
 #include <array>
+#include <bit>
 #include <unordered_map>
 #include <utility>
 
@@ -15,7 +15,7 @@ namespace bp {
 
 namespace {
 
-constexpr double kLeastReach = 8;  // of a mask with larger voxels, in these
+constexpr double kLeastReach = 8;        // of a mask with larger voxels, in these
 constexpr std::int64_t kMostRows = 256;  // rows of voxels that are looked at for a piece; others are halved first
 
 /// Bricks in memory, each once.

@@ -27,10 +27,10 @@ constexpr double kExactVox = 0.125;  // of error: a level of so little is not tr
 
 // A budget is closed at the least of the scales from a kFinest-th of its own on at which each part and hole of the
 // closing has so many faces to show its shape. Where parts and holes take all faces, the rest of the level is far off.
-constexpr double kFinest = 8;
+// A fit lies on the closing, and has its noise.
+constexpr double kFinest = 8, kFinestOfFit = 2;
 constexpr std::uint64_t kFacesPerPart = 50;
-constexpr std::uint64_t kLeastFacesPerPart = 4;  // of a closed surface, or of a handle
-constexpr double kNearEnoughVox = 0.5;           // of error: no other closing of a simple scene is tried
+constexpr double kNearEnoughVox = 0.5;  // of error: no other closing of a simple scene is tried
 
 }  // namespace
 
@@ -101,18 +101,18 @@ struct LodChain::State {
     reduce_to(reductions_for(ground(), target, finest_scale(options.field, whole), reductions));
     std::optional<LodLevel> best;
     int attempts = 1;
-    for (double scale = is_by_budget(target) ? std::max(whole / kFinest, last_scale) : whole;; scale *= 2) {
-      if (scale > whole) {
-        ++attempts;
-        reduce_to(reductions_for(ground(), target, finest_scale(options.field, scale), reductions));
-      }
+    for (double scale = is_by_budget(target) ? std::max(whole / finest(), last_scale) : whole;; scale *= 2) {
+      if (scale > whole) reduce_to(reductions_for(ground(), target, finest_scale(options.field, scale), reductions));
       const bool last = 2 * scale > diagonal / 2;
       const Closed closing = closing_at(scale);
-      if (!last && !may_have_faces_for_parts(closing, target, scale < whole)) continue;
+      if (scale < whole && !has_faces_for_parts(closing, target)) continue;
       LodLevel level = has_ways(target) ? nearest(target, scale, closing) : mesh(mesh_params(target), scale, closing);
       level.attempts = attempts;
       level.reached = target.faces == 0 || level.mesh.triangles.size() <= target.faces;
-      if (!level.reached && !last) continue;
+      if (!level.reached && !last) {
+        attempts += scale >= whole;
+        continue;
+      }
       if (!has_ways(target)) measure(level);
       if (!best || is_better(level, *best, target.faces)) best = std::move(level);
       const bool is_near = best->error_world <= kNearEnoughVox * outside->voxel();
@@ -121,6 +121,8 @@ struct LodChain::State {
       return std::move(*best);
     }
   }
+
+  [[nodiscard]] double finest() const { return options.mode == MeshMode::fit ? kFinestOfFit : kFinest; }
 
   /// Whether nothing is asked but a number of faces, of a scene of few triangles: these tell quickly what is near.
   [[nodiscard]] bool is_simple(const LodTarget& target) const {
@@ -156,13 +158,12 @@ struct LodChain::State {
     return target.faces > 0 && target.error_world == 0 && !target.scale_world;
   }
 
-  /// Whether the faces of the target suffice for the parts and holes of a closing; `shown`: for their shape, too.
-  [[nodiscard]] bool may_have_faces_for_parts(const Closed& closing, const LodTarget& target, bool shown) const {
-    if (target.faces == 0) return true;
+  /// Whether the faces of the target suffice to show the shape of the parts and holes of a closing.
+  [[nodiscard]] bool has_faces_for_parts(const Closed& closing, const LodTarget& target) const {
     repair_contacts(*closing.voxels);  // as meshing would: it closes the tiniest holes
     check_memory_for_topology(*closing.voxels);
     const SolidTopology topology = topology_of(*closing.voxels);
-    return (topology.parts + topology.handles) * (shown ? kFacesPerPart : kLeastFacesPerPart) <= target.faces;
+    return (topology.parts + topology.handles) * kFacesPerPart <= target.faces;
   }
 
   /// Whether several ways lead to the level, which is measured then, and the nearest one is taken.

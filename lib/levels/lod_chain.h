@@ -21,7 +21,7 @@ struct LodTarget {
   std::uint64_t faces = 0;            ///< 0: none
   double error_world = 0;             ///< largest distance of a point of the level to the scene, scene units; 0: none
   std::optional<double> scale_world;  ///< closing radius to begin with, scene units; never below the level before's
-  bool keep_voxels = false;  ///< they are not doubled for this level: somebody named them
+  bool keep_voxels = false;           ///< they are not doubled for this level: somebody named them
 };
 
 /// Triangles of the dense surface below which voxels are not doubled, nor chosen, for a budget: they take a second or
@@ -70,7 +70,7 @@ struct LodLevel {
   LatticeMesh mesh;        ///< in the frame of its voxels
   double scale_world = 0;  ///< that it was closed at
   int reductions = 0;      ///< the voxels are 2^reductions times those of the solid
-  int attempts = 0;        ///< 1: at the scale that the target leads to, or a finer one; each more: at twice that
+  int attempts = 0;        ///< scales, from the first one on, at which parts and holes left too many faces; and one
   bool reached = true;     ///< it has at most the faces asked for
   /// Upper bound of the distances that a viewer can see, scene units: from a point of the level to the outer surface of
   /// the scene, and from a point of that surface which lies outside the level (only of fits) to the level. Around
@@ -99,10 +99,11 @@ class LodChain {
 
   /// The next level; targets come finest first. A bounding level of a face budget is the one before, coarsened, where
   /// that has 50 faces for each of its parts and holes; else it is made from voxels, closed at the least scale, from an
-  /// eighth of first_scale() on, that leaves so many. Beyond first_scale() 4 faces suffice; scales double, on coarser
-  /// voxels where the budget allows, until the budget is met or the scale is half the scene. LodLevel says at what.
-  /// Levels of simple scenes are the nearest of all these scales up to twice first_scale(). Levels of few faces are
-  /// the nearest of several, too (detail/few_faces_level.h). Throws as close_stream() and mesh_stream().
+  /// eighth of first_scale() on (a half in a fit), that leaves so many, or at first_scale(). A budget that cannot be
+  /// met, because parts stay apart or keep holes, is tried again at twice the scale, on coarser voxels where the budget
+  /// allows, until it is met or the scale is half the scene. LodLevel says at what. Levels of simple scenes are the
+  /// nearest of all these scales up to twice first_scale(). Levels of few faces are the nearest of several, too
+  /// (detail/few_faces_level.h). Throws as close_stream() and mesh_stream().
   [[nodiscard]] LodLevel make(const LodTarget& target);
 
  private:

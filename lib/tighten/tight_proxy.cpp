@@ -23,6 +23,7 @@ constexpr std::uint64_t kFewForLate = 64;  // an octahedron of fewer keeps needl
 constexpr double kMostGrowth = 6;          // of one collapse: some times a face's share of the volume
 constexpr double kMuchRoom = 0.02;         // share of the volume: sweeps of the pause that gain more are worth others
 constexpr int kJamRounds = 4;              // of a sweep and collapses, where these jam above the target; at most
+constexpr std::uint64_t kGrown = 512;      // faces of a jam: among more, growing alone was never seen to lead further
 constexpr std::uint64_t kWhole = 16;       // regions: up to so many faces are collapsed by volume as one mesh
 constexpr double kNeedless = 2;            // volumes over faces squared: a collapse around a ball adds 7 in the mean
 constexpr double kFewDropped = 0.95;       // times the faces: where more are left, the next round would drop few
@@ -216,6 +217,32 @@ void finish(Way& way, const Enclosed& enclosed, const SimplifyParams& params) {
   }
 }
 
+/// From (1) to the target by growing alone.
+void grow_on(LatticeMesh& proxy, const SimplifyParams& params, SimplifyCounts& counts) {
+  SimplifyParams late = params;
+  late.dense = false;
+  late.enclosed = nullptr;
+  late.most_growth = 0;
+  simplify_on(proxy, late, counts);
+}
+
+/// Faces and volume, or a volume inside that is lost, where a target is out of reach: a few faces less are not worth
+/// spikes.
+double price(const Way& way) {
+  const double faces = double(way.proxy.triangles.size()), volume = way.tightened.volume_after;
+  return volume > 0 ? faces * volume : faces / std::max(-volume, 1.0);
+}
+
+/// Few tight faces may jam where growing goes on. That way is taken if it leads further, and to the end or for a lower
+/// price.
+void try_growing(Way other, Way& way, const Enclosed& enclosed, const SimplifyParams& params) {
+  grow_on(other.proxy, params, other.simplified);
+  if (other.proxy.triangles.size() >= way.proxy.triangles.size()) return;
+  finish(other, enclosed, params);
+  if (is_above_target(other.proxy, params) && price(other) > price(way)) return;
+  way = std::move(other);
+}
+
 // --- Their order ---
 
 /// All that follows (1).
@@ -231,6 +258,8 @@ Way tight_from(const Way& grown, const Enclosed& enclosed, const SimplifyParams&
   if (params.faces > 0 || params.limits != nullptr)
     collapse_by_error(way.proxy, enclosed, params, late_factor(params), way.simplified);
   finish(way, enclosed, params);
+  if (is_above_target(way.proxy, params) && way.proxy.triangles.size() <= kGrown)
+    try_growing(grown, way, enclosed, params);
   return way;
 }
 

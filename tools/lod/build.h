@@ -36,8 +36,7 @@ class Build {
 
   /// cell_vox, results: as in VoxelizeOptions.
   /// ground: as if it stood on the ground (tools/run/grounded_source.h); the scene was voxelized without before.
-  [[nodiscard]] VoxelizedScene voxelize(std::int32_t cell_vox, ResultStore* results = nullptr,
-                                        bool ground = false);
+  [[nodiscard]] VoxelizedScene voxelize(std::int32_t cell_vox, ResultStore* results = nullptr, bool ground = false);
   /// Of a cage, after voxelize(): the voxels are their own mirror image where that is wanted, and hold the margin.
   void make_room(VoxelizedScene& scene);
   /// How scenes are read. `beside`: something else of them is in memory meanwhile.

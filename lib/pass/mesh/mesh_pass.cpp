@@ -277,12 +277,13 @@ class LevelMaker {
       if (faces >= kLeastFacesWithRoom) params.room = room_around(dense.box(), faces);  // the box reads all voxels
       if (params_.near_world && params.limits == nullptr && faces > 0)
         params.reach = (*params_.near_world / dense.frame().voxel + 1) * kLatticePerVoxel;
-      const bool only_faces = faces > 0 && params.limits == nullptr && !params.edge_limit && !params_.near_world && !inside();
+      const bool only_faces =
+          faces > 0 && params.limits == nullptr && !params.edge_limit && !params_.near_world && !inside();
       const bool few = only_faces && faces < kFewFaces;
       params.dense = params_.start == nullptr;
-      LatticeMesh proxy =
-          params_.start ? tight_proxy(*params_.start, *enclosed, params, counts.simplify, counts.tighten)
-                        : make_level(dense, starts, enclosed, params, few, counts);
+      LatticeMesh proxy = params_.start
+                              ? tight_proxy(*params_.start, *enclosed, params, counts.simplify, counts.tighten)
+                              : make_level(dense, starts, enclosed, params, few, counts);
       if (only_faces && params_.convex && enclosed != nullptr) take_convex(proxy, *enclosed, faces, counts);
       if (!params_.quads) return proxy;
       if (enclosed != nullptr) proxy = make_room_for_quads(proxy, *enclosed, params);

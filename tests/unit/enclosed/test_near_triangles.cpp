@@ -76,8 +76,8 @@ TEST_CASE("triangles tell what is near them, as a net of points on a face does",
       if (at > Enclosed::kUpTo * counted) CHECK_FALSE(answer);
       // Voxels hold the triangles, and each holds a point of one.
       const bool by_voxels = voxels.is_near(face, distance);
-      if (answer) CHECK(voxels.is_near(face, Enclosed::kUpTo * counted));
-      if (by_voxels) CHECK(triangles.is_near(face, Enclosed::kUpTo * distance + kDiagonal));
+      if (answer) CHECK(voxels.is_near(face, Enclosed::kUpTo * counted + 2 * kDiagonal));
+      if (by_voxels) CHECK(triangles.is_near(face, distance + 2 * kDiagonal));
       voxels_near += by_voxels;
       ++asked;
       near += at + missed <= counted;

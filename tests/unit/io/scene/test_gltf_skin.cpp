@@ -226,6 +226,6 @@ TEST_CASE("meshes with a skin or morph targets are counted, since no copy of the
   const TempDir dir;
   Document d = skinned_quad(halves(), {});
   CHECK(counts_of(dir.file("skin.glb", d.glb())).posed == 1);
-  CHECK(skipped(counts_of(dir.path("skin.glb"))) ==
-        "1 mesh loses its skin or morph targets, and stays as the file shows it");
+  CHECK_THAT(skipped(counts_of(dir.path("skin.glb"))),
+             Contains("1 mesh loses its skin or morph targets, and stays as the file shows it"));
 }
