@@ -15,7 +15,8 @@ namespace bp {
 
 namespace {
 
-constexpr double kLeastReach = 8;        // of a mask with larger voxels, in these
+constexpr double kLeastReach = 8;               // of a mask with larger voxels, in these
+constexpr std::uint64_t kWorkBytes = 64 << 20;  // while a mask is made
 constexpr std::int64_t kMostRows = 256;  // rows of voxels that are looked at for a piece; others are halved first
 
 /// Bricks in memory, each once.
@@ -110,7 +111,7 @@ struct NearMasks::Mask {
     Bricks larger;
     if (halvings > 0) put_larger(voxels, halvings, larger);
     const double reach = std::min(distance / double(edge), kMostReach);
-    dilate_ball(halvings > 0 ? larger : voxels, reach, bricks);
+    dilate_ball(halvings > 0 ? larger : voxels, reach, bricks, {kWorkBytes});
   }
 
   [[nodiscard]] VoxelCoord voxel_of(const LatticeCoord& p) const {

@@ -21,7 +21,7 @@ set(rules
   "lib/device/cpu:lib/voxel lib/closing lib/device"
   "lib/mesh:lib/core lib/exact lib/grid"
   "lib/atlas:lib/core lib/mesh"
-  "lib/enclosed:lib/core lib/exact lib/geometry lib/grid lib/mesh"
+  "lib/enclosed:lib/core lib/exact lib/geometry lib/grid lib/volume lib/mesh"
   "lib/surface:lib/core lib/store lib/grid lib/volume lib/mesh"
   "lib/simplify:lib/core lib/geometry lib/mesh lib/enclosed lib/surface"
   "lib/hulls:lib/core lib/exact lib/mesh"
