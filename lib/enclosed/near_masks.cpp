@@ -16,6 +16,7 @@ namespace bp {
 namespace {
 
 constexpr double kLeastReach = 8;               // of a mask with larger voxels, in these
+constexpr std::size_t kMostBricks = 512;        // of a mask, about: 16 MiB
 constexpr std::uint64_t kWorkBytes = 64 << 20;  // while a mask is made
 constexpr std::int64_t kMostRows = 256;  // rows of voxels that are looked at for a piece; others are halved first
 
@@ -107,7 +108,9 @@ struct NearMasks::Mask {
 
   Mask(const BrickShelf& voxels, double of) : distance(of) {
     int halvings = 0;
-    while (distance / double(2 * edge) >= kLeastReach) edge *= 2, ++halvings;
+    for (std::size_t bricks = voxels.coords().size();
+         bricks > kMostBricks || distance / double(2 * edge) >= kLeastReach; bricks /= 4)
+      edge *= 2, ++halvings;
     Bricks larger;
     if (halvings > 0) put_larger(voxels, halvings, larger);
     const double reach = std::min(distance / double(edge), kMostReach);

@@ -11,8 +11,8 @@
 namespace bp {
 
 /// Tells what is near a set of voxels by masks: the voxels grown by a distance (lib/volume/dilate_ball.h). A mask is
-/// made when its distance is asked for first, and serves all questions after that. For long distances it has larger
-/// voxels, an eighth of the distance or more. Thread-safe.
+/// made when its distance is asked for first, and serves all questions after that. For long distances, and where
+/// there are many voxels, its own are larger: some 16 MiB are enough for each. Thread-safe.
 class NearMasks {
  public:
   /// `voxels` must outlive it.
