@@ -34,7 +34,7 @@ namespace {
 /// How far inside the surface of the voxels a fit takes the surface of what they stand for to lie, in extents of a
 /// voxel along the normal: on average half of one, for the voxels that a surface touches and for their closing.
 constexpr double kInset = 0.5;
-/// How far from the voxels' surface a fit may go at first: so many scales, or voxels, to a voxel.
+/// How far from the voxels' surface a fit may go at first: so many scales and a voxel.
 constexpr double kReachOfScale = 0.25;
 
 [[noreturn]] void fail_empty(const StreamHeader& header) {
@@ -253,7 +253,7 @@ class LevelMaker {
       levels.push_back(finish(dense.frame(), n, [&](SimplifyParams params, LevelCounts& counts) {
         params.enclosed = &near;
         if (n > 0 && params.limits == nullptr)
-          params.reach = kReachOfScale * std::max(header_.scale.base / dense.frame().voxel, 1.0) * kLatticePerVoxel;
+          params.reach = (kReachOfScale * header_.scale.base / dense.frame().voxel + 1) * kLatticePerVoxel;
         LatticeMesh level = fit_level(fine, params, counts.simplify);
         if (params_.quads) level.quads = pair_triangles(level, QuadKeeps::nothing, nullptr);
         return level;
