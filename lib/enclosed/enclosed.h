@@ -38,7 +38,6 @@ class Enclosed {
     static_cast<void>(faces), static_cast<void>(distance);
     return true;
   }
-  static constexpr double kUpTo = 1.35;
   /// True if it is the thing itself, false if it stands around it, as voxels do: then the last shares of a volume say
   /// nothing.
   [[nodiscard]] virtual bool is_exact() const { return false; }

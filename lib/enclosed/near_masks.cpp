@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <unordered_map>
 #include <utility>
 
@@ -10,6 +9,7 @@
 #include "lib/grid/coord_hash.h"
 #include "lib/mesh/lattice_geometry.h"
 #include "lib/volume/dilate_ball.h"
+#include "lib/volume/reduce.h"
 
 namespace bp {
 
@@ -69,35 +69,6 @@ class Bricks final : public BrickShelf {
   std::unordered_map<BrickCoord, std::unique_ptr<BrickBits>, CoordHash> bricks_;
 };
 
-/// The voxels that are 2^halvings times as large, each with a voxel of `fine` in it.
-void put_larger(const BrickShelf& fine, int halvings, Bricks& out) {
-  const std::int32_t parts = 1 << halvings;
-  BrickBits bits;
-  std::unordered_map<BrickCoord, std::unique_ptr<BrickBits>, CoordHash> all;
-  for (const BrickCoord& c : fine.coords()) {
-    static_cast<void>(fine.get(c, bits));
-    const VoxelCoord first = first_voxel(c);
-    for (std::int32_t z = 0; z < kBrickEdge; ++z) {
-      for (std::int32_t y = 0; y < kBrickEdge; ++y) {
-        std::uint64_t row = bits[std::size_t(z * kBrickEdge + y)];
-        while (row != 0) {
-          const std::int32_t x = std::countr_zero(row);
-          const VoxelCoord p{floor_div(first.x + x, parts), floor_div(first.y + y, parts),
-                             floor_div(first.z + z, parts)};
-          const BrickCoord b{floor_div(p.x, kBrickEdge), floor_div(p.y, kBrickEdge), floor_div(p.z, kBrickEdge)};
-          std::unique_ptr<BrickBits>& to = all[b];
-          if (!to) to = std::make_unique<BrickBits>(BrickBits{});
-          const VoxelCoord at = p - first_voxel(b);
-          (*to)[std::size_t(at.z * kBrickEdge + at.y)] |= std::uint64_t(1) << at.x;
-          const std::int32_t end = std::min<std::int32_t>(64, (p.x + 1) * parts - first.x);  // of this voxel's row
-          row = end >= 64 ? 0 : row & (~std::uint64_t(0) << end);
-        }
-      }
-    }
-  }
-  for (const auto& [coord, brick] : all) out.put(coord, classify(*brick), *brick);
-}
-
 }  // namespace
 
 struct NearMasks::Mask {
@@ -107,14 +78,16 @@ struct NearMasks::Mask {
   const Mask* next = nullptr;
 
   Mask(const BrickShelf& voxels, double of) : distance(of) {
-    int halvings = 0;
-    for (std::size_t bricks = voxels.coords().size();
-         bricks > kMostBricks || distance / double(2 * edge) >= kLeastReach; bricks /= 4)
-      edge *= 2, ++halvings;
-    Bricks larger;
-    if (halvings > 0) put_larger(voxels, halvings, larger);
+    std::unique_ptr<Bricks> larger;
+    for (std::size_t count = voxels.coords().size(); count > kMostBricks || distance / double(2 * edge) >= kLeastReach;
+         count /= 4) {
+      auto doubled = std::make_unique<Bricks>();
+      reduce(larger ? *larger : voxels, GridFrame{}, *doubled);  // its origin stays: voxel p lies in p / 2
+      larger = std::move(doubled);
+      edge *= 2;
+    }
     const double reach = std::min(distance / double(edge), kMostReach);
-    dilate_ball(halvings > 0 ? larger : voxels, reach, bricks, {kWorkBytes});
+    dilate_ball(larger ? *larger : voxels, reach, bricks, {kWorkBytes});
   }
 
   [[nodiscard]] VoxelCoord voxel_of(const LatticeCoord& p) const {

@@ -25,7 +25,7 @@ NearTriangles::NearTriangles(const std::vector<TriangleD>& triangles, const Grid
 
 bool NearTriangles::is_near(std::span<const NewFace> faces, double distance) const {
   distance += kBesideVoxels;
-  const double far = Enclosed::kUpTo * distance;
+  const double far = kUpTo * distance;
   std::uint32_t guess = 0;
   const auto is_far = [&](const LatticeCoord& corner) {
     const auto [squared, item] = tree_.near_enough(to_double(corner), far * far, guess);

@@ -17,8 +17,10 @@ class NearTriangles {
   NearTriangles(const std::vector<TriangleD>& triangles, const GridFrame& frame);
 
   /// As Enclosed::is_near(), with half of a voxel's diagonal more: voxels that hold a point of a wall reach as far
-  /// beyond it. Cost: a search for each piece that no single triangle is near.
+  /// beyond it. May be true up to kUpTo times the distance. Cost: a search for each piece that no single triangle is
+  /// near.
   [[nodiscard]] bool is_near(std::span<const NewFace> faces, double distance) const;
+  static constexpr double kUpTo = 1.35;
   [[nodiscard]] std::uint64_t bytes() const { return tree_.bytes(); }
 
  private:

@@ -73,15 +73,15 @@ TEST_CASE("triangles tell what is near them, as a net of points on a face does",
       const double at = farthest(corners, in_lattice), missed = longest_edge(corners) / kSteps;
       const bool answer = triangles.is_near(face, distance);
       if (at + missed <= counted) CHECK(answer);
-      if (at > Enclosed::kUpTo * counted) CHECK_FALSE(answer);
+      if (at > NearTriangles::kUpTo * counted) CHECK_FALSE(answer);
       // Voxels hold the triangles, and each holds a point of one.
       const bool by_voxels = voxels.is_near(face, distance);
-      if (answer) CHECK(voxels.is_near(face, Enclosed::kUpTo * counted + 2 * kDiagonal));
+      if (answer) CHECK(voxels.is_near(face, NearTriangles::kUpTo * counted + 2 * kDiagonal));
       if (by_voxels) CHECK(triangles.is_near(face, distance + 2 * kDiagonal));
       voxels_near += by_voxels;
       ++asked;
       near += at + missed <= counted;
-      far += at > Enclosed::kUpTo * counted;
+      far += at > NearTriangles::kUpTo * counted;
       several += across && at + missed <= counted;
     }
   }
