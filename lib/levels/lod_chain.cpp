@@ -98,15 +98,16 @@ struct LodChain::State {
   /// apart, they follow.
   LodLevel closed(const LodTarget& target) {
     const double whole = first_scale(ground(), target, last_scale);
-    reduce_to(reductions_for(ground(), target, finest_scale(options.field, whole), reductions));
     std::optional<LodLevel> best;
     int attempts = 1;
     for (double scale = is_by_budget(target) ? std::max(whole / finest(), last_scale) : whole;; scale *= 2) {
-      if (scale > whole) reduce_to(reductions_for(ground(), target, finest_scale(options.field, scale), reductions));
+      const double finest_told = finest_scale(options.field, std::max(scale, whole));
+      reduce_to(reductions_for(ground(), target, finest_told, reductions));
       const bool last = 2 * scale > diagonal / 2;
       const Closed closing = closing_at(scale);
       if (scale < whole && !has_faces_for_parts(closing, target)) continue;
-      LodLevel level = has_ways(target) ? nearest(target, scale, closing) : mesh(mesh_params(target), scale, closing);
+      LodLevel level =
+          has_ways(target) ? nearest(target, scale, closing) : mesh(mesh_params(target, scale), scale, closing);
       level.attempts = attempts;
       level.reached = target.faces == 0 || level.mesh.triangles.size() <= target.faces;
       if (!level.reached && !last) {
@@ -143,7 +144,7 @@ struct LodChain::State {
     level.scale_world = finer.scale_world;
     level.reductions = reductions;
     level.attempts = 1;
-    MeshParams params = mesh_params(target);
+    MeshParams params = mesh_params(target, first_scale(ground(), target, last_scale));
     params.start = &finer.mesh;
     context.report("meshing", "levels", 0, 1);
     ShelfSource source(header, *solid, nullptr, Keep::solid);
@@ -172,12 +173,11 @@ struct LodChain::State {
   }
 
   LodLevel nearest(const LodTarget& target, double scale, const Closed& closing) {
-    LodLevel level = mesh(mesh_params(target), scale, closing, Keep::all);
+    LodLevel level = mesh(mesh_params(target, scale), scale, closing, Keep::all);
     measure(level);
     if (!may_have_faces(level, target.faces)) return level;
-    MeshParams params = mesh_params(target);  // anew: they hold the scene's triangles
-    params.near_world.reset();
-    params.convex = false;  // convex_or() chooses by distance
+    MeshParams params = mesh_params(target, {});  // anew: they hold the scene's triangles
+    params.convex = false;                        // convex_or() chooses by distance
     LodLevel by_volume = mesh(std::move(params), scale, closing);
     measure(by_volume);
     return is_better(by_volume, level, target.faces) ? by_volume : level;
@@ -313,20 +313,20 @@ struct LodChain::State {
     level.scale_world = scale;
     level.reductions = reductions;
     context.report("meshing", "levels", 0, 1);
-    if (params.near_world) params.near_world = scale;
     ShelfSource source(closed_header(closing.field), *solid, closing.voxels.get(), keep);
     level.mesh = std::move(mesh_stream(source, context, std::move(params), level.counts).front());
     return level;
   }
 
-  [[nodiscard]] MeshParams mesh_params(const LodTarget& target) const {
+  /// near_world: as MeshParams has it.
+  [[nodiscard]] MeshParams mesh_params(const LodTarget& target, std::optional<double> near_world) const {
     MeshParams params;
     if (target.faces > 0) params.faces = {target.faces};
     // What is enclosed is within a diagonal of a voxel of the scene.
     if (target.error_world > 0)
       params.error_world = std::max(target.error_world - std::sqrt(3.0) * (header.frame.voxel + outside->voxel()),
                                     target.error_world / 4);
-    params.near_world = first_scale(ground(), target, last_scale);
+    params.near_world = near_world;
     params.mode = options.mode;
     params.enclose = options.enclose;
     if (options.enclose == Enclose::scene) {  // distances are to its voxels, as without

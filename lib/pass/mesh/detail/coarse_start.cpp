@@ -45,12 +45,9 @@ bool CoarseStarts::has_flat_sides(std::uint64_t faces) const {
 }
 
 CoarseStart CoarseStarts::first(std::uint64_t faces) const {
-  return has_flat_sides(faces) ? finer(faces) : coarse_start(meshed, header, kDensePerFace * faces, make_shelf);
-}
-
-CoarseStart CoarseStarts::finer(std::uint64_t faces) const {
   constexpr std::uint64_t kDenseOfFlat = 200000;
-  return coarse_start(meshed, header, std::max(kDensePerFace * faces, kDenseOfFlat), make_shelf);
+  const std::uint64_t dense = kDensePerFace * faces;
+  return coarse_start(meshed, header, has_flat_sides(faces) ? std::max(dense, kDenseOfFlat) : dense, make_shelf);
 }
 
 }  // namespace bp

@@ -30,10 +30,9 @@ struct CoarseStarts {
 
   /// Whether the scene is known to have few triangles for so many faces: it is of flat sides, as a rule.
   [[nodiscard]] bool has_flat_sides(std::uint64_t faces) const;
-  /// The coarse one, or the finer one for flat sides.
+  /// A coarse one; for flat sides one of at least 200,000 dense faces, since tightening does not take all of the steps
+  /// of larger voxels back there.
   [[nodiscard]] CoarseStart first(std::uint64_t faces) const;
-  /// From flat sides tightening does not take all back. What it has of 200,000 dense faces it does, nearly always.
-  [[nodiscard]] CoarseStart finer(std::uint64_t faces) const;
 };
 
 }  // namespace bp
