@@ -2,7 +2,6 @@
 
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
-#include "lib/core/vec3.h"
 #include "lib/pass/voxelize/empty_scene.h"
 #include "lib/store/content_hash.h"
 #include "lib/store/hex.h"
@@ -22,7 +21,7 @@ struct ScenePasses::Item {
   std::vector<TriangleD> triangles;
   std::vector<std::uint32_t> places;
   Bounds3d bounds;
-  double area = 0, extent = 0;
+  double extent = 0;
   std::optional<SurfaceSums> sums;
 };
 
@@ -34,8 +33,8 @@ void ScenePasses::measure(const PassProgress& progress) {
       thread_count() + 2,
       [&](Item& item) {
         if (!source_.read(item.triangles)) return false;
-        if (!origin) sums_ = SurfaceSums(*(origin = item.triangles[0][0]));
-        item.sums.emplace(*origin);
+        if (!origin && !item.triangles.empty()) sums_ = SurfaceSums(*(origin = item.triangles[0][0]));
+        item.sums.emplace(origin.value_or(Vec3d{}));
         return true;
       },
       [&](Item& item) {
@@ -44,7 +43,6 @@ void ScenePasses::measure(const PassProgress& progress) {
           for (const Vec3d& p : t) box.add(p);
           item.bounds.merge(box);
           for (std::size_t i = 0; i < 3; ++i) item.extent += box.max[i] - box.min[i];
-          item.area += length(cross(t[1] - t[0], t[2] - t[0])) / 2;
         }
         item.sums->add(item.triangles);
         if (chunks_) item.places = ChunkCutter::places(item.triangles);
@@ -56,7 +54,6 @@ void ScenePasses::measure(const PassProgress& progress) {
         bounds_.merge(item.bounds);
         sums_.merge(*item.sums);
         item.sums.reset();
-        area_ += item.area;
         extent_ += item.extent;
         steps.add(item.triangles.size());
         if (!reads_twice_) keep(std::move(item));

@@ -26,7 +26,7 @@ class ScenePasses {
   void measure(const PassProgress& progress);
   [[nodiscard]] const Bounds3d& bounds() const { return bounds_; }
   /// Sums over the triangles, scene units: areas, and sides of their boxes.
-  [[nodiscard]] double area() const { return area_; }
+  [[nodiscard]] double area() const { return sums_.area(); }
   [[nodiscard]] double extent() const { return extent_; }
   [[nodiscard]] const SurfaceSums& sums() const { return sums_; }
   [[nodiscard]] const std::string& input_hash() const { return input_hash_; }  ///< of VoxelizeCounts
@@ -49,7 +49,7 @@ class ScenePasses {
   const std::uint64_t memory_bytes_;
   ChunkedSurface* const chunks_;
   Bounds3d bounds_;
-  double area_ = 0, extent_ = 0;
+  double extent_ = 0;
   SurfaceSums sums_;
   std::string input_hash_;
   bool reads_twice_ = false;

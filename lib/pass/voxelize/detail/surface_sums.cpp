@@ -21,8 +21,9 @@ void SurfaceSums::add(std::span<const TriangleD> triangles) {
   if (axes_[0].empty()) axes_.fill(Axis(kBins));
   for (const TriangleD& t : triangles) {
     const Vec3d a = t[0] - origin_, b = t[1] - origin_, c = t[2] - origin_;
-    const Vec3d normal = cross(b - a, c - a);
+    const Vec3d normal = cross(t[1] - t[0], t[2] - t[0]);
     const double area = length(normal) / 2;
+    area_ += area;
     if (!std::isfinite(area)) continue;
     Bounds3d box;
     for (const Vec3d& p : t) box.add(p);
@@ -32,7 +33,6 @@ void SurfaceSums::add(std::span<const TriangleD> triangles) {
       bin.bounds.merge(box);
     }
     bounds_.merge(box);
-    area_ += area;
     volume_ += dot(a, cross(b, c)) / 6;
     normals_ = normals_ + normal;
   }
@@ -78,7 +78,7 @@ SurfaceSums::Split SurfaceSums::split(std::size_t k) const {
 }
 
 std::optional<StrayPart> SurfaceSums::stray() const {
-  if (!(area_ > 0)) return {};
+  if (!(area_ > 0) || !std::isfinite(area_)) return {};
   StrayPart stray;
   stray.rest = bounds_;
   for (std::size_t k = 0; k < 3; ++k) {

@@ -19,6 +19,7 @@ class SurfaceSums {
   void add(std::span<const TriangleD> triangles);
   void merge(const SurfaceSums& other);
 
+  [[nodiscard]] double area() const { return area_; }  ///< of all triangles
   /// What makes the bounds large, if a small share of the area does.
   [[nodiscard]] std::optional<StrayPart> stray() const;
   /// Signed, seen from the middle of the bounds: of a closed surface its volume.
