@@ -4,17 +4,12 @@
 #include <filesystem>
 #include <sstream>
 
+#include "io/files/file.h"
 #include "io/files/lower.h"
 
 namespace bp {
 
 namespace {
-
-/// A pipe or a device is none: nobody may wait for what a file names.
-bool is_regular(const std::string& path) {
-  std::error_code unknown;
-  return std::filesystem::is_regular_file(path, unknown);
-}
 
 bool is_whole_path(const std::string& name) {
   return name.starts_with('/');
@@ -62,7 +57,7 @@ std::string path_like(const std::string& folder, const std::string& name) {
     if (entry.empty()) return "";
     path = in_folder(path, entry);
   }
-  return is_regular(path) ? path : "";
+  return is_regular_file(path) ? path : "";
 }
 
 }  // namespace
@@ -71,7 +66,7 @@ std::string find_beside(const std::string& folder, const std::string& name) {
   const std::string plain = cleaned(name), bare = plain.substr(plain.find_last_of('/') + 1);
   const std::string path = in_folder(folder, plain), near = in_folder(folder, bare);
   for (const std::string& one : {in_folder(folder, name), path, near}) {
-    if (is_regular(one)) return one;
+    if (is_regular_file(one)) return one;
   }
   for (const std::string& one : {plain, bare}) {
     if (const std::string found = path_like(folder, one); !found.empty()) return found;

@@ -230,6 +230,11 @@ std::string whole_path(const std::string& path) {
   return unknown ? path : whole.string();
 }
 
+bool is_regular_file(const std::string& path) {
+  std::error_code unknown;
+  return std::filesystem::is_regular_file(path, unknown);
+}
+
 std::string folder_of(const std::string& path) {
   const std::size_t end = path.rfind('/');
   if (end == std::string::npos) return ".";

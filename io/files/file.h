@@ -87,6 +87,9 @@ class OutputFile {
 [[nodiscard]] std::string whole_path(const std::string& path);
 /// What was made, renamed or removed in a folder outlasts a crash of the machine, if its file system can do that.
 void sync_folder(const std::string& path);
+/// Whether a path leads to a regular file: a pipe would be waited for, or robbed of its first bytes, and a device has
+/// no end. False where that cannot be told.
+[[nodiscard]] bool is_regular_file(const std::string& path);
 /// Of a path; "." if it names none.
 [[nodiscard]] std::string folder_of(const std::string& path);
 

@@ -204,11 +204,6 @@ std::vector<std::string> found_beside(const std::string& file, std::vector<std::
   return names;
 }
 
-bool is_file(const std::string& path) {
-  std::error_code unknown;  // a pipe would be waited for, or robbed of its first bytes
-  return std::filesystem::is_regular_file(path, unknown);
-}
-
 std::vector<std::string> materials_of(const std::string& obj) {
   return found_beside(obj, named_by_obj(head_of(obj, kMostObj)));
 }
@@ -217,14 +212,14 @@ std::vector<std::string> materials_of(const std::string& obj) {
 
 std::vector<std::string> parts_of_scene(const std::string& path) {
   const std::string format = scene_format_of(path);
-  if (!is_file(path)) return {};
+  if (!is_regular_file(path)) return {};
   try {
     if (format == "gltf") return beside(path, named_by_gltf(path));
     if (format == "glb") return beside(path, named_by_glb(path));
     if (format != "obj") return {};
     std::vector<std::string> parts = materials_of(path);
     for (const std::string& materials : std::vector<std::string>(parts)) {
-      if (!is_file(materials)) continue;
+      if (!is_regular_file(materials)) continue;
       const std::vector<std::string> textures = found_beside(materials, named_by_mtl(head_of(materials, kMostMtl)));
       parts.insert(parts.end(), textures.begin(), textures.end());
     }
@@ -235,7 +230,7 @@ std::vector<std::string> parts_of_scene(const std::string& path) {
 }
 
 std::vector<std::string> missing_materials(const std::string& path) {
-  if (scene_format_of(path) != "obj" || !is_file(path)) return {};
+  if (scene_format_of(path) != "obj" || !is_regular_file(path)) return {};
   std::vector<std::string> missing;
   try {
     missing = materials_of(path);

@@ -1,10 +1,9 @@
 #include "io/tiles/tileset_rules.h"
 
-#include <sys/stat.h>
-
 #include <algorithm>
 #include <array>
 
+#include "io/files/file.h"
 #include "io/files/lower.h"
 #include "io/files/uri.h"
 
@@ -36,11 +35,6 @@ UpAxis content_up(const GltfObject& root) {
 
 std::string content_uri(const GltfObject& content) {
   return detail::percent_decoded(content.text(content.has("uri") ? "uri" : "url"));
-}
-
-bool is_regular_file(const std::string& path) {
-  struct stat file {};
-  return ::stat(path.c_str(), &file) == 0 && S_ISREG(file.st_mode);
 }
 
 std::string content_path(const std::string& folder, const std::string& uri) {

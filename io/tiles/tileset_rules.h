@@ -23,7 +23,6 @@ void check_tile(const GltfObject& tile, int depth);
 [[nodiscard]] std::string content_uri(const GltfObject& content);
 /// The file of a content's uri in the folder of its tileset; a query is left out if no file has it in its name.
 [[nodiscard]] std::string content_path(const std::string& folder, const std::string& uri);
-[[nodiscard]] bool is_regular_file(const std::string& path);
 /// True if a content is a tileset of its own.
 [[nodiscard]] bool names_tileset(const std::string& uri);
 /// How a tile is refined that says `refine`: its content stays beside those below.

@@ -2,10 +2,10 @@
 #include <assimp/DefaultIOSystem.h>
 
 #include <assimp/IOStream.hpp>
-#include <filesystem>
 #include <string>
 #include <utility>
 
+#include "io/files/file.h"
 #include "io/scene/scene_file.h"
 
 /// Files as Assimp wants them.
@@ -41,21 +41,15 @@ class SceneFileSystem final : public Assimp::DefaultIOSystem {
  public:
   SceneFileSystem(SceneFilePtr file, std::string name, std::string& parts)
       : file_(std::move(file)), name_(std::move(name)), parts_(parts) {}
-  bool Exists(const char* name) const override { return name == name_ || is_file(name); }
+  bool Exists(const char* name) const override { return name == name_ || is_regular_file(name); }
   Assimp::IOStream* Open(const char* name, const char* mode) override {
     if (name == name_) return new SceneStream(file_);
-    Assimp::IOStream* const part = is_file(name) ? DefaultIOSystem::Open(name, mode) : nullptr;
+    Assimp::IOStream* const part = is_regular_file(name) ? DefaultIOSystem::Open(name, mode) : nullptr;
     if (part != nullptr) parts_.append(name).push_back('\0');
     return part;
   }
 
  private:
-  /// A pipe would be waited for, and a device has no end.
-  static bool is_file(const char* name) {
-    std::error_code unknown;
-    return std::filesystem::is_regular_file(name, unknown);
-  }
-
   SceneFilePtr file_;
   std::string name_;
   std::string& parts_;
