@@ -42,7 +42,7 @@ std::uint64_t bytes_made(std::string_view text, const MadeOfJson& made) {
   return count * made.bytes;
 }
 
-/// Of the InstancedScene that a glTF becomes: about, and rather too many.
+/// The bytes of the InstancedScene that a glTF becomes: about, and rather too many.
 std::uint64_t description_bytes(std::string_view text) {
   return bytes_made(text, {"\"mesh\"", sizeof(MeshNode)}) + bytes_made(text, {"\"attributes\"", sizeof(Primitive)}) +
          bytes_made(text, {"\"EXT_mesh_gpu_instancing\"", sizeof(InstanceArray)});

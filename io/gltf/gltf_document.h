@@ -106,7 +106,7 @@ class GltfDocument {
   [[nodiscard]] GltfObject root() const { return GltfObject(json_, file_->name(), ""); }
   /// Of its JSON.
   [[nodiscard]] std::uint64_t memory_bytes() const { return json_bytes_; }
-  /// Of SceneOptions::document, while it was parsed.
+  /// The bytes of SceneOptions::document that it took while it was parsed.
   [[nodiscard]] std::uint64_t document_bytes() const { return document_bytes_; }
   /// Accessor i, checked against its views; `components` is what its type must have: 1 to 4, or kMatrixNumbers.
   Accessor accessor(std::uint64_t i, std::size_t components);

@@ -188,7 +188,7 @@ void SceneUnloader::add_nodes(const aiScene& scene) {
   follow_bones(scene, places);
 }
 
-/// Of COLLADA's morph targets Assimp knows too little; a reader of our own has counted them.
+/// Assimp knows too little of COLLADA's morph targets; a reader of our own has counted them.
 void SceneUnloader::follow_bones(const aiScene& scene, const BonePlaces& places) {
   const bool knows_morphs = exact_ != nullptr && exact_->knows_nodes;
   for (NodeRecord& node : summary_.nodes) {

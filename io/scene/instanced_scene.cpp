@@ -61,7 +61,7 @@ std::uint64_t decode_index(const std::byte* from, ComponentType type) {
   }
 }
 
-/// Of the bytes for vertices, those that the scene's description leaves.
+/// The bytes for vertices that the scene's description leaves.
 std::uint64_t cache_bytes(const InstancedScene& scene, const SceneOptions& options) {
   const std::uint64_t described = scene.memory_bytes();
   if (options.document.bytes == 0) return options.memory_bytes;

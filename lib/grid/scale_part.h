@@ -12,7 +12,8 @@ struct ScalePart {
   ScaleField::Range range;           ///< of S in the ball
 };
 
-/// Of a ball, scene units. `around`: the part of a ball that holds this one; null: all rules are visited.
+/// The part of a field in a ball, scene units. `around`: the part of a ball that holds this one; null: all rules are
+/// visited.
 [[nodiscard]] ScalePart part_near(const ScaleField& field, const Vec3d& centre, double radius,
                                   const ScalePart* around = nullptr);
 

@@ -130,7 +130,7 @@ Hulls simplified(const std::vector<Wrapped>& wrapped, const HullLimits& limits, 
   return made;
 }
 
-/// As many hulls as leave least volume within the faces, but not more than limits.hulls.
+/// The number of hulls that leaves least volume within the faces, at most limits.hulls.
 Hulls few_hulls(const std::vector<Wrapped>& wrapped, const HullLimits& limits, double small6, bool& short_of_faces) {
   constexpr double kWorse = 1.03;  // volume at which fewer hulls are not tried any more
   Hulls best;

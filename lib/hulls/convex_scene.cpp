@@ -129,7 +129,7 @@ struct FinePart {
   }
 };
 
-/// Of a convex part: its corners and its volume. No corners: it is none.
+/// The corners and the volume of a convex part. No corners: it is none.
 struct Found {
   std::vector<Vec3d> corners;
   double volume = 0;

@@ -110,7 +110,7 @@ VoxelizedScene Build::voxelize(std::int32_t cell_vox, ResultStore* results, bool
   return out;
 }
 
-/// Of an occluder nothing that is known here tells it: up to 11 times as long.
+/// An occluder takes up to 11 times as long as anything known here would tell: nothing is said of it.
 void Build::tell_time(const StreamHeader& header, const VoxelizeCounts& counts, bool again) {
   if (again || !tells_time || options.profile == LodProfile::occluder) return;
   note_estimate(estimate_build(options, header.bounds, counts, header.frame.voxel), options.common, progress, report);

@@ -57,7 +57,7 @@ struct WrittenFile {
 };
 /// Writes them; returns those that hold one level. `levels`: finest first; errors must not fall towards coarser ones;
 /// collision: collision/collision_files.h. diameter: of the scene; origin: subtracted from all vertices; scene units.
-/// Of the options: profile, name, mode.
+/// The options that decide are profile, name and mode.
 std::vector<WrittenFile> write_profile(const BuildOptions& options, const std::vector<LodLevel>& levels,
                                        double diameter, const Vec3d& origin, OutputFolder& out);
 

@@ -33,8 +33,8 @@ std::string stray_note(const VoxelizeCounts& counts, const StreamHeader& header)
       stray.rest.longest_side(), header.frame.voxel, voxel_for_the_rest(stray, header.bounds));
 }
 
-/// Of a surface with an opening that the flood comes in by. A closed one has its volume filled, and parts that are
-/// thinner than two voxels have next to none.
+/// Tells of a surface with an opening that the flood comes in by. A closed one has its volume filled, and parts that
+/// are thinner than two voxels have next to none.
 std::string leak_note(const VoxelizeCounts& counts, const StreamHeader& header) {
   constexpr double kFilled = 0.02, kSolid = 0.5;  // of the volume that the triangles go around
   if (header.fill != FillMode::flood) return "";

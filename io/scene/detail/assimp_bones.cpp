@@ -31,7 +31,7 @@ Affine rounded_matrix(const aiMatrix4x4& m) {
   return a;
 }
 
-/// Of the 3 x 3 numbers, and of the translation.
+/// The sizes of the 3 x 3 numbers of a matrix, and of its translation.
 struct Sizes {
   explicit Sizes(const Affine& a) {
     for (const auto& row : a.m) {

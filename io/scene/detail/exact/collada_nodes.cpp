@@ -115,8 +115,7 @@ std::optional<Affine> transform_of(const ColladaXml& element) {
   return {};
 }
 
-/// Of two numbers that a float32 reader sums, the larger magnitude: where they cancel, its error is a share of this
-/// one.
+/// The larger magnitude of two numbers that a float32 reader sums: where they cancel, its error is a share of it.
 class TermSizes {
  public:
   void multiply(const Affine& next) {

@@ -16,7 +16,7 @@ inline std::string_view collada_text(const ColladaXml& node) {
   return node.child_value();
 }
 
-/// Of an element of this document: "#id".
+/// The id that a URI names, if it is one of this document: "#id".
 inline std::string collada_target(const char* uri) {
   return uri[0] == '#' ? uri + 1 : "";
 }
