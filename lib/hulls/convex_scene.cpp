@@ -5,13 +5,13 @@
 #include <cmath>
 #include <compare>
 #include <cstdint>
-#include <numeric>
 #include <optional>
 #include <utility>
 
 #include "lib/core/box.h"
 #include "lib/core/disjoint_sets.h"
 #include "lib/core/parallel.h"
+#include "lib/geometry/welded_triangles.h"
 #include "lib/hulls/detail/convex_shape.h"
 #include "lib/hulls/detail/convex_simplify.h"
 #include "lib/hulls/detail/convex_tighten.h"
@@ -29,28 +29,8 @@ constexpr std::size_t kMostCornersOfPart = 4096;
 constexpr double kAsWhole = 1e-6;    // of the volume: a part with more than its hull winds around itself
 constexpr double kFlatSides = 5e-4;  // of the volume, for fewer corners: flat sides are flat to a rounding only
 
-/// The scene with one number for each place.
-struct Welded {
-  std::vector<Vec3d> places;
-  std::vector<PartFace> triangles;
-};
-
-Welded welded(std::span<const TriangleD> scene) {
-  std::vector<std::uint32_t> order(3 * scene.size());
-  std::iota(order.begin(), order.end(), 0u);
-  const auto place = [&](std::uint32_t i) -> const Vec3d& { return scene[i / 3][i % 3]; };
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return place(a) < place(b); });
-  Welded mesh;
-  mesh.triangles.resize(scene.size());
-  for (const std::uint32_t i : order) {
-    if (mesh.places.empty() || mesh.places.back() != place(i)) mesh.places.push_back(place(i));
-    mesh.triangles[i / 3][i % 3] = std::uint32_t(mesh.places.size() - 1);
-  }
-  return mesh;
-}
-
 /// Unites faces across edges that exactly two have, in opposite directions: walls that touch along an edge stay apart.
-DisjointSets joined_faces(const Welded& mesh) {
+DisjointSets joined_faces(const WeldedTriangles& mesh) {
   struct HalfEdge {
     std::uint32_t low, high, face;
     bool up;
@@ -73,7 +53,7 @@ DisjointSets joined_faces(const Welded& mesh) {
 }
 
 /// The triangles of each connected part, parts in the order of their first triangles.
-std::vector<std::vector<std::uint32_t>> scene_parts(const Welded& mesh) {
+std::vector<std::vector<std::uint32_t>> scene_parts(const WeldedTriangles& mesh) {
   constexpr std::uint32_t kNone = ~std::uint32_t(0);
   DisjointSets joined = joined_faces(mesh);
   std::vector<std::uint32_t> number(mesh.triangles.size(), kNone);
@@ -90,7 +70,7 @@ std::vector<std::vector<std::uint32_t>> scene_parts(const Welded& mesh) {
 }
 
 /// Whether each edge is there once in either direction. Triangles with two corners at a place have none.
-bool is_closed(const Welded& mesh, const std::vector<std::uint32_t>& part) {
+bool is_closed(const WeldedTriangles& mesh, const std::vector<std::uint32_t>& part) {
   std::vector<std::array<std::uint32_t, 2>> edges;
   for (const std::uint32_t f : part) {
     const PartFace& t = mesh.triangles[f];
@@ -111,7 +91,7 @@ struct FinePart {
   std::vector<PartFace> triangles;
   double unit = 0;  // scene units
 
-  FinePart(const Welded& mesh, const std::vector<std::uint32_t>& part) {
+  FinePart(const WeldedTriangles& mesh, const std::vector<std::uint32_t>& part) {
     constexpr double kSteps = double(std::int64_t(1) << 27);
     for (const std::uint32_t f : part) places.insert(places.end(), mesh.triangles[f].begin(), mesh.triangles[f].end());
     std::sort(places.begin(), places.end());
@@ -135,7 +115,7 @@ struct Found {
   double volume = 0;
 };
 
-Found convex_part(const Welded& mesh, const std::vector<std::uint32_t>& part) {
+Found convex_part(const WeldedTriangles& mesh, const std::vector<std::uint32_t>& part) {
   if (part.size() < 4 || !is_closed(mesh, part)) return {};
   const FinePart fine(mesh, part);
   if (fine.vertices.empty()) return {};
@@ -172,7 +152,7 @@ std::vector<ConvexHull> outer_hulls(std::vector<ConvexHull> hulls) {
 }  // namespace
 
 ConvexScene convex_scene(std::span<const TriangleD> scene) {
-  const Welded mesh = welded(scene);
+  const WeldedTriangles mesh = welded(scene);
   const std::vector<std::vector<std::uint32_t>> parts = scene_parts(mesh);
   std::vector<Found> found(parts.size());
   parallel_for(std::int64_t(parts.size()),

@@ -13,6 +13,7 @@
 #include "lib/levels/detail/outside.h"
 #include "lib/levels/detail/prism_level.h"
 #include "lib/pass/measure/shape_rules.h"
+#include "lib/pass/mesh/outward_scene.h"
 #include "lib/pass/mesh/scene_check.h"
 #include "lib/surface/repair.h"
 #include "lib/surface/surface.h"
@@ -53,6 +54,17 @@ struct LodChain::State {
     options.surface.reset();
     take_off(outside->bytes());
     last_scale = options.least_scale_world;
+    if (options.mode == MeshMode::bounding && has_triangles() && !options.field && !options.cage) begin_with_scene();
+  }
+
+  /// Where the scene is a surface that bounds a solid, the levels follow from it, as from a finer level.
+  void begin_with_scene() {
+    if (options.scene.size() > outside->dense_faces) return;  // then the voxels' surface is the shorter way
+    std::optional<LatticeMesh> surface = outward_scene(options.scene, header.frame);
+    if (!surface) return;
+    surface->provenance = header.provenance;
+    const MeshMeasures measures = bp::measure(*surface);
+    finer = {std::move(*surface), measures, 0};
   }
 
   LodLevel make(const LodTarget& target) {
@@ -135,7 +147,8 @@ struct LodChain::State {
   [[nodiscard]] bool continues(const LodTarget& target) const {
     if (!is_by_budget(target) || options.mode != MeshMode::bounding || has_ways(target)) return false;
     if (finer.mesh.triangles.empty() || !(finer.mesh.frame == header.frame)) return false;
-    return (finer.measures.shells + finer.measures.handles) * kFacesPerPart <= target.faces;
+    return finer.mesh.triangles.size() <= target.faces ||
+           (finer.measures.shells + finer.measures.handles) * kFacesPerPart <= target.faces;
   }
 
   /// The level before with fewer faces, measured.
@@ -254,7 +267,7 @@ struct LodChain::State {
     LatticeMesh mesh;
     MeshMeasures measures;
     double scale_world = 0;
-  } finer;  // the bounding level made last
+  } finer;  // the bounding level made last, or the scene's own surface
 
  private:
   void take_off(std::uint64_t bytes) {

@@ -24,7 +24,7 @@ set(rules
   "lib/enclosed:lib/core lib/exact lib/geometry lib/grid lib/volume lib/mesh"
   "lib/surface:lib/core lib/store lib/grid lib/volume lib/mesh"
   "lib/simplify:lib/core lib/geometry lib/mesh lib/enclosed lib/surface"
-  "lib/hulls:lib/core lib/exact lib/mesh"
+  "lib/hulls:lib/core lib/exact lib/geometry lib/mesh"
   "lib/tighten:lib/core lib/exact lib/mesh lib/enclosed lib/simplify lib/hulls"
   "lib/quads:lib/core lib/exact lib/grid lib/mesh lib/enclosed lib/surface lib/simplify lib/tighten"
   "lib/fit:lib/core lib/geometry lib/mesh lib/enclosed lib/simplify"

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "lib/geometry/surface_distance.h"
+#include "lib/mesh/lattice_mesh.h"
 
 /// What bpmesh reports of a proxy: measures in doubles, proving nothing (bpcheck does).
 namespace bp {
@@ -30,5 +31,8 @@ struct MeshMeasures {
   /// Upper bound of the symmetric Hausdorff distance; needs both.
   [[nodiscard]] double hausdorff() const { return std::max(proxy_to_enclosed->at_most, enclosed_to_proxy->at_most); }
 };
+
+/// Measures a closed mesh, without distances. Linear.
+[[nodiscard]] MeshMeasures measure(const LatticeMesh& mesh);
 
 }  // namespace bp

@@ -4,8 +4,6 @@
 
 namespace bp {
 
-[[nodiscard]] MeshMeasures measure(const LatticeMesh& mesh);
-
 /// Adds the distances to the surface of what `mesh` encloses; `tree` is over the same triangles.
 void measure_distances(const LatticeMesh& mesh, const std::vector<TriangleD>& enclosed, const TriangleBvh& tree,
                        MeshMeasures& measures);

@@ -1,0 +1,340 @@
+#include "lib/pass/mesh/detail/mend_around.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <optional>
+#include <unordered_map>
+
+#include "lib/core/disjoint_sets.h"
+#include "lib/core/parallel.h"
+#include "lib/exact/triangle_intersection.h"
+#include "lib/geometry/crossing.h"
+#include "lib/geometry/welded_triangles.h"
+#include "lib/mesh/box_tree.h"
+#include "lib/mesh/constrained_minimum.h"
+#include "lib/mesh/half_edge_mesh.h"
+#include "lib/mesh/lattice_geometry.h"
+
+namespace bp {
+
+namespace {
+
+constexpr std::int64_t kGrain = 256;
+constexpr double kAbove = 2;  // lattice units from an apex to the planes around it: more than rounding takes back
+
+std::vector<LatticeBox> boxes_of(const LatticeMesh& mesh) {
+  std::vector<LatticeBox> boxes(mesh.triangles.size());
+  for (std::size_t f = 0; f < boxes.size(); ++f) {
+    const auto& [a, b, c] = mesh.triangles[f];
+    boxes[f] = box_of(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]);
+  }
+  return boxes;
+}
+
+BoxTree tree_of(const std::vector<LatticeBox>& boxes) {
+  std::vector<std::uint32_t> all(boxes.size());
+  for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
+  BoxTree tree;
+  tree.build(boxes, std::move(all));
+  return tree;
+}
+
+/// Boxes of the faces, and what finds them.
+struct Faces {
+  std::vector<LatticeBox> boxes;
+  BoxTree tree;
+  explicit Faces(const LatticeMesh& mesh) : boxes(boxes_of(mesh)), tree(tree_of(boxes)) {}
+};
+
+bool has_area(const LatticeMesh& mesh, std::size_t f) {
+  const auto& [a, b, c] = mesh.triangles[f];
+  return normal_of(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]) != LatticeCoord{};
+}
+
+TriangleD world_face(const LatticeMesh& mesh, std::uint32_t f) {
+  const auto& [a, b, c] = mesh.triangles[f];
+  return {mesh.frame.world(mesh.vertices[a]), mesh.frame.world(mesh.vertices[b]), mesh.frame.world(mesh.vertices[c])};
+}
+
+/// Around a triangle of the scene, with room for rounding.
+LatticeBox lattice_box(const TriangleD& t, const GridFrame& frame) {
+  const LatticeBox box =
+      box_of(rounded(frame.to_lattice(t[0])), rounded(frame.to_lattice(t[1])), rounded(frame.to_lattice(t[2])));
+  return {box.min - LatticeCoord{2, 2, 2}, box.max + LatticeCoord{2, 2, 2}};
+}
+
+bool touches(const TriangleD& t, const TriangleD& face) {
+  return collinear(t[0], t[1], t[2]) ? degenerate_triangle_meets(t.data(), face.data())
+                                     : triangles_intersect(t.data(), face.data());
+}
+
+/// Winding number of the mesh around a point of the scene that lies on no face.
+int winding(const LatticeMesh& mesh, const BoxTree& tree, const Vec3d& point) {
+  const LatticeCoord p = rounded(mesh.frame.to_lattice(point));
+  int sum = 0;
+  static_cast<void>(
+      tree.query({p - LatticeCoord{2, 2, 2}, {p.x + 2, p.y + 2, kEverywhere.max.z}}, [&](std::uint32_t f) {
+        sum += crossing_above(world_face(mesh, f), point);
+        return true;
+      }));
+  return sum;
+}
+
+using Faults = std::vector<std::atomic<char>>;  // of each face
+
+/// Marks the faces that have no area, or meet others.
+void mark_met(const LatticeMesh& mesh, const Faces& faces, Faults& faulty) {
+  parallel_ranges(std::int64_t(mesh.triangles.size()), kGrain, [&](std::int64_t begin, std::int64_t end) {
+    for (auto f = std::uint32_t(begin); f < std::uint32_t(end); ++f) {
+      if (!has_area(mesh, f)) {
+        faulty[f] = 1;
+        continue;
+      }
+      static_cast<void>(faces.tree.query(faces.boxes[f], [&](std::uint32_t g) {
+        if (g > f && has_area(mesh, g) &&
+            triangles_meet_beyond_shared(mesh.vertices.data(), mesh.triangles[f], mesh.triangles[g]))
+          faulty[f] = faulty[g] = 1;
+        return true;
+      }));
+    }
+  });
+}
+
+/// Marks the faces that touch the scene.
+void mark_touched(const LatticeMesh& mesh, const Faces& faces, std::span<const TriangleD> scene, Faults& faulty) {
+  parallel_ranges(std::int64_t(scene.size()), kGrain, [&](std::int64_t begin, std::int64_t end) {
+    for (auto i = std::size_t(begin); i < std::size_t(end); ++i) {
+      static_cast<void>(faces.tree.query(lattice_box(scene[i], mesh.frame), [&](std::uint32_t f) {
+        if (has_area(mesh, f) && touches(scene[i], world_face(mesh, f))) faulty[f] = 1;
+        return true;
+      }));
+    }
+  });
+}
+
+/// A corner of each part of the scene that is connected by corners. Where nothing touches the mesh, a part lies on one
+/// side of it as a whole.
+std::vector<Vec3d> points_of_parts(std::span<const TriangleD> scene) {
+  const WeldedTriangles mesh = welded(scene);
+  DisjointSets parts(mesh.places.size());
+  for (const auto& [a, b, c] : mesh.triangles) {
+    parts.unite(a, b);
+    parts.unite(b, c);
+  }
+  std::vector<Vec3d> points;
+  for (std::uint32_t i = 0; i < mesh.places.size(); ++i) {
+    if (parts.find(i) == i) points.push_back(mesh.places[i]);
+  }
+  return points;
+}
+
+bool is_in_domain(const TriangleD& t) {
+  return in_predicate_domain(t[0]) && in_predicate_domain(t[1]) && in_predicate_domain(t[2]);
+}
+
+/// A part of the mesh that a tent may replace: a disc of faces.
+struct Disc {
+  std::vector<FaceId> faces;
+  std::vector<VertexId> rim;  // counter-clockwise
+};
+
+/// Sets the rim from its edges; false if the faces are no disc.
+bool trace_rim(const HalfEdgeMesh& mesh, const std::unordered_map<VertexId, VertexId>& next, Disc& disc) {
+  const VertexId first = std::min_element(next.begin(), next.end())->first;
+  for (VertexId v = first; disc.rim.empty() || v != first; v = next.at(v)) disc.rim.push_back(v);
+  std::vector<VertexId> inner;
+  for (const FaceId f : disc.faces) {
+    for (HalfEdgeId h = 3 * f; h < 3 * f + 3; ++h) {
+      if (!next.contains(mesh.from(h))) inner.push_back(mesh.from(h));
+    }
+  }
+  std::sort(inner.begin(), inner.end());
+  inner.erase(std::unique(inner.begin(), inner.end()), inner.end());
+  // A disc of V inner and R rim vertices has 2 V + R - 2 faces; with one rim, nothing else has.
+  return disc.rim.size() == next.size() && disc.faces.size() + 2 == 2 * inner.size() + disc.rim.size();
+}
+
+/// The connected sets of faces that have a vertex among the marked ones, as far as they are discs.
+std::vector<Disc> discs_around(const HalfEdgeMesh& mesh, const std::vector<char>& marked) {
+  std::vector<char> taken(mesh.face_capacity());
+  const auto is_wanted = [&](FaceId f) {
+    return marked[mesh.from(3 * f)] != 0 || marked[mesh.from(3 * f + 1)] != 0 || marked[mesh.from(3 * f + 2)] != 0;
+  };
+  std::vector<Disc> discs;
+  for (FaceId first = 0; first < mesh.face_capacity(); ++first) {
+    if (taken[first] != 0 || !is_wanted(first)) continue;
+    Disc disc;
+    disc.faces.push_back(first);
+    taken[first] = 1;
+    std::unordered_map<VertexId, VertexId> next;  // along the rim
+    bool is_disc = true;
+    for (std::size_t i = 0; i < disc.faces.size(); ++i) {
+      for (HalfEdgeId h = 3 * disc.faces[i]; h < 3 * disc.faces[i] + 3; ++h) {
+        const FaceId beside = HalfEdgeMesh::face(mesh.twin(h));
+        if (!is_wanted(beside)) {
+          is_disc = next.emplace(mesh.from(h), mesh.to(h)).second && is_disc;  // else the rim meets itself
+        } else if (taken[beside] == 0) {
+          taken[beside] = 1;
+          disc.faces.push_back(beside);
+        }
+      }
+    }
+    if (is_disc && !next.empty() && trace_rim(mesh, next, disc)) discs.push_back(std::move(disc));
+  }
+  return discs;
+}
+
+/// Puts tents over faults: a disc of faces around one gives way to the faces between its rim and an apex outside.
+class Tents {
+ public:
+  Tents(LatticeMesh& mesh, std::span<const TriangleD> scene) : mesh_(mesh), scene_(scene) {
+    std::vector<LatticeBox> boxes(scene.size());
+    for (std::size_t i = 0; i < boxes.size(); ++i) boxes[i] = lattice_box(scene[i], mesh.frame);
+    scene_tree_ = tree_of(boxes);
+  }
+
+  /// Where there is a place for one.
+  void put_over(const std::vector<Disc>& discs, const Faces& faces) {
+    std::vector<char> gone(mesh_.triangles.size());
+    for (const Disc& disc : discs) {
+      for (const FaceId f : disc.faces) gone[f] = 1;
+    }
+    for (const Disc& disc : discs) {
+      if (put_over(disc, faces, gone)) continue;
+      for (const FaceId f : disc.faces) gone[f] = 0;
+    }
+    std::vector<Triangle> kept;
+    for (std::size_t f = 0; f < mesh_.triangles.size(); ++f) {
+      if (f >= gone.size() || gone[f] == 0) kept.push_back(mesh_.triangles[f]);
+    }
+    mesh_.triangles = std::move(kept);
+    drop_unused_vertices(mesh_.vertices, mesh_.triangles);
+  }
+
+ private:
+  bool put_over(const Disc& disc, const Faces& faces, const std::vector<char>& gone) {
+    const LatticeCoord origin = mesh_.vertices[disc.rim.front()];
+    Vec3d middle{}, area{};
+    for (std::size_t i = 0; i < disc.rim.size(); ++i) {
+      const Vec3d p = to_double(mesh_.vertices[disc.rim[i]] - origin),
+                  q = to_double(mesh_.vertices[disc.rim[(i + 1) % disc.rim.size()]] - origin);
+      middle = middle + (1 / double(disc.rim.size())) * p;
+      area = area + cross(p, q);
+    }
+    const double size = std::sqrt(length(area));
+    if (!(size > 0)) return false;
+    const Vec3d up = (1 / length(area)) * area;
+    for (const Vec3d& place : apexes(disc, origin, middle, up, size)) {
+      const LatticeCoord apex = origin + rounded(place);
+      if (is_wide(disc, apex) || !is_free(disc, apex, faces, gone)) continue;
+      const auto number = VertexId(mesh_.vertices.size());
+      mesh_.vertices.push_back(apex);
+      for (std::size_t i = 0; i < disc.rim.size(); ++i)
+        mesh_.triangles.push_back({disc.rim[i], disc.rim[(i + 1) % disc.rim.size()], number});
+      return true;
+    }
+    return false;
+  }
+
+  /// Whether the tent reaches far: then it is farther off than a surface of voxels.
+  [[nodiscard]] bool is_wide(const Disc& disc, const LatticeCoord& apex) const {
+    constexpr double kWide = 8 * kLatticePerVoxel;
+    return std::any_of(disc.rim.begin(), disc.rim.end(),
+                       [&](VertexId v) { return length(to_double(mesh_.vertices[v] - apex)) > kWide; });
+  }
+
+  /// Where an apex may be, relative to `origin`, the best first: as near to the planes of the faces as lies beyond all
+  /// of them, those left out that are folded over; else above the middle of the rim.
+  [[nodiscard]] std::vector<Vec3d> apexes(const Disc& disc, const LatticeCoord& origin, const Vec3d& middle,
+                                          const Vec3d& up, double size) const {
+    constexpr double kFolded = 0.1;  // of the sine between a face and the rim's axis
+    std::vector<Vec3d> places;
+    Quadric planes;
+    std::vector<PlaneConstraint> beyond;
+    for (const FaceId f : disc.faces) {
+      const auto& [a, b, c] = mesh_.triangles[f];
+      const Vec3d normal = to_double(normal_of(mesh_.vertices[a], mesh_.vertices[b], mesh_.vertices[c]));
+      const double twice_area = length(normal);
+      if (!(dot(normal, up) > kFolded * twice_area)) continue;
+      const Vec3d unit = (1 / twice_area) * normal;
+      const double at = dot(unit, to_double(mesh_.vertices[a] - origin)) + kAbove;
+      planes.add_plane(unit, -at, twice_area);
+      beyond.push_back({unit, at});
+    }
+    if (const std::optional<Vec3d> place = constrained_minimum(planes, middle, beyond);
+        place && length(*place - middle) < 2 * size)
+      places.push_back(*place);
+    for (const double share : {0.0, 0.125, 0.25, 0.5, 1.0}) places.push_back(middle + (share * size + kAbove) * up);
+    return places;
+  }
+
+  /// Whether the tent meets neither the scene nor the rest of the mesh. Tents that meet each other are found later.
+  bool is_free(const Disc& disc, const LatticeCoord& apex, const Faces& faces, const std::vector<char>& gone) {
+    mesh_.vertices.push_back(apex);
+    const auto number = VertexId(mesh_.vertices.size() - 1);
+    bool free = true;
+    std::vector<Triangle> tent;
+    for (std::size_t i = 0; i < disc.rim.size(); ++i)
+      tent.push_back({disc.rim[i], disc.rim[(i + 1) % disc.rim.size()], number});
+    for (std::size_t i = 0; i < tent.size() && free; ++i) {
+      const auto& [a, b, c] = tent[i];
+      const LatticeCoord &p = mesh_.vertices[a], &q = mesh_.vertices[b], &r = mesh_.vertices[c];
+      const LatticeBox box = box_of(p, q, r);
+      const TriangleD world{mesh_.frame.world(p), mesh_.frame.world(q), mesh_.frame.world(r)};
+      free = normal_of(p, q, r) != LatticeCoord{} && faces.tree.query(box, [&](std::uint32_t f) {
+        return gone[f] != 0 || !has_area(mesh_, f) ||
+               !triangles_meet_beyond_shared(mesh_.vertices.data(), tent[i], mesh_.triangles[f]);
+      }) && scene_tree_.query(box, [&](std::uint32_t t) { return !touches(scene_[t], world); });
+      for (std::size_t j = 0; j < i && free; ++j)
+        free = !triangles_meet_beyond_shared(mesh_.vertices.data(), tent[i], tent[j]);
+    }
+    mesh_.vertices.pop_back();
+    return free;
+  }
+
+  LatticeMesh& mesh_;
+  std::span<const TriangleD> scene_;
+  BoxTree scene_tree_;
+};
+
+/// Marks the vertices of faulty faces, and those up to `rings` edges away.
+std::vector<char> vertices_near(const HalfEdgeMesh& mesh, const Faults& faulty, int rings) {
+  std::vector<char> marked(mesh.vertex_capacity());
+  for (FaceId f = 0; f < faulty.size(); ++f) {
+    for (HalfEdgeId h = 3 * f; faulty[f] != 0 && h < 3 * f + 3; ++h) marked[mesh.from(h)] = 1;
+  }
+  for (; rings > 0; --rings) {
+    const std::vector<char> before = marked;
+    for (HalfEdgeId h = 0; h < 3 * faulty.size(); ++h) {
+      if (before[mesh.from(h)] != 0) marked[mesh.to(h)] = 1;
+    }
+  }
+  return marked;
+}
+
+}  // namespace
+
+bool mend_around(LatticeMesh& mesh, std::span<const TriangleD> scene) {
+  constexpr int kRounds = 6;
+  constexpr std::size_t kFewFaults = 50;  // one for so many faces: a scene of overlapping parts has more
+  if (!std::all_of(scene.begin(), scene.end(), is_in_domain)) return false;
+  for (int round = 0; round < kRounds; ++round) {
+    const Faces faces(mesh);
+    Faults faulty(mesh.triangles.size());
+    mark_met(mesh, faces, faulty);
+    mark_touched(mesh, faces, scene, faulty);
+    const auto faults = std::size_t(std::count(faulty.begin(), faulty.end(), 1));
+    if (faults * kFewFaults > mesh.triangles.size()) return false;
+    if (faults == 0) {
+      const std::vector<Vec3d> points = points_of_parts(scene);
+      return std::all_of(points.begin(), points.end(),
+                         [&](const Vec3d& p) { return winding(mesh, faces.tree, p) > 0; });
+    }
+    const HalfEdgeMesh connected(mesh.vertices, mesh.triangles, kEverywhere);
+    Tents(mesh, scene).put_over(discs_around(connected, vertices_near(connected, faulty, round)), faces);
+  }
+  return false;
+}
+
+}  // namespace bp

@@ -1,0 +1,169 @@
+#include "lib/pass/mesh/outward_scene.h"
+
+#include <algorithm>
+#include <array>
+#include <compare>
+
+#include "lib/core/disjoint_sets.h"
+#include "lib/core/parallel.h"
+#include "lib/geometry/welded_triangles.h"
+#include "lib/mesh/constrained_minimum.h"
+#include "lib/mesh/lattice_geometry.h"
+#include "lib/mesh/shells.h"
+#include "lib/pass/mesh/detail/mend_around.h"
+
+namespace bp {
+
+namespace {
+
+/// Steps from a vertex to the planes around it, at least: rounding takes back up to half of a cube's diagonal, 0.87,
+/// before and after.
+constexpr double kStep = 2;
+/// Lattice units that are tried for a step. Folds of a scan are often smaller than the longer one, and vanish.
+constexpr std::array<double, 2> kUnits{1, 4};
+constexpr double kFarthest = 2 * kLatticePerVoxel;  // of a vertex; sharp tips move far
+constexpr std::int64_t kGrain = 256;
+
+/// A closed mesh on the lattice whose vertices are fans: where two fans touch in a place, the place has two vertices.
+struct Fans {
+  std::vector<LatticeCoord> places;  // of each vertex
+  std::vector<Triangle> triangles;   // outwards
+};
+
+/// Half-edges in the order of their edges: those of an edge follow each other.
+struct EdgeSide {
+  std::uint32_t low, high, half_edge;
+  bool up;
+  auto operator<=>(const EdgeSide&) const = default;
+};
+
+/// The triangles with three distinct corners.
+std::vector<Triangle> with_edges(const std::vector<Triangle>& all) {
+  std::vector<Triangle> triangles;
+  for (const Triangle& t : all) {
+    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) triangles.push_back(t);
+  }
+  return triangles;
+}
+
+/// The other half of each half-edge; empty if the triangles are not closed.
+std::vector<std::uint32_t> twins_of(const std::vector<Triangle>& triangles) {
+  std::vector<EdgeSide> sides(3 * triangles.size());
+  for (std::uint32_t h = 0; h < sides.size(); ++h) {
+    const std::uint32_t a = triangles[h / 3][h % 3], b = triangles[h / 3][(h + 1) % 3];
+    sides[h] = {std::min(a, b), std::max(a, b), h, a < b};
+  }
+  std::sort(sides.begin(), sides.end());
+  std::vector<std::uint32_t> twins(sides.size());
+  for (std::size_t i = 0; i < sides.size(); i += 2) {
+    if (i + 1 == sides.size()) return {};
+    const EdgeSide &a = sides[i], &b = sides[i + 1];
+    const auto is_same = [&](const EdgeSide& e) { return e.low == a.low && e.high == a.high; };
+    if (!is_same(b) || a.up == b.up || (i + 2 < sides.size() && is_same(sides[i + 2]))) return {};
+    twins[a.half_edge] = b.half_edge;
+    twins[b.half_edge] = a.half_edge;
+  }
+  return twins;
+}
+
+/// Turns the parts whose volume is negative: cavities, and what was read inside out.
+void turn_outwards(Fans& fans, DisjointSets& parts) {
+  std::vector<double> volume(fans.triangles.size());
+  const auto corner = [&](std::uint32_t f, std::size_t k) {
+    return to_double(fans.places[fans.triangles[f][k]] - fans.places[fans.triangles[parts.find(f)][0]]);
+  };
+  for (std::uint32_t f = 0; f < volume.size(); ++f)
+    volume[parts.find(f)] += dot(corner(f, 0), cross(corner(f, 1), corner(f, 2)));
+  for (std::uint32_t f = 0; f < volume.size(); ++f) {
+    if (volume[parts.find(f)] < 0) std::swap(fans.triangles[f][1], fans.triangles[f][2]);
+  }
+}
+
+/// The scene with its corners rounded to every `unit`-th lattice point.
+std::vector<TriangleD> on_lattice(std::span<const TriangleD> scene, const GridFrame& frame, double unit) {
+  std::vector<TriangleD> rounded_scene(scene.begin(), scene.end());
+  for (TriangleD& t : rounded_scene) {
+    for (Vec3d& p : t) p = unit * to_double(rounded((1 / unit) * frame.to_lattice(p)));
+  }
+  return rounded_scene;
+}
+
+std::optional<Fans> fans_of(std::span<const TriangleD> scene, const GridFrame& frame, double unit) {
+  const WeldedTriangles mesh = welded(on_lattice(scene, frame, unit));
+  const std::vector<Triangle> triangles = with_edges(mesh.triangles);
+  const std::vector<std::uint32_t> twins = twins_of(triangles);
+  if (twins.empty()) return {};
+  DisjointSets corners(3 * triangles.size()), parts(triangles.size());
+  for (std::uint32_t h = 0; h < twins.size(); ++h) {
+    corners.unite(h, HalfEdgeMesh::next(twins[h]));  // both ends of the edge are reached: h runs over both halves
+    parts.unite(HalfEdgeMesh::face(h), HalfEdgeMesh::face(twins[h]));
+  }
+  Fans fans;
+  fans.triangles.resize(triangles.size());
+  std::vector<std::uint32_t> vertex(twins.size());
+  for (std::uint32_t h = 0; h < twins.size(); ++h) {
+    const std::uint32_t first = corners.find(h);
+    if (first == h) {
+      vertex[h] = std::uint32_t(fans.places.size());
+      fans.places.push_back(rounded(mesh.places[triangles[h / 3][h % 3]]));
+    }
+    fans.triangles[h / 3][h % 3] = vertex[first];
+  }
+  turn_outwards(fans, parts);
+  return fans;
+}
+
+using Planes = std::vector<PlaneConstraint>;
+
+/// The least way beyond all planes; none if there is no way, or a long one.
+std::optional<Vec3d> least_step(const Planes& planes) {
+  Quadric nearest;
+  nearest.xx = nearest.yy = nearest.zz = 1;
+  std::optional<Vec3d> by = constrained_minimum(nearest, {}, planes);
+  if (by && !(length(*by) < kFarthest)) by.reset();
+  return by;
+}
+
+/// Faces without area have no plane: those beside them decide.
+void add_plane(const HalfEdgeMesh& mesh, FaceId f, double distance, Planes& planes) {
+  const Vec3d normal = to_double(normal_of(mesh.corner(f, 0), mesh.corner(f, 1), mesh.corner(f, 2)));
+  const double twice_area = length(normal);
+  if (!(twice_area > 0)) return;
+  const Vec3d unit = (1 / twice_area) * normal;
+  const auto is_same = [&](const PlaneConstraint& p) { return dot(p.n, unit) > 1 - 1e-12; };
+  if (std::none_of(planes.begin(), planes.end(), is_same)) planes.push_back({unit, distance});
+}
+
+/// Moves each vertex by `distance` beyond the planes around it. One that has no place there stays, as at a saddle.
+LatticeMesh moved_outwards(const Fans& fans, const GridFrame& frame, double distance) {
+  const HalfEdgeMesh before(fans.places, fans.triangles, kEverywhere);
+  LatticeMesh mesh;
+  mesh.frame = frame;
+  mesh.vertices = fans.places;
+  mesh.triangles = fans.triangles;
+  parallel_ranges(std::int64_t(mesh.vertices.size()), kGrain, [&](std::int64_t begin, std::int64_t end) {
+    for (auto v = VertexId(begin); v < VertexId(end); ++v) {
+      Planes planes;
+      before.for_each_outgoing(v, [&](HalfEdgeId h) { add_plane(before, HalfEdgeMesh::face(h), distance, planes); });
+      if (const std::optional<Vec3d> by = least_step(planes)) mesh.vertices[v] = mesh.vertices[v] + rounded(*by);
+    }
+  });
+  return mesh;
+}
+
+}  // namespace
+
+std::optional<LatticeMesh> outward_scene(std::span<const TriangleD> scene, const GridFrame& frame) {
+  for (const double unit : kUnits) {
+    const std::optional<Fans> fans = fans_of(scene, frame, unit);
+    if (!fans) return {};
+    LatticeMesh mesh = moved_outwards(*fans, frame, kStep * unit);
+    if (!mend_around(mesh, scene)) continue;
+    HalfEdgeMesh shells(mesh);
+    erase_inner_shells(shells);
+    return shells.compact(frame);
+  }
+  return {};
+}
+
+}  // namespace bp
