@@ -2,10 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace bp {
 
 namespace {
+
+// Of levels that nobody asked for. A smooth body's error grows by 4 with a quarter of the faces, so errors end no list.
+constexpr double kWorthHaving = 1.3;  // times as near as the level after it, at least
+constexpr double kCrumpled = 3;       // volumes of the level before
 
 /// Whether there are clearly fewer faces than the level's budget: its voxels, or its scale, show no more.
 bool falls_short(const LodLevel& level, const LodTarget& target) {
@@ -13,9 +18,8 @@ bool falls_short(const LodLevel& level, const LodTarget& target) {
 }
 
 /// Faces of a level that follow from a first one which fell short.
-std::uint64_t following(const LodLevel& first, std::size_t steps) {
-  const std::uint64_t faces = first.mesh.triangles.size();
-  return std::max(steps < 32 ? faces >> (2 * steps) : 0, kLeastFaces);
+std::uint64_t following(std::uint64_t first_faces, std::size_t steps) {
+  return std::max(steps < 32 ? first_faces >> (2 * steps) : 0, kLeastFaces);
 }
 
 /// Whether a level is worth having after the one before.
@@ -23,6 +27,16 @@ bool is_coarser(const LodLevel& level, const LodLevel& before, double diagonal) 
   if (level.mesh.triangles.size() >= before.mesh.triangles.size()) return false;
   return !(level.error_world > diagonal);  // beyond it, the scene is a point where the level would be drawn
 }
+
+double volume_of(const LodLevel& level) {
+  return level.counts.levels.front().measures.volume;
+}
+
+/// A level that was made, until the next one tells whether it is worth having.
+struct Waiting {
+  LodLevel level;
+  LodTarget target;
+};
 
 }  // namespace
 
@@ -53,31 +67,47 @@ LevelFacts facts_of(const LodLevel& level, const LodTarget& target) {
 MadeLevels make_levels(LodChain& chain, const ChainRange& range, const LevelSteps& steps) {
   const LevelRequest& request = range.request;
   MadeLevels made;
-  std::vector<LodLevel>& levels = made.levels;
-  bool short_of_faces = false;
+  std::optional<Waiting> before;
+  std::uint64_t first_faces = 0;  // above 0: the first level fell short, and the others follow from it
+  const auto keep = [&](Waiting& w) {
+    steps.complete(w.level, range.first + made.levels.size(), w.target);
+    made.facts.push_back(facts_of(w.level, w.target));
+    made.levels.push_back(std::move(w.level));
+  };
   for (std::size_t i = 0; i < range.count; ++i) {
-    const std::size_t number = range.first + levels.size();
     LodTarget target = level_target(request, range.first + i, range.first, chain.dense_faces());
     target.keep_voxels = range.keep_voxels && i == 0;
     const bool follows = target.error_world == 0 && range.first + i >= request.faces.size() && i > 0;
-    if (follows && short_of_faces) target.faces = following(levels.front(), i);
-    if (follows && target.faces >= levels.back().mesh.triangles.size()) {
-      made.left_out.push_back({target, levels.back().mesh.triangles.size()});
+    if (follows && first_faces > 0) target.faces = following(first_faces, i);
+    if (follows && target.faces >= before->level.mesh.triangles.size()) {
+      made.left_out.push_back({target, before->level.mesh.triangles.size()});
       continue;
     }
-    steps.begin("level " + std::to_string(number));
-    LodLevel level = chain.make(target);
-    if (i == 0) short_of_faces = falls_short(level, target);
-    if (!levels.empty() && !is_coarser(level, levels.back(), range.diagonal)) {
-      made.left_out.push_back(
-          {target, levels.back().mesh.triangles.size(), level.mesh.triangles.size(), level.error_world});
-      continue;
+    steps.begin("level " + std::to_string(range.first + i));
+    Waiting now{chain.make(target), target};
+    const std::uint64_t faces = now.level.mesh.triangles.size();
+    if (i == 0 && falls_short(now.level, target)) first_faces = faces;
+    if (before) {
+      const std::uint64_t faces_before = before->level.mesh.triangles.size();
+      if (!is_coarser(now.level, before->level, range.diagonal)) {
+        made.left_out.push_back({target, faces_before, faces, now.level.error_world});
+        continue;
+      }
+      const double ratio = volume_of(now.level) / volume_of(before->level);
+      if (request.is_chosen && ratio > kCrumpled) {
+        made.left_out.push_back({target, faces_before, faces, now.level.error_world, 0, ratio});
+        break;
+      }
+      if (request.is_chosen && before->level.error_world * kWorthHaving > now.level.error_world) {
+        made.left_out.push_back({before->target, 0, faces_before, before->level.error_world, faces});
+      } else {
+        now.level.error_world = std::max(now.level.error_world, before->level.error_world);
+        keep(*before);
+      }
     }
-    if (!levels.empty()) level.error_world = std::max(level.error_world, levels.back().error_world);
-    steps.complete(level, number, target);
-    made.facts.push_back(facts_of(level, target));
-    levels.push_back(std::move(level));
+    before = std::move(now);
   }
+  if (before) keep(*before);
   return made;
 }
 

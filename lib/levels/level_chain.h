@@ -53,6 +53,8 @@ struct LeftOut {
   std::uint64_t faces_before = 0;  ///< of the level before
   std::uint64_t faces = 0;         ///< it would have; 0: it was not made, for the level before has its budget
   double error_world = 0;          ///< it would have
+  std::uint64_t faces_after = 0;   ///< of the next level, which is nearly as near; 0: another reason
+  double volume_ratio = 0;         ///< its volume over that of the level before, if that is why; else 0
 };
 
 struct MadeLevels {
@@ -62,7 +64,9 @@ struct MadeLevels {
 };
 
 /// At most range.count levels, finest first. A level that has no fewer faces than the one before, or an error above the
-/// scene's diagonal, is left out; the first is always kept. Where the first has clearly fewer faces than its budget,
+/// scene's diagonal, is left out. Of levels that nobody asked for (LevelRequest::is_chosen), the list ends before one
+/// that holds more than three times the volume of the level before: it is crumpled; and a level is left out where the
+/// next one, with a quarter of the faces, is nearly as near. Where the first has clearly fewer faces than its budget,
 /// the budgets that follow from it are quarters of what it has, and scales double. Errors never fall.
 [[nodiscard]] MadeLevels make_levels(LodChain& chain, const ChainRange& range, const LevelSteps& steps);
 

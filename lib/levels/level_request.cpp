@@ -53,6 +53,7 @@ LevelRequest with_defaults(LevelRequest r, std::uint64_t triangles, const LevelD
   if (!asks_for_nothing(r)) return r;
   r.most_faces = default_faces(triangles, defaults.triangles_per_face);
   if (!defaults.by_voxels) r.faces = {std::min(r.most_faces, defaults.most_faces)};
+  r.is_chosen = !r.levels;
   if (!r.levels) r.levels = levels_from(r.most_faces);
   return r;
 }

@@ -16,7 +16,7 @@ constexpr std::uint64_t kDensePerFace = 100;  ///< triangles of the dense surfac
 constexpr std::uint64_t kMostLevels = 32;
 constexpr std::uint64_t kLeastFaces = kFacesOfBox;  ///< of a level whose faces are chosen
 /// The most faces that are chosen: for a finest level, for time; a collision mesh, for physics; a cage, for hands.
-constexpr std::uint64_t kMostDefaultFaces = 40000, kMostCollisionFaces = 5000, kMostCageFaces = 1000;
+constexpr std::uint64_t kMostDefaultFaces = 10000, kMostCollisionFaces = 5000, kMostCageFaces = 1000;
 
 /// At most one of faces, shares and errors is given: as a list, or as the finest level's number. The numbers of the
 /// other levels follow from that one.
@@ -27,6 +27,7 @@ struct LevelRequest {
   std::vector<double> errors_world;       ///< largest distance between scene and level; finest first
   std::optional<double> scale_world;      ///< closing radius of the finest level
   std::uint64_t most_faces = UINT64_MAX;  ///< of a finest level without a number of faces
+  bool is_chosen = false;  ///< nobody asked for these levels: those that are not worth having are left out
 };
 
 [[nodiscard]] std::size_t level_count(const LevelRequest& request);

@@ -241,7 +241,7 @@ void declare(Args& args, BuildOptions& o) {
   args.option("--name", "NAME", o.name, "first part of the names of files and nodes (default: the first scene's)");
   declare_profile(args, o);
   o.levels.add_of_scene(args, "as many as are listed; else 4, or fewer where a level would have less than 12 faces",
-                        "half of the scene's, at most 40000; other profiles: fewer");
+                        "half of the scene's, at most 10000; other profiles: fewer");
   o.proxy.add_of_scene(args);
   o.voxels.add_to(args,
                   "from --faces, 256 to 1024; from --error, 8 voxels to an error; occluder: 512; 3dtiles: from "

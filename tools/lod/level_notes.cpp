@@ -86,6 +86,12 @@ std::string left_out_note(const LeftOut& level, double diagonal) {
   std::string why;
   if (level.faces == 0) {
     why = fmt::format("the one before it has {} already", level.faces_before);
+  } else if (level.faces_after > 0) {
+    why = fmt::format("with an error of {:.4g} it would hardly be nearer than the next one, which has {} faces",
+                      level.error_world, level.faces_after);
+  } else if (level.volume_ratio > 0) {
+    why = fmt::format("it would hold {:.1f} times the volume of the one before; --levels asks for it all the same",
+                      level.volume_ratio);
   } else if (level.faces >= level.faces_before) {
     why = fmt::format("it would have {} faces, and the one before it has {}", level.faces, level.faces_before);
   } else {

@@ -18,17 +18,18 @@ Faces budgets(const LevelRequest& request, std::uint64_t triangles, const LevelD
 }  // namespace
 
 TEST_CASE("levels that nobody asked for follow from the triangles of the scene", "[quick][levels]") {
-  CHECK(budgets({}, 28617) == Faces{14308, 3577, 894, 223});
+  CHECK(budgets({}, 28617) == Faces{10000, 2500, 625, 156});
+  CHECK(budgets({}, 8000) == Faces{4000, 1000, 250, 62});
   CHECK(budgets({}, 1000) == Faces{500, 125, 31});
   CHECK(budgets({}, 300) == Faces{200, 50, 12});
   CHECK(budgets({}, 60) == Faces{60, 15});
   CHECK(budgets({}, 12) == Faces{12});
   CHECK(budgets({}, 1) == Faces{12});
-  CHECK(budgets({}, 1000000) == Faces{kMostDefaultFaces, kMostDefaultFaces / 4, kMostDefaultFaces / 16, 625});
+  CHECK(budgets({}, 1000000) == Faces{kMostDefaultFaces, kMostDefaultFaces / 4, kMostDefaultFaces / 16, 156});
   CHECK(budgets({}, 100000000).front() == kMostDefaultFaces);
   LevelRequest two;
   two.levels = 2;
-  CHECK(budgets(two, 28617) == Faces{14308, 3577});
+  CHECK(budgets(two, 28617) == Faces{10000, 2500});
   CHECK(budgets(two, 12) == Faces{12, 12});  // which is left out when it is made
 }
 
