@@ -13,9 +13,9 @@
 #include "tools/notes/estimate.h"
 #include "tools/notes/proportion.h"
 #include "tools/notes/scale_notes.h"
-#include "tools/run/inputs.h"
 #include "tools/run/make_backend.h"
 #include "tools/run/memory_shares.h"
+#include "tools/run/output_name.h"
 #include "tools/run/provenance.h"
 #include "tools/run/scale_rules.h"
 

@@ -6,8 +6,8 @@
 #include "tools/cli/run_tool.h"
 #include "tools/deform/apply.h"
 #include "tools/deform/bind.h"
-#include "tools/run/inputs.h"
 #include "tools/run/make_backend.h"
+#include "tools/run/output_name.h"
 #include "tools/run/scene_budget.h"
 
 namespace {

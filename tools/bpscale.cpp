@@ -9,6 +9,7 @@
 #include "tools/notes/scale_notes.h"
 #include "tools/run/inputs.h"
 #include "tools/run/memory_shares.h"
+#include "tools/run/output_name.h"
 #include "tools/run/provenance.h"
 #include "tools/run/scale_rules.h"
 #include "tools/scale/explain.h"

@@ -19,9 +19,9 @@
 #include "tools/notes/proportion.h"
 #include "tools/notes/scene_notes.h"
 #include "tools/notes/up_note.h"
-#include "tools/run/inputs.h"
 #include "tools/run/make_backend.h"
 #include "tools/run/memory_shares.h"
+#include "tools/run/output_name.h"
 #include "tools/run/provenance.h"
 #include "tools/run/scene_budget.h"
 
