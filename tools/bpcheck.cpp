@@ -222,7 +222,7 @@ int run_mesh(const bp::CheckRun& o, const std::optional<bp::Contract>& claim = {
   fill_report(report, o, origin, verdicts);
   if (parts_meet(o, verdicts)) note_hint(report, o, bp::convex_hint(o.files.back(), has_convex_parts(levels)));
   note_hint(report, o, bp::memory_hint(verdicts, budget.of_scene()));
-  std::string hint = bp::rounding_hint(o.files.front(), verdicts);
+  std::string hint = bp::rounding_hint(o.files.front(), o.files.back(), verdicts);
   if (hint.empty() && !answers_hold(o, verdicts)) {
     if (answer_of(verdicts) == bp::Answer::refuted) hint = bp::other_scene_hint(scenes, o.files.back(), scene_options);
     if (hint.empty()) hint = bp::enclosure_hint(o.files.front(), o.files.back(), o.inside);
