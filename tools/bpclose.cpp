@@ -8,6 +8,7 @@
 #include "lib/pass/mesh/complement.h"
 #include "tools/cli/names.h"
 #include "tools/cli/options/closing.h"
+#include "tools/cli/output_name.h"
 #include "tools/cli/report.h"
 #include "tools/cli/run_tool.h"
 #include "tools/notes/estimate.h"
@@ -15,7 +16,6 @@
 #include "tools/notes/scale_notes.h"
 #include "tools/run/make_backend.h"
 #include "tools/run/memory_shares.h"
-#include "tools/run/output_name.h"
 #include "tools/run/provenance.h"
 #include "tools/run/scale_rules.h"
 

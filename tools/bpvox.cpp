@@ -13,6 +13,7 @@
 #include "lib/pass/voxelize/voxelize_pass.h"
 #include "tools/cli/names.h"
 #include "tools/cli/options/voxel.h"
+#include "tools/cli/output_name.h"
 #include "tools/cli/report.h"
 #include "tools/cli/run_tool.h"
 #include "tools/notes/estimate.h"
@@ -21,7 +22,6 @@
 #include "tools/notes/up_note.h"
 #include "tools/run/make_backend.h"
 #include "tools/run/memory_shares.h"
-#include "tools/run/output_name.h"
 #include "tools/run/provenance.h"
 #include "tools/run/scene_budget.h"
 

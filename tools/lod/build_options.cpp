@@ -7,8 +7,8 @@
 #include "lib/core/error.h"
 #include "lib/grid/cells.h"
 #include "tools/cli/names.h"
+#include "tools/cli/output_name.h"
 #include "tools/lod/choices.h"
-#include "tools/run/output_name.h"
 
 namespace bp {
 

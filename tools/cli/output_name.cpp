@@ -1,4 +1,4 @@
-#include "tools/run/output_name.h"
+#include "tools/cli/output_name.h"
 
 #include <filesystem>
 
