@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "io/scene/file_ending.h"
 #include "lib/core/error.h"
 #include "samples/plant/write.h"
 #include "tools/cli/run_tool.h"
@@ -32,6 +33,9 @@ Options parse(bp::Args& args) {
               "instead of the ending of FILE");
   args.flag("--overwrite", o.overwrite, "replace FILE if it exists");
   args.parse();
+  const bp::FileEnding ending = bp::file_ending_of(o.out);
+  if (o.format == Format::by_name && !ending.is(bp::FileKind::unknown) && ending.text != "ply" && ending.text != "glb")
+    bp::fail(bp::ErrorCode::bad_argument, "{}: the plant is written as .ply or .glb, not as {}", o.out, ending.text);
   return o;
 }
 

@@ -191,6 +191,18 @@ std::optional<bp::HidingQuestion> hiding_question(const bp::CheckRun& o, const s
   return bp::HidingQuestion{recipe->hiding, walls.get(), !recipe->opaque_only};
 }
 
+/// Its levels, which are taken from the budget.
+std::vector<bp::IndexedMesh> read_proxy(const std::string& proxy, const std::vector<std::string>& scenes,
+                                        const bp::SceneOptions& options, bp::CheckBudget& budget) {
+  try {
+    std::vector<bp::IndexedMesh> levels = bp::read_levels(proxy, options);
+    budget.take(levels);
+    return levels;
+  } catch (const bp::NeedsMemory& e) {
+    budget.refuse_proxy(e, scenes, options);
+  }
+}
+
 int run_mesh(const bp::CheckRun& o, const std::optional<bp::Contract>& claim = {}) {
   bp::Report report("bpcheck");
   report.begin("read the proxy");
@@ -198,8 +210,8 @@ int run_mesh(const bp::CheckRun& o, const std::optional<bp::Contract>& claim = {
   bp::SceneOptions scene_options = budget.of_proxy();
   scene_options.format = o.format;
   scene_options.temp_dir = o.common.temp;
-  std::vector<bp::IndexedMesh> levels = bp::read_levels(o.files.back(), scene_options);
-  budget.take(levels);
+  const std::vector<std::string> scenes(o.files.begin(), o.files.end() - 1);
+  std::vector<bp::IndexedMesh> levels = read_proxy(o.files.back(), scenes, scene_options, budget);
   scene_options.memory_bytes = budget.reader_bytes();
   scene_options.document = budget.of_scene_document();
   const bp::Vec3d origin = origin_of(o, report);
@@ -207,7 +219,6 @@ int run_mesh(const bp::CheckRun& o, const std::optional<bp::Contract>& claim = {
   for (bp::IndexedMesh& level : levels) bp::add_origin(level, origin);
   std::unique_ptr<bp::TriangleSource> scene;
   scene_options.keep_degenerate = true;  // they have a place, and may be what closes the scene
-  const std::vector<std::string> scenes(o.files.begin(), o.files.end() - 1);
   if (!scenes.empty()) scene = bp::open_scenes(scenes, scene_options);
   std::unique_ptr<bp::TriangleSource> walls;
   const std::optional<bp::HidingQuestion> hidden = hiding_question(o, scenes, scene_options, walls);
@@ -222,7 +233,7 @@ int run_mesh(const bp::CheckRun& o, const std::optional<bp::Contract>& claim = {
   fill_report(report, o, origin, verdicts);
   if (parts_meet(o, verdicts)) note_hint(report, o, bp::convex_hint(o.files.back(), has_convex_parts(levels)));
   note_hint(report, o, bp::memory_hint(verdicts, budget.of_scene()));
-  std::string hint = bp::rounding_hint(o.files.front(), verdicts);
+  std::string hint = bp::rounding_hint(o.files.front(), o.files.back(), verdicts);
   if (hint.empty() && !answers_hold(o, verdicts)) {
     if (answer_of(verdicts) == bp::Answer::refuted) hint = bp::other_scene_hint(scenes, o.files.back(), scene_options);
     if (hint.empty()) hint = bp::enclosure_hint(o.files.front(), o.files.back(), o.inside);

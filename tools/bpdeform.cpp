@@ -2,11 +2,11 @@
 #include "io/files/lower.h"
 #include "io/scene/scene_format.h"
 #include "lib/core/error.h"
+#include "tools/cli/output_name.h"
 #include "tools/cli/report.h"
 #include "tools/cli/run_tool.h"
 #include "tools/deform/apply.h"
 #include "tools/deform/bind.h"
-#include "tools/run/inputs.h"
 #include "tools/run/make_backend.h"
 #include "tools/run/scene_budget.h"
 

@@ -4,6 +4,7 @@
 #include "io/stream/brick_shelf.h"
 #include "io/stream/brick_stream.h"
 #include "lib/core/error.h"
+#include "tools/cli/output_name.h"
 #include "tools/cli/report.h"
 #include "tools/cli/run_tool.h"
 #include "tools/notes/scale_notes.h"

@@ -70,7 +70,7 @@ IndexedMesh mesh_of(const std::string& name, RawSource& raw, const SceneOptions&
   met.differing = raw.differing();
   met.unfollowed = raw.unfollowed();
   met.instances = raw.instances();
-  mesh.bad_faces = met.bad_faces, mesh.differing = met.differing;
+  mesh.bad_faces = met.bad_faces, mesh.differing = met.differing, mesh.unfollowed = met.unfollowed;
   met.rounding = raw.rounding();
   return mesh;
 }

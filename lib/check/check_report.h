@@ -66,6 +66,7 @@ struct CheckReport {
   std::optional<std::int64_t> genus;  ///< sum over components; of a closed, oriented 2-manifold only
 
   std::uint64_t differing = 0;  ///< IndexedMesh::differing
+  Unfollowed unfollowed;        ///< IndexedMesh::unfollowed
   Finding bad_faces;  ///< index: triangle that names a vertex that does not exist. Those that a reader left out
                       ///< (IndexedMesh::bad_faces) are counted, and no examples
   Finding non_finite_vertices;   ///< index: vertex with a NaN or infinite coordinate
@@ -147,7 +148,7 @@ struct CheckReport {
   [[nodiscard]] Answer enclosure() const {
     if (!has_scene || !sides_decided || !place_unknown.empty()) return Answer::undecided;
     if (touching.count + outside.count + not_held.count > 0) return surely(Answer::refuted);
-    return undecidable_scene.count + perhaps_not_held.count + within_rounding.count > 0 || scene_counts.is_partial()
+    return undecidable_scene.count + perhaps_not_held.count + within_rounding.count > 0 || is_partial()
                ? Answer::undecided
                : Answer::proven;
   }
@@ -155,11 +156,16 @@ struct CheckReport {
   [[nodiscard]] Answer keeps_margin() const {
     if (!place_unknown.empty()) return Answer::undecided;
     if (too_near.count > 0) return surely(Answer::refuted);
-    return perhaps_near.count + undecidable_scene.count > 0 || scene_counts.is_partial() ? Answer::undecided
-                                                                                         : Answer::proven;
+    return perhaps_near.count + undecidable_scene.count > 0 || is_partial() ? Answer::undecided : Answer::proven;
   }
-  /// Where reading has rounded coordinates, a NO about places is sure only if a corner shows it from farther away.
+  /// Whether the files hold more than was compared, or hold it elsewhere.
+  [[nodiscard]] bool is_partial() const { return scene_counts.is_partial() || unfollowed.any(); }
+  /// A part of the proxy that is missing may enclose what seems to be outside.
+  [[nodiscard]] bool may_lie_elsewhere() const { return scene_counts.unfollowed.moves() || unfollowed.any(); }
+  /// A NO about places is not sure where programs may draw the scene or the proxy elsewhere. Where reading has rounded
+  /// coordinates, it is sure only if a corner shows it from farther away.
   [[nodiscard]] Answer surely(Answer as_read) const {
+    if (may_lie_elsewhere()) return Answer::undecided;
     return scene_counts.rounding.most + proxy_off > 0 && !misplaced ? Answer::undecided : as_read;
   }
   [[nodiscard]] bool encloses() const { return enclosure() == Answer::proven; }
@@ -168,7 +174,7 @@ struct CheckReport {
   [[nodiscard]] Answer insideness() const {
     if (!has_scene || !sides_decided || !place_unknown.empty()) return Answer::undecided;
     if (touching.count + swallowed.count > 0) return surely(Answer::refuted);
-    if (undecidable_scene.count > 0 || scene_counts.is_partial())
+    if (undecidable_scene.count > 0 || is_partial())
       return Answer::undecided;  // what is left out may be what hides a part
     if (outside_parts.count > 0) return surely(Answer::refuted);
     return unsettled_parts.count + within_rounding.count > 0 ? Answer::undecided : Answer::proven;
@@ -177,14 +183,14 @@ struct CheckReport {
   [[nodiscard]] Answer free_of_scene() const {
     if (!place_unknown.empty()) return Answer::undecided;
     if (touching.count + swallowed.count > 0) return surely(Answer::refuted);
-    return within_rounding.count > 0 ? Answer::undecided : Answer::proven;
+    return within_rounding.count > 0 || unfollowed.any() ? Answer::undecided : Answer::proven;
   }
   [[nodiscard]] bool inside() const { return insideness() == Answer::proven; }
   /// Only if asks_hidden.
   [[nodiscard]] Answer hiddenness() const {
     if (!hidden_unknown.empty() || !place_unknown.empty()) return Answer::undecided;
-    if (exposed.count > 0) return Answer::refuted;
-    return scene_counts.is_partial() ? Answer::undecided : Answer::proven;
+    if (exposed.count > 0) return may_lie_elsewhere() ? Answer::undecided : Answer::refuted;
+    return is_partial() ? Answer::undecided : Answer::proven;
   }
   /// As a mesh, without the scene.
   [[nodiscard]] Answer soundness() const {
@@ -192,7 +198,7 @@ struct CheckReport {
     if (!sound() || !embedded() || !outward() || nonconvex_parts.count > 0) return Answer::refuted;
     const Answer edges =
         all_of(all_of(on_edges(boundary_edges.count == 0), on_edges(oriented())), on_edges(manifold()));
-    return undecidable_vertices.count + differing > 0 ? all_of(edges, Answer::undecided) : edges;
+    return undecidable_vertices.count + differing > 0 || unfollowed.any() ? all_of(edges, Answer::undecided) : edges;
   }
   /// Triangles at undecidable vertices are left out of all counts of edges: what is missing there is no failure then.
   [[nodiscard]] Answer on_edges(bool fine) const {

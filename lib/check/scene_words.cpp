@@ -1,5 +1,7 @@
 #include "lib/check/scene_words.h"
 
+#include <fmt/format.h>
+
 #include "lib/check/counted.h"
 
 namespace bp {
@@ -20,6 +22,10 @@ std::string not_followed(const Unfollowed& u) {
   return all;
 }
 
+std::string drawn_elsewhere(const char* whose, const Unfollowed& u) {
+  return fmt::format("programs may draw the {} elsewhere than it was read: {}", whose, not_followed(u));
+}
+
 std::string left_out_lines(const SceneCounts& c, const std::string& indent) {
   std::string text, all;
   const auto add = [&](std::uint64_t n, const std::string& what) {
@@ -37,7 +43,7 @@ std::string left_out_lines(const SceneCounts& c, const std::string& indent) {
 std::string partial_scene(const SceneCounts& c) {
   if (c.non_finite + c.bad_faces > 0) return "surfaces of the scene were left out, and nothing is proven of them";
   if (c.differing > 0) return "the scene's files hold " + held_twice(c.differing);
-  return "programs may draw the scene elsewhere than it was read: " + not_followed(c.unfollowed);
+  return drawn_elsewhere("scene", c.unfollowed);
 }
 
 }  // namespace bp

@@ -12,6 +12,8 @@ namespace bp {
 [[nodiscard]] std::string not_followed(const Unfollowed& unfollowed);
 /// A line for what was left out, and one for what the files hold twice; empty if there is neither.
 [[nodiscard]] std::string left_out_lines(const SceneCounts& counts, const std::string& indent);
+/// Why nothing is proven of what the files of `whose` (scene, proxy) hold; unfollowed.any() is true.
+[[nodiscard]] std::string drawn_elsewhere(const char* whose, const Unfollowed& unfollowed);
 /// Why nothing is proven of a scene that is_partial().
 [[nodiscard]] std::string partial_scene(const SceneCounts& counts);
 

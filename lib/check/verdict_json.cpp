@@ -30,6 +30,10 @@ Json json_of(const std::optional<SampledDistance>& d) {
   return j;
 }
 
+Json json_of(const Unfollowed& u) {
+  return {{"skins", u.skins}, {"morphs", u.morphs}, {"transforms", u.transforms}, {"missing", u.missing}};
+}
+
 Json scene_json(const CheckReport& r) {
   if (!r.has_scene) return nullptr;
   const SceneCounts& c = r.scene_counts;
@@ -43,9 +47,7 @@ Json scene_json(const CheckReport& r) {
       {"not_flat", {{"polygons", r.bent}, {"not_proven_over_other_diagonals", r.bent_open}}},
       {"instances", c.instances},
       {"animations", c.animations}};
-  if (const Unfollowed& u = c.unfollowed; u.any())
-    scene["not_followed"] = {
-        {"skins", u.skins}, {"morphs", u.morphs}, {"transforms", u.transforms}, {"missing", u.missing}};
+  if (c.unfollowed.any()) scene["not_followed"] = json_of(c.unfollowed);
   if (c.rounding.any()) scene["rounding"] = c.rounding.most;
   return scene;
 }
@@ -89,6 +91,7 @@ Json json_of(const CheckReport& r, const std::string& proxy_name) {
                 {"components", r.components},
                 {"euler", r.euler}};
   proxy["genus"] = r.genus ? Json(*r.genus) : Json(nullptr);
+  if (r.unfollowed.any()) proxy["not_followed"] = json_of(r.unfollowed);
   const auto json_or_null = [](const std::optional<double>& x) { return x ? Json(*x) : Json(nullptr); };
   Json measures = {{"volume", json_or_null(r.volume)}};
   measures["scene_volume"] = json_or_null(r.scene_volume);

@@ -158,7 +158,9 @@ std::string verdict_text(const CheckReport& r, const std::string& proxy_name) {
   std::string text = fmt::format("proxy {}: {}, {} vertices, {} component{}", proxy_name, r.faces.text(), r.vertices,
                                  r.components, r.components == 1 ? "" : "s");
   if (r.genus) text += fmt::format(", genus {}", *r.genus);
-  text.append("\n").append(scene_lines(r));
+  text += "\n";
+  if (r.unfollowed.any()) text += "  not followed: " + not_followed(r.unfollowed) + "\n";
+  text += scene_lines(r);
   for (const auto& [question, fine] :
        {std::pair{"closed", r.closed()}, {"oriented", r.oriented()}, {"2-manifold", r.manifold()}})
     text += row(question, r.on_edges(fine), "the proxy has coordinates that are too large or too small");

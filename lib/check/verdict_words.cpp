@@ -108,6 +108,7 @@ std::string scene_doubt(const CheckReport& r) {
   if (!r.sides_decided) return kNoOutside;
   if (r.undecidable_scene.count > 0) return "the scene has coordinates that are too large or too small";
   if (r.scene_counts.is_partial()) return partial_scene(r.scene_counts);
+  if (r.unfollowed.any()) return drawn_elsewhere("proxy", r.unfollowed);
   const std::uint64_t wrong = r.touching.count + r.outside.count + r.not_held.count + r.swallowed.count +
                               r.outside_parts.count + r.too_near.count;
   if (most_off(r) > 0 && wrong > 0)
@@ -126,7 +127,7 @@ std::string hidden_doubt(const CheckReport& r) {
 
 /// Why the margin is not decided.
 std::string margin_doubt(const CheckReport& r) {
-  if (r.undecidable_scene.count > 0 || r.scene_counts.is_partial() || !r.place_unknown.empty()) return scene_doubt(r);
+  if (r.undecidable_scene.count > 0 || r.is_partial() || !r.place_unknown.empty()) return scene_doubt(r);
   return most_off(r) > 0
              ? fmt::format("coordinates are read to within {:.2g}, and the least distance is the margin to within that",
                            most_off(r))
@@ -137,6 +138,7 @@ std::string margin_doubt(const CheckReport& r) {
 std::string doubt_of(const CheckReport& r) {
   if (r.undecidable_vertices.count > 0) return "the proxy has coordinates that are too large or too small";
   if (r.differing > 0) return "the proxy's file holds " + held_twice(r.differing);
+  if (r.soundness() == Answer::undecided && r.unfollowed.any()) return drawn_elsewhere("proxy", r.unfollowed);
   if (r.margin > 0 && r.enclosure() == Answer::proven) return margin_doubt(r);
   return r.asks_hidden ? hidden_doubt(r) : scene_doubt(r);
 }

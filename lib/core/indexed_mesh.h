@@ -18,6 +18,7 @@ struct IndexedMesh {
   std::optional<UpAxis> up;               ///< if its file tells
   std::uint64_t bad_faces = 0;            ///< faces of its file that are no triangles here: SceneCounts::bad_faces
   std::uint64_t differing = 0;            ///< SceneCounts::differing
+  Unfollowed unfollowed;                  ///< SceneCounts::unfollowed
   Rounding rounding;                      ///< of the vertices, against those of its file
 };
 

@@ -60,6 +60,8 @@ struct Unfollowed {
   std::uint64_t missing = 0;     ///< instances of what is not read, or in another file
 
   [[nodiscard]] bool any() const { return skins + morphs + transforms + missing > 0; }
+  /// Whether what was read may lie elsewhere.
+  [[nodiscard]] bool moves() const { return skins + morphs + transforms > 0; }
   void add(const Unfollowed& u) {
     skins += u.skins, morphs += u.morphs, transforms += u.transforms, missing += u.missing;
   }

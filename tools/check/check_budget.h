@@ -1,5 +1,6 @@
 #pragma once
 #include "io/scene/scene_reader.h"
+#include "lib/core/error.h"
 
 namespace bp {
 
@@ -11,6 +12,10 @@ class CheckBudget {
 
   /// Of the file that is read as a whole; refused if it needs more than its share.
   [[nodiscard]] SceneOptions of_proxy() const;
+  /// The proxy does not fit. Throws `e` again, with a limit at which the scenes' descriptions fit beside it, too. A
+  /// scene that cannot be opened, or that tells nothing of what it takes, leaves it as it is.
+  [[noreturn]] void refuse_proxy(const NeedsMemory& e, const std::vector<std::string>& scenes,
+                                 const SceneOptions& options) const;
   /// What the proxy takes is no longer there for the scene.
   void take(const std::vector<IndexedMesh>& proxy);
   /// Of the scenes, which are opened one after the other: the largest document counts. One alone is opened beside the
@@ -20,6 +25,8 @@ class CheckBudget {
   [[nodiscard]] MemoryShare of_scene() const;  ///< for distances, and for the voxels that hide a proxy
 
  private:
+  [[nodiscard]] std::uint64_t parts_of_document() const;  ///< in which what the proxy leaves is cut
+
   std::uint64_t memory_, usable_;
   std::size_t scenes_;
   std::uint64_t share_;  ///< of the proxy: so many quarters of what is usable

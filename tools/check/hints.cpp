@@ -124,11 +124,15 @@ std::string memory_hint(const std::vector<CheckReport>& verdicts, const MemorySh
                      (memory.limit_with(bytes - memory.bytes) >> 20) + 1);
 }
 
-std::string rounding_hint(const std::string& scene, const std::vector<CheckReport>& verdicts) {
-  const bool follows = std::none_of(verdicts.begin(), verdicts.end(), [](const CheckReport& r) {
-    return r.answer() == Answer::undecided && r.scene_counts.unfollowed.any();
-  });
-  if (!follows) return fmt::format("write {} as glTF, whose nodes, skins and morph targets are followed", scene);
+std::string rounding_hint(const std::string& scene, const std::string& proxy,
+                          const std::vector<CheckReport>& verdicts) {
+  const auto undecided = [&](const auto& unfollowed) {
+    return std::any_of(verdicts.begin(), verdicts.end(),
+                       [&](const CheckReport& r) { return r.answer() == Answer::undecided && unfollowed(r).any(); });
+  };
+  const bool of_scene = undecided([](const CheckReport& r) { return r.scene_counts.unfollowed; });
+  if (of_scene || undecided([](const CheckReport& r) { return r.unfollowed; }))
+    return fmt::format("write {} as glTF, whose nodes, skins and morph targets are followed", of_scene ? scene : proxy);
   const bool is_open = std::any_of(verdicts.begin(), verdicts.end(), [](const CheckReport& r) {
     return r.answer() == Answer::undecided && r.within_rounding.count > 0;
   });

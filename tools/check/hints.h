@@ -40,6 +40,7 @@ namespace bp {
 
 /// What helps where a question is open because coordinates were rounded when they were read, or because the scene says
 /// what is not followed; else empty.
-[[nodiscard]] std::string rounding_hint(const std::string& scene, const std::vector<CheckReport>& verdicts);
+[[nodiscard]] std::string rounding_hint(const std::string& scene, const std::string& proxy,
+                                        const std::vector<CheckReport>& verdicts);
 
 }  // namespace bp

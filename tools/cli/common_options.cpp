@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "io/files/kept_files.h"
+#include "io/scene/file_ending.h"
 #include "io/scene/scene_parts.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
@@ -74,6 +75,14 @@ std::string free_name(const std::string& path) {
     fail(ErrorCode::bad_argument, "{}: is named for two outputs; give each a name of its own",
          path == "-" ? "stdout" : path);
   return whole;
+}
+
+/// A report is JSON: its name must promise no scene and no voxels.
+void check_report_name(const std::string& path) {
+  const FileEnding ending = file_ending_of(path);
+  if (ending.is(FileKind::unknown) || ending.is(FileKind::document)) return;
+  fail(ErrorCode::bad_argument, "--report {}: a report is JSON, not a file of format {}; name it {}", path, ending.text,
+       with_ending(path, "json"));
 }
 
 }  // namespace
@@ -145,6 +154,7 @@ void CommonOptions::prepare() {
     if (temp.empty()) temp = default_temp();
     check_temp(temp);
   }
+  check_report_name(report);
   if (!report.empty()) report_file = open_output(report, overwrite || is_report(report), false);
 }
 

@@ -7,6 +7,7 @@
 #include "lib/core/error.h"
 #include "lib/grid/cells.h"
 #include "tools/cli/names.h"
+#include "tools/cli/output_name.h"
 #include "tools/lod/choices.h"
 
 namespace bp {
@@ -88,16 +89,26 @@ void take_obj_name(const Args& args, BuildOptions& o) {
     o.appearance = Appearance::texture;  // colours of vertices are no part of OBJ
 }
 
-/// -o foo.glb: who writes that wants a file, and there are several.
-void check_folder_name(const BuildOptions& o) {
+/// The formats of the files in the folder.
+const char* files_of_profile(LodProfile profile) {
+  switch (profile) {
+    case LodProfile::gltf:
+      return "levels as GLB, or as OBJ with -o DIR/NAME.obj";
+    case LodProfile::tiles:
+      return "tileset.json, and tiles as GLB";
+    case LodProfile::collision:
+      return "bodies as GLB, and hulls as OBJ or STL";
+    case LodProfile::occluder:
+      return "an occluder as GLB";
+    case LodProfile::cage:
+      break;
+  }
+  return "a cage as OBJ and GLB";
+}
+
+void check_output(const BuildOptions& o) {
   if (o.out.empty() && !o.tiles && !o.explain) fail(ErrorCode::bad_argument, "name the folder of the levels with -o");
-  const std::string extension = o.out.ends_with(".json") ? "json" : scene_format_of(o.out);
-  std::error_code none;
-  if (extension.empty() || std::filesystem::is_directory(o.out, none)) return;
-  const std::string folder = o.out.substr(0, o.out.size() - extension.size() - 1);
-  fail(ErrorCode::bad_argument,
-       "-o {}: bplod writes several files to a folder, and this is the name of a file; did you mean -o {}?", o.out,
-       folder.empty() || folder.ends_with('/') ? folder + o.name : folder);
+  check_folder_name(o.out, o.name, files_of_profile(o.profile));
 }
 
 /// Options that the profile gives no meaning.
@@ -310,7 +321,7 @@ BuildOptions parse_build_options(Args& args) {
   set_one_level(o);
   check_levels(o);
   take_obj_name(args, o);
-  check_folder_name(o);
+  check_output(o);
   check_jobs(o);
   check_name(o);
   return o;

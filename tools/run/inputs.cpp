@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <filesystem>
 #include <span>
 #include <string_view>
@@ -18,35 +17,6 @@ namespace bp {
 namespace {
 
 constexpr std::size_t kNamed = 5;
-
-/// Endings of volumes in formats that no tool of the suite writes, without a dot.
-constexpr std::array<std::string_view, 21> kForeignVolumes = {"binvox", "vox",  "npy", "npz",  "vdb", "nvdb", "nii",
-                                                              "nrrd",   "nhdr", "mhd", "mha",  "vti", "vtk",  "vtu",
-                                                              "tif",    "tiff", "h5",  "hdf5", "qb",  "kvx",  "schem"};
-
-/// Endings of scenes, drawings, pictures and texts that no reader knows either.
-constexpr std::array<std::string_view, 29> kForeignScenes = {
-    "usd", "usda", "usdc", "usdz", "abc", "max", "ma",  "mb",   "c4d", "skp", "3dm", "dwg", "step", "stp", "iges",
-    "igs", "las",  "laz",  "pcd",  "xyz", "png", "jpg", "jpeg", "exr", "tga", "csv", "txt", "json", "xml"};
-
-/// The ending of a name in small letters, without a dot.
-std::string ending_of(const std::filesystem::path& path) {
-  std::string text = path.extension().string();
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-  return text.empty() ? text : text.substr(1);
-}
-
-/// The name of a packed file without the ending of the packer: "a.nii" of "a.nii.gz".
-std::filesystem::path unpacked(std::filesystem::path path) {
-  const std::string ending = ending_of(path);
-  return ending == "gz" || ending == "zst" ? path.replace_extension() : path;
-}
-
-bool is_name_of_scene(const std::string& output) {
-  const std::filesystem::path path = unpacked(output);
-  return !scene_format_of(path.string()).empty() ||
-         std::find(kForeignScenes.begin(), kForeignScenes.end(), ending_of(path)) != kForeignScenes.end();
-}
 
 /// Their names, sorted.
 std::vector<std::string> meshes_in(const std::string& folder) {
@@ -99,25 +69,6 @@ bool begins_as_stream(const std::string& path) {
   std::array<std::byte, 4> magic{};
   (void)InputFile(path).read_at(0, magic);
   return magic == std::array{std::byte(0x5b), std::byte(0x2a), std::byte(0x4d), std::byte(0x18)};
-}
-
-void check_stream_name(const std::string& output) {
-  if (is_name_of_scene(output))
-    fail(ErrorCode::bad_argument,
-         "{}: this would be a stream of voxels, not a mesh; name it .bpv; bpmesh makes meshes of streams (.glb .gltf "
-         ".ply .obj .stl)",
-         output);
-  std::filesystem::path path = unpacked(output);
-  const std::string ending = ending_of(path);
-  if (std::find(kForeignVolumes.begin(), kForeignVolumes.end(), ending) != kForeignVolumes.end())
-    fail(ErrorCode::bad_argument, "{}: this would be a stream of voxels, not a file of format {}; name it {}", output,
-         ending, path.replace_extension("bpv").string());
-}
-
-void check_weights_name(const std::string& output) {
-  if (is_name_of_scene(output))
-    fail(ErrorCode::bad_argument, "{}: bind writes weights, not a scene; name them {}", output,
-         unpacked(output).replace_extension("bpw").string());
 }
 
 }  // namespace bp

@@ -19,9 +19,4 @@ void check_scene_format(const std::string& format, const std::vector<std::string
 /// Whether a file that can be read again begins as streams of voxels do.
 [[nodiscard]] bool begins_as_stream(const std::string& path);
 
-/// What a tool that writes voxels is to write to. Throws bad_argument if its name is that of a mesh.
-void check_stream_name(const std::string& output);
-/// The same of a tool that writes weights (bpdeform bind).
-void check_weights_name(const std::string& output);
-
 }  // namespace bp

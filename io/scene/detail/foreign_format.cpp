@@ -19,16 +19,18 @@ struct Foreign {
 
 constexpr const char* kSurface =
     "reconstruct a surface with MeshLab, CloudCompare or PDAL (filters.poisson), and save it as PLY";
+constexpr const char* kArchive = "is an archive";
 constexpr const char* kSolid = "mesh it with FreeCAD or gmsh, and save it as STL or OBJ";
 
 const std::vector<Foreign>& table() {
   static const std::vector<Foreign> formats{
       {{".las", ".laz", ".copc"}, {"LASF"}, "is a point cloud (LAS)", kSurface},
-      {{".e57", ".pcd", ".pts", ".ptx", ".pnts"}, {"ASTM-E57", "pnts", "# .PCD"}, "is a point cloud", kSurface},
+      {{".e57", ".pcd", ".pts", ".ptx", ".pnts", ".xyz"}, {"ASTM-E57", "pnts", "# .PCD"}, "is a point cloud", kSurface},
       {{".usd", ".usda", ".usdc", ".usdz"},
        {"PXR-USDC", "#usda"},
        "is a USD scene",
        "import it in Blender, and export it as GLB"},
+      {{".abc"}, {"Ogawa"}, "is an Alembic cache", "import it in Blender, and export it as GLB"},
       {{".city.json", ".cityjson", ".city.jsonl", ".jsonl"},
        {"{\"type\":\"CityJSON", "{\"type\": \"CityJSON"},
        "is a city model (CityJSON)",
@@ -50,11 +52,8 @@ const std::vector<Foreign>& table() {
        {"b3dm", "i3dm", "cmpt"},
        "is a tile of 3D Tiles 1.0",
        "convert it: 3d-tiles-tools b3dmToGlb -i IN -o OUT.glb"},
-      {{".zip", ".7z", ".rar"},
-       {"PK\x03\x04", "7z\xBC\xAF", "Rar!"},
-       "is an archive",
-       "unpack it, and name the scene in it"},
-      {{".skp", ".max", ".c4d", ".mb", ".3dm", ".sldprt"},
+      {{".zip", ".7z", ".rar"}, {"PK\x03\x04", "7z\xBC\xAF", "Rar!"}, kArchive, "unpack it, and name the scene in it"},
+      {{".skp", ".max", ".c4d", ".ma", ".mb", ".3dm", ".sldprt", ".ztl"},
        {},
        "is a file of a modelling program",
        "export it from there, as GLB or OBJ"}};
@@ -82,6 +81,11 @@ std::string foreign_format(const std::string& path, const std::string& first_byt
 std::string foreign_way(const std::string& path) {
   const Foreign* const f = find(path, "");
   return f == nullptr ? "" : f->way;
+}
+
+bool is_archive(const std::string& path) {
+  const Foreign* const f = find(path, "");
+  return f != nullptr && f->what == kArchive;
 }
 
 void refuse_foreign(const std::string& path, const std::string& first_bytes) {

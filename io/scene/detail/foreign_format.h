@@ -12,6 +12,9 @@ namespace bp {
 /// The last part of it, also of formats that are read in part (IFC): "convert it: ...".
 [[nodiscard]] std::string foreign_way(const std::string& path);
 
+/// Whether the end of a name is that of an archive, in which a scene may be.
+[[nodiscard]] bool is_archive(const std::string& path);
+
 /// Throws bad_input with foreign_format(), if that is known.
 void refuse_foreign(const std::string& path, const std::string& first_bytes = "");
 /// Throws bad_input: a scene of points, or of lines between them, without triangles.

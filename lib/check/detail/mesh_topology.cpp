@@ -196,7 +196,7 @@ void number_components(WeldedMesh& mesh, DisjointSets& sets, CheckReport& report
 WeldedMesh weld(const IndexedMesh& mesh, std::size_t max_examples, CheckReport& report) {
   WeldedMesh welded;
   report.triangles = mesh.triangles.size();
-  report.bad_faces.count = mesh.bad_faces, report.differing = mesh.differing;
+  report.bad_faces.count = mesh.bad_faces, report.differing = mesh.differing, report.unfollowed = mesh.unfollowed;
   report.faces.add(mesh.inner_edges, mesh.triangles.size() - mesh.inner_edges.size());
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     const Vec3d& p = mesh.vertices[v];

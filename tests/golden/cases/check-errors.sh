@@ -4,8 +4,8 @@ try bpcheck
 try bpcheck missing.obj
 try bpcheck missing.obj cube.obj
 try bpcheck cube.obj missing.obj
-echo nothing > noise.xyz
-try bpcheck noise.xyz
+echo nothing > noise.qqq
+try bpcheck noise.qqq
 : > empty.obj
 try bpcheck empty.obj
 try bpinfo cube.obj --image missing/cube.png

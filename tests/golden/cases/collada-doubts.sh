@@ -35,3 +35,23 @@ echo "a skin as bound: $(bpcheck bound.dae proxy.obj 2> said | tail -1)"
 sed 's|<vcount>1|<vcount>0|; s|<v>0 0|<v>|' bound.dae > free.dae
 echo "a vertex without a joint: $(bpcheck free.dae proxy.obj 2> said | tail -1)"
 try bpcheck "collada_morph.dae" proxy.obj
+
+# A proxy is read as a scene is: what programs may draw elsewhere proves nothing, and refutes nothing.
+printf 'v 0.2 0.3 0.4\nv 0.3 0.3 0.4\nv 0.2 0.4 0.5\nf 1 2 3\n' > inner.obj
+# last COMMAND...: its last line, or what it said.
+last() {
+  local answer=$("$@" 2> said | tail -1)
+  echo "$* = ${answer:-$(cat said)}"
+}
+for name in bound collada_skin free other rotate-long-axis lookat-slanted-up collada_skew collada_morph; do
+  last bpcheck $name.dae
+  last bpcheck inner.obj $name.dae
+done
+last bpcheck proxy.obj bound.dae
+last bpcheck proxy.obj collada_skin.dae
+last bpcheck collada_skin.dae inner.obj
+last bpcheck --convex inner.obj collada_skin.dae
+last bpcheck --inside proxy.obj collada_skin.dae
+last bpcheck --margin 0.01 inner.obj collada_skin.dae
+try bpcheck inner.obj collada_skin.dae > /dev/null
+bpcheck --json inner.obj collada_skin.dae 2> said | grep -A5 not_followed

@@ -73,9 +73,25 @@ awk -v n=300 'BEGIN {
 }' > torus.off
 named bpcheck torus.off
 named bpcheck torus.off torus.off
-attempts=2  # the proxy is read before its scene
+# The proxy is read before its scenes, and its refusal has room for what describes them.
 named bpcheck nodes.gltf torus.off
-attempts=1
+named bpcheck nodes.gltf nodes.gltf torus.off
+# A mesh of many primitives, each with accessors and a material of its own.
+python3 - << 'PYTHON'
+import json, pathlib
+n = 15000
+data = "data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"
+primitives = [{"attributes": {"POSITION": i}, "material": i % 1000} for i in range(n)]
+accessors = [{"bufferView": i, "componentType": 5126, "count": 3, "type": "VEC3"} for i in range(n)]
+views = [{"buffer": 0, "byteLength": 36} for i in range(n)]
+scene = {"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}], "meshes": [{"primitives": primitives}],
+         "materials": [{"pbrMetallicRoughness": {"baseColorFactor": [1, i / 1000, 0, 1]}} for i in range(1000)],
+         "accessors": accessors, "bufferViews": views, "buffers": [{"byteLength": 36, "uri": data}]}
+pathlib.Path("primitives.gltf").write_text(json.dumps(scene))
+PYTHON
+named bpvox primitives.gltf --resolution 100 -o o.bpv
+named bpcheck primitives.gltf torus.off
+rm -r primitives.gltf
 # Another program's importer works in a process of its own, within what this one leaves of --memory.
 awk -v n=150000 'BEGIN {
   print "AC3Db\nMATERIAL \"m\" rgb 1 1 1 amb 0 0 0 emis 0 0 0 spec 0 0 0 shi 0 trans 0\nOBJECT world\nkids 1\nOBJECT poly\nnumvert " 3 * n

@@ -90,7 +90,7 @@ try bpvox - --format las -o out.bpv
 try bpvox cube.obj --resolution 10 -q -o r.bpv --report report.json
 try bpvox cube.obj --resolution 12 -q -o r2.bpv --report report.json
 grep -o 'resolution=[0-9]*' report.json
-try bpvox cube.obj --resolution 10 -o r3.bpv --report cube.bpv
-rm report.json
+echo '{}' > other.json && try bpvox cube.obj --resolution 10 -o r3.bpv --report other.json
+rm report.json other.json
 said 'bpvox cube.obj --resolution 10 --report report.json | bpclose --scale 1vx --report report.json -o r4.bpv'
 ls
