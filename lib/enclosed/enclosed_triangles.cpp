@@ -7,6 +7,8 @@
 
 #include "lib/core/parallel.h"
 #include "lib/core/vec3.h"
+#include "lib/enclosed/detail/clear_space.h"
+#include "lib/enclosed/detail/swept_solid.h"
 #include "lib/enclosed/detail/triangle_samples.h"
 #include "lib/exact/triangle_intersection.h"
 #include "lib/exact/triangle_part.h"
@@ -46,55 +48,21 @@ LatticeBox box_around(const GridFrame& frame, const Vec3d& p) {
   return box;
 }
 
+LatticeBox box_around(std::span<const NewFace> star, std::span<const Tetrahedron> swept) {
+  LatticeBox box{star[0].corners[0], star[0].corners[0]};
+  for (const NewFace& f : star) {
+    for (const LatticeCoord& p : f.corners) box.add(p);
+  }
+  for (const Tetrahedron& t : swept) {
+    for (const LatticeCoord& p : t) box.add(p);
+  }
+  return box;
+}
+
 /// Boxes that lie strictly on the inner side of a face neither meet it nor a tetrahedron that it closes towards the
 /// inside.
 BoxTree::Plane plane_of(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoord& c) {
   return {a, to_double(normal_of(a, b, c))};
-}
-
-/// A closed tetrahedron, turned so that each of its four planes has the inside on its negative side: corners
-/// (q, b, c, a) of a swept one, so that the plane of the first three is that of the new face.
-class Solid {
- public:
-  Solid(const GridFrame& frame, const Tetrahedron& lattice) : lattice_(lattice) {
-    for (std::size_t i = 0; i < 4; ++i) corners_[i] = frame.world(lattice[i]);
-  }
-  [[nodiscard]] const Tetrahedron& lattice() const { return lattice_; }
-  [[nodiscard]] bool holds(const Vec3d& p) const {  ///< exact
-    const auto& [a, b, c, d] = corners_;
-    return orient3d(a, b, c, p) <= 0 && orient3d(a, d, b, p) <= 0 && orient3d(b, d, c, p) <= 0 &&
-           orient3d(c, d, a, p) <= 0;
-  }
-  /// True unless every point within 1/64 of a lattice unit of `p`, lattice units, is surely outside.
-  [[nodiscard]] bool may_hold(const Vec3d& p) const {
-    constexpr double kSlack = 1.0 / 64;
-    const Vec3d base = to_double(lattice_[0]);
-    std::array<Vec3d, 4> c;
-    for (std::size_t i = 0; i < 4; ++i) c[i] = to_double(lattice_[i]) - base;
-    const Vec3d point = p - base;
-    const auto beyond = [&](std::size_t i, std::size_t j, std::size_t k) {
-      const Vec3d n = cross(c[j] - c[i], c[k] - c[i]);
-      return dot(n, point - c[i]) > kSlack * (std::abs(n[0]) + std::abs(n[1]) + std::abs(n[2]));
-    };
-    return !beyond(0, 1, 2) && !beyond(0, 3, 1) && !beyond(1, 3, 2) && !beyond(2, 3, 0);
-  }
-
- private:
-  Tetrahedron lattice_;
-  std::array<Vec3d, 4> corners_;
-};
-
-/// A swept tetrahedron (a, b, c, q) has q on the inner side of its old face; a flat one holds nothing.
-std::optional<Solid> solid_of(const GridFrame& frame, const Tetrahedron& t) {
-  const int turn = orient3d(t[0], t[1], t[2], t[3]);
-  if (turn == 0) return std::nullopt;
-  const std::size_t second = turn > 0 ? 1 : 2;
-  return Solid(frame, {t[3], t[second], t[3 - second], t[0]});
-}
-
-/// The face is the new one over a tetrahedron swept.
-bool closes(const NewFace& f, const Tetrahedron& t) {
-  return f.corners[0] == t[3] && f.corners[1] == t[1] && f.corners[2] == t[2];
 }
 
 }  // namespace
@@ -164,41 +132,6 @@ double EnclosedTriangles::set_corners(std::size_t i) {
   return farthest;
 }
 
-namespace {
-
-/// A half-space clear of a body: n . p > limit for a corner p as rounded. Whichever n, that proves it.
-struct HalfSpace {
-  std::array<float, 3> n;
-  float limit;
-
-  /// Bit k: it holds the corners of triangle k from the first to the last one asked for.
-  [[nodiscard]] std::uint32_t holds(const EightTriangles& eight, std::size_t last) const {
-    const auto beyond = [&](std::size_t half) {
-      FourInts all{-1, -1, -1, -1};
-      for (std::size_t k = 0; k <= last; ++k) {
-        const auto& c = eight.corners[k];
-        all &= n[0] * c[0][half] + n[1] * c[1][half] + n[2] * c[2][half] > limit;
-      }
-      return all;
-    };
-    return bits_of(beyond(0), beyond(1));
-  }
-};
-
-/// `body` relative to the tree's base. Floats: each of the three terms of n . p passes through at most 6 roundings (n,
-/// p, the product, two sums), the limit through 2, so with sizes of n that sum to 1 the height errs by less than 14
-/// roundings of reach or limit; to_voxels by less than 2^-14 lattice units.
-HalfSpace beyond(const Vec3d& direction, std::span<const Vec3d> body, double reach) {
-  const double size = std::abs(direction[0]) + std::abs(direction[1]) + std::abs(direction[2]);
-  if (!(size > 0)) return {{0, 0, 0}, 1};
-  const Vec3d n = (1 / size) * direction;
-  double limit = dot(n, body[0]);
-  for (const Vec3d& p : body) limit = std::max(limit, dot(n, p));
-  return {{float(n[0]), float(n[1]), float(n[2])}, float(limit + 0x1p-12 + 0x1p-20 * (reach + std::abs(limit)))};
-}
-
-}  // namespace
-
 /// What a change sweeps: a new face, or a tetrahedron, or both, the face closing the tetrahedron towards the inside.
 class EnclosedTriangles::Swept {
  public:
@@ -221,24 +154,23 @@ class EnclosedTriangles::Swept {
   }
   [[nodiscard]] BoxTree::Plane plane() const { return plane_of(corners_[0], corners_[1], corners_[2]); }
 
-  /// Bits of the triangles that are surely clear.
+  /// Bits of the triangles that are surely clear, among those asked for.
   [[nodiscard]] std::uint32_t clear(const EightTriangles& eight, std::uint32_t asked) {
     std::uint32_t clear = inwards_.holds(eight, 2);
     if ((asked & ~clear) == 0) return clear;
-    if (!complete_) add_sides();
-    const std::size_t last = all_.within_ ? 2 : 0;  // the first corner need not be of the part
     std::uint32_t of_face = has_face_ ? 0 : ~0u, of_solid = solid_ ? 0 : ~0u;
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (has_face_) of_face |= beside_face_[k].holds(eight, 2);
-      if (solid_) of_solid |= beside_solid_[k].holds(eight, last);
-    }
+    for (std::size_t k = 0; has_face_ && k < 3 && (asked & ~clear & ~of_face) != 0; ++k)
+      of_face |= beside_face(k).holds(eight, 2);
+    const std::size_t last = all_.within_ ? 2 : 0;  // the first corner need not be of the part
+    for (std::size_t k = 0; solid_ && k < 3 && (asked & ~clear & of_face & ~of_solid) != 0; ++k)
+      of_solid |= beside_solid(k).holds(eight, last);
     return clear | (of_face & of_solid);
   }
 
   /// Exact, or of a part on the safe side.
-  [[nodiscard]] bool meets(std::size_t i) const {
+  [[nodiscard]] bool meets(std::size_t i) {
     const TriangleD& t = all_.triangles_[i];
-    const bool cut = has_face_ && (all_.has_area(i) ? triangles_intersect(t.data(), world_.data())
+    const bool cut = has_face_ && (all_.has_area(i) ? triangles_intersect(t.data(), world_.data(), plane_of_face())
                                                     : degenerate_triangle_meets(t.data(), world_.data()));
     if (!all_.within_) return cut || (solid_ && solid_->holds(t[0]));
     return (cut && may_meet_within(t, world_, *all_.within_)) || (solid_ && solid_->may_hold(all_.middles_[i]));
@@ -247,31 +179,43 @@ class EnclosedTriangles::Swept {
  private:
   [[nodiscard]] Vec3d normal() const { return cross(body_[1] - body_[0], body_[2] - body_[0]); }
 
-  /// Upright on the face, one along each edge; the other faces of the tetrahedron.
-  void add_sides() {
-    complete_ = true;
-    const Vec3d up = normal();
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3d &a = body_[k], &b = body_[(k + 1) % 3], &c = body_[(k + 2) % 3], &d = body_[3];
-      if (has_face_) beside_face_[k] = beyond(cross(b - a, up), {body_.data(), 3}, all_.reach_);
-      if (!solid_) continue;
-      const Vec3d n = cross(b - a, d - a);
-      beside_solid_[k] = beyond(dot(n, c - a) > 0 ? -1.0 * n : n, body_, all_.reach_);
+  /// Upright on the face, along edge k.
+  [[nodiscard]] const ClearSpace& beside_face(std::size_t k) {
+    if (k == face_sides_) {
+      const Vec3d &a = body_[k], &b = body_[(k + 1) % 3];
+      beside_face_[face_sides_++] = beyond(cross(b - a, normal()), {body_.data(), 3}, all_.reach_);
     }
+    return beside_face_[k];
+  }
+  /// Another face of the tetrahedron, at edge k.
+  [[nodiscard]] const ClearSpace& beside_solid(std::size_t k) {
+    if (k == solid_sides_) {
+      const Vec3d &a = body_[k], &b = body_[(k + 1) % 3], &c = body_[(k + 2) % 3], &d = body_[3];
+      const Vec3d n = cross(b - a, d - a);
+      beside_solid_[solid_sides_++] = beyond(dot(n, c - a) > 0 ? -1.0 * n : n, body_, all_.reach_);
+    }
+    return beside_solid_[k];
+  }
+  [[nodiscard]] const PlaneOf<Vec3d>& plane_of_face() {
+    if (!plane_) plane_.emplace(world_[0], world_[1], world_[2]);
+    return *plane_;
   }
 
   const EnclosedTriangles& all_;
   const std::optional<Solid>& solid_;
-  bool has_face_, complete_ = false;
+  bool has_face_;
   std::array<LatticeCoord, 3> corners_;  // of the face
   std::array<Vec3d, 3> world_;
   std::array<Vec3d, 4> body_;  // corners of the face, then the tetrahedron's other one; relative to the tree's base
-  HalfSpace inwards_;
-  std::array<HalfSpace, 3> beside_face_, beside_solid_;
+  ClearSpace inwards_;
+  // Made when they are asked for first:
+  std::array<ClearSpace, 3> beside_face_, beside_solid_;
+  std::size_t face_sides_ = 0, solid_sides_ = 0;
+  std::optional<PlaneOf<Vec3d>> plane_;
 };
 
-bool EnclosedTriangles::is_free(Swept swept, Blocker* blocker) const {
-  return tree_.query_groups(swept.box(), swept.plane(), [&](std::uint32_t first, std::uint32_t hits) {
+bool EnclosedTriangles::is_free(Swept swept, const BoxTree::Nearby* nearby, Blocker* blocker) const {
+  const auto is_clear = [&](std::uint32_t first, std::uint32_t hits) {
     hits &= ~swept.clear(eights_[first / 8], hits);
     for (; hits != 0; hits &= hits - 1) {
       const std::size_t i = first + std::uint32_t(std::countr_zero(hits));
@@ -280,24 +224,35 @@ bool EnclosedTriangles::is_free(Swept swept, Blocker* blocker) const {
       return false;
     }
     return true;
-  });
+  };
+  return nearby != nullptr ? tree_.query_groups(*nearby, swept.box(), swept.plane(), is_clear)
+                           : tree_.query_groups(swept.box(), swept.plane(), is_clear);
 }
 
 // A triangle, or its part, which is convex too, meets neither the old faces (it was enclosed) nor, once tested, the new
 // ones. So it lies wholly in one part of space that they bound together, and one of its points tells whether a
 // tetrahedron that leaves the solid holds it. Nearly all triangles near a face lie wholly on its inner side: eight are
 // left out at once.
+//
+// Many stars are refused by their first face. From the second one on, what is near the whole star is looked up once.
 bool EnclosedTriangles::allows(std::span<const NewFace> star, std::span<const Tetrahedron> swept,
                                Blocker* blocker) const {
-  for (const NewFace& f : star) {
+  thread_local BoxTree::Nearby around_star;
+  const BoxTree::Nearby* nearby = nullptr;
+  for (std::size_t i = 0; i < star.size(); ++i) {
+    const NewFace& f = star[i];
     const auto under = std::find_if(swept.begin(), swept.end(), [&](const Tetrahedron& t) { return closes(f, t); });
     const std::optional<Solid> solid = under == swept.end() ? std::nullopt : solid_of(frame_, *under);
-    if (!is_free(Swept(*this, &f, solid), blocker)) return false;
+    if (i == 1) {
+      tree_.gather(box_around(star, swept), around_star);
+      nearby = around_star.complete() ? &around_star : nullptr;
+    }
+    if (!is_free(Swept(*this, &f, solid), nearby, blocker)) return false;
   }
   for (const Tetrahedron& t : swept) {
     if (std::any_of(star.begin(), star.end(), [&](const NewFace& f) { return closes(f, t); })) continue;
     const std::optional<Solid> solid = solid_of(frame_, t);
-    if (solid && !is_free(Swept(*this, nullptr, solid), blocker)) return false;
+    if (solid && !is_free(Swept(*this, nullptr, solid), nearby, blocker)) return false;
   }
   return true;
 }

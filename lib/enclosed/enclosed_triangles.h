@@ -40,7 +40,7 @@ class EnclosedTriangles : public Enclosed {
   [[nodiscard]] bool has_area(std::size_t triangle) const { return (no_area_[triangle / 8] >> triangle % 8 & 1) == 0; }
   void add_samples_of(std::size_t triangle, std::vector<Vec3d>& points) const;
   [[nodiscard]] std::vector<Vec3d> all_samples() const;
-  [[nodiscard]] bool is_free(Swept swept, Blocker* blocker) const;
+  [[nodiscard]] bool is_free(Swept swept, const BoxTree::Nearby* nearby, Blocker* blocker) const;
   void report(std::size_t triangle, Blocker& blocker) const;
 
   std::vector<TriangleD> triangles_;  // in the order of the tree

@@ -82,25 +82,50 @@ constexpr Int triple_product(const LatticeCoord& u, const LatticeCoord& v, const
   return sign_of(int128(b[i] - a[i]) * (c[j] - a[j]) - int128(b[j] - a[j]) * (c[i] - a[i]));
 }
 
+/// The plane of three points, for questions about many: side(d) is orient3d(a, b, c, d), exactly.
+template <class P>
+class PlaneOf {
+ public:
+  constexpr PlaneOf(const P& a, const P& b, const P& c) : a_(a), b_(b), c_(c) {}
+  [[nodiscard]] constexpr int side(const P& d) const { return orient3d(a_, b_, c_, d); }
+
+ private:
+  P a_, b_, c_;
+};
+
 /// Filter. Each of the six terms of the computed determinant passes through at most 8 roundings (three differences, two
 /// products, the difference of two products, two additions), so with u = 2^-53
 ///   |computed - exact| <= ((1 + u)^8 - 1) * (sum of the exact |terms|) <= ((1 + u)^8 - 1) / (1 - u)^8 * permanent
 /// for the permanent as computed; that factor is below 8.00001 u, and 9 u also covers the rounding of the bound. Where
 /// the bound underflows (permanent below 2^-1000), the terms are multiples of 2^-1053 with at most 53 bits and the
 /// determinant is computed without any error.
+template <>
+class PlaneOf<Vec3d> {
+ public:
+  PlaneOf(const Vec3d& a, const Vec3d& b, const Vec3d& c) : a_(a), b_(b), c_(c) {
+    const double ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2];
+    const double vx = c[0] - a[0], vy = c[1] - a[1], vz = c[2] - a[2];
+    const double yz = uy * vz, zy = uz * vy, zx = uz * vx, xz = ux * vz, xy = ux * vy, yx = uy * vx;
+    normal_ = {yz - zy, zx - xz, xy - yx};
+    size_ = {std::abs(yz) + std::abs(zy), std::abs(zx) + std::abs(xz), std::abs(xy) + std::abs(yx)};
+  }
+  [[nodiscard]] int side(const Vec3d& d) const {
+    const double wx = d[0] - a_[0], wy = d[1] - a_[1], wz = d[2] - a_[2];
+    const double det = normal_[0] * wx + normal_[1] * wy + normal_[2] * wz;
+    const double permanent = size_[0] * std::abs(wx) + size_[1] * std::abs(wy) + size_[2] * std::abs(wz);
+    const double bound = 9 * 0x1p-53 * permanent;
+    if (det > bound) return 1;
+    if (-det > bound) return -1;
+    if (permanent == 0) return 0;  // each term is exactly zero
+    return detail::orient3d_exact(a_, b_, c_, d);
+  }
+
+ private:
+  Vec3d a_, b_, c_, normal_, size_;  // size_: of the terms of the normal
+};
+
 [[nodiscard]] inline int orient3d(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) {
-  const double ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2];
-  const double vx = c[0] - a[0], vy = c[1] - a[1], vz = c[2] - a[2];
-  const double wx = d[0] - a[0], wy = d[1] - a[1], wz = d[2] - a[2];
-  const double yz = uy * vz, zy = uz * vy, zx = uz * vx, xz = ux * vz, xy = ux * vy, yx = uy * vx;
-  const double det = (yz - zy) * wx + (zx - xz) * wy + (xy - yx) * wz;
-  const double permanent = (std::abs(yz) + std::abs(zy)) * std::abs(wx) + (std::abs(zx) + std::abs(xz)) * std::abs(wy) +
-                           (std::abs(xy) + std::abs(yx)) * std::abs(wz);
-  const double bound = 9 * 0x1p-53 * permanent;
-  if (det > bound) return 1;
-  if (-det > bound) return -1;
-  if (permanent == 0) return 0;  // each term is exactly zero
-  return detail::orient3d_exact(a, b, c, d);
+  return PlaneOf<Vec3d>(a, b, c).side(d);
 }
 
 /// Filter: as above with 4 roundings a term (two differences, a product, an addition); 5 u covers the bound's own.

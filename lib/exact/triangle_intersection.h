@@ -72,9 +72,39 @@ template <class P>
 
 /// Sides of the corners of a of the plane of b. False if all lie strictly on one side.
 template <class P>
-[[nodiscard]] bool reaches_plane(const P a[3], const P b[3], int side[3]) {
-  for (int i = 0; i < 3; ++i) side[i] = orient3d(b[0], b[1], b[2], a[i]);
+[[nodiscard]] bool reaches_plane(const P a[3], const PlaneOf<P>& b, int side[3]) {
+  for (int i = 0; i < 3; ++i) side[i] = b.side(a[i]);
   return side[0] == 0 || side[0] != side[1] || side[0] != side[2];
+}
+
+/// The corner of a triangle that a plane parts from the other two, given the sides of all three, and its side, in which
+/// the others do not lie. Where the plane only touches it, the two others lie on one side.
+struct Apart {
+  int corner, side;
+};
+[[nodiscard]] constexpr Apart corner_apart(const int side[3]) {
+  for (int i = 0; i < 3; ++i) {
+    const int next = side[(i + 1) % 3], last = side[(i + 2) % 3];
+    if (side[i] != 0 && side[i] * next <= 0 && side[i] * last <= 0) return {i, side[i]};
+    if (side[i] == 0 && next * last > 0) return {i, -next};
+  }
+  return {0, 0};  // not reached if the plane meets the triangle but does not hold it
+}
+
+/// Triangles that meet each other's plane, in the line of both planes: whether their parts of this line meet. Turned so
+/// that the corner apart is a positive one of both planes, each part runs in the same direction from the edge after
+/// that corner to the edge before it, and orientations of corners tell which end comes first ([GD03]).
+template <class P>
+[[nodiscard]] bool parts_of_line_meet(const P a[3], const P b[3], const int side_a[3], const int side_b[3]) {
+  const Apart in_a = corner_apart(side_a), in_b = corner_apart(side_b);
+  const auto corner = [](const P t[3], int first, int k) -> const P& { return t[(first + k) % 3]; };
+  // The other triangle, turned around, has the corner apart on the positive side.
+  const int step_a = in_b.side > 0 ? 1 : 2, step_b = in_a.side > 0 ? 1 : 2;
+  const P &pa = corner(a, in_a.corner, 0), &qa = corner(a, in_a.corner, step_a),
+          &ra = corner(a, in_a.corner, 3 - step_a);
+  const P &pb = corner(b, in_b.corner, 0), &qb = corner(b, in_b.corner, step_b),
+          &rb = corner(b, in_b.corner, 3 - step_b);
+  return orient3d(pa, qa, pb, qb) <= 0 && orient3d(pa, ra, rb, pb) <= 0;
 }
 
 }  // namespace detail
@@ -85,22 +115,26 @@ template <class P>
   return detail::segment_meets_triangle(p, q, t, orient3d(t[0], t[1], t[2], p), orient3d(t[0], t[1], t[2], q));
 }
 
-/// True if two triangles have a point in common. Both must have positive area. 6 to 24 orientations, 3 or 6 if far
-/// apart.
+/// True if two triangles have a point in common. Both must have positive area. `plane_b`: of b. 3 to 8 orientations,
+/// more if they lie in one plane.
+template <class P>
+[[nodiscard]] bool triangles_intersect(const P a[3], const P b[3], const PlaneOf<P>& plane_b) {
+  int side_a[3], side_b[3];
+  if (!detail::reaches_plane(a, plane_b, side_a)) return false;
+  if (side_a[0] == 0 && side_a[1] == 0 && side_a[2] == 0) return detail::coplanar_triangles_intersect(a, b);
+  return detail::reaches_plane(b, PlaneOf<P>(a[0], a[1], a[2]), side_b) &&
+         detail::parts_of_line_meet(a, b, side_a, side_b);
+}
 template <class P>
 [[nodiscard]] bool triangles_intersect(const P a[3], const P b[3]) {
-  int side_a[3], side_b[3];
-  if (!detail::reaches_plane(a, b, side_a)) return false;
-  if (side_a[0] == 0 && side_a[1] == 0 && side_a[2] == 0) return detail::coplanar_triangles_intersect(a, b);
-  if (!detail::reaches_plane(b, a, side_b)) return false;
-  return detail::any_edge_meets(a, b, side_a) || detail::any_edge_meets(b, a, side_b);
+  return triangles_intersect(a, b, PlaneOf<P>(b[0], b[1], b[2]));
 }
 
 /// True if a triangle of zero area (a segment, or a point) meets triangle b, which must have positive area.
 template <class P>
 [[nodiscard]] bool degenerate_triangle_meets(const P a[3], const P b[3]) {
   int side[3];
-  return detail::reaches_plane(a, b, side) && detail::any_edge_meets(a, b, side);
+  return detail::reaches_plane(a, PlaneOf<P>(b[0], b[1], b[2]), side) && detail::any_edge_meets(a, b, side);
 }
 
 /// Triangles that share corner a[shared_a] == b[shared_b]: true if they have any other point in common. Seen from the

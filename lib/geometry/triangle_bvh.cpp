@@ -22,12 +22,52 @@ double half_area(const Bounds3d& b) {
   return s[0] * s[1] + s[1] * s[2] + s[2] * s[0];
 }
 
-double segment_distance_squared(const Vec3d& p, const Vec3d& a, const Vec3d& b) {
-  const Vec3d ab = b - a, ap = p - a;
-  const double length = dot(ab, ab);
-  const double t = length > 0 ? std::clamp(dot(ap, ab) / length, 0.0, 1.0) : 0;
-  const Vec3d d{ap[0] - t * ab[0], ap[1] - t * ab[1], ap[2] - t * ab[2]};
-  return dot(d, d);
+typedef double DoublePair __attribute__((vector_size(16)));
+
+/// Edges of a triangle, and what they tell of a point: one at a time with T = double, two with DoublePair.
+template <class T>
+struct Edges {
+  using Vec = std::array<T, 3>;
+  Vec along, to_point;  // from where each begins
+
+  static T dot(const Vec& a, const Vec& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+  /// 0 or more where the point is on the triangle's side of the plane along the edge; `n`: the triangle's normal.
+  [[nodiscard]] T inwards(const Vec3d& n) const {
+    const auto& [x, y, z] = along;
+    const auto& [u, v, w] = to_point;
+    const Vec turn = {y * w - z * v, z * u - x * w, x * v - y * u};
+    return turn[0] * n[0] + turn[1] * n[1] + turn[2] * n[2];
+  }
+  [[nodiscard]] T distance_squared() const {
+    const T length = dot(along, along);
+    T share = dot(to_point, along) / length;
+    share = share < 0 ? T{} : share;
+    share = share > 1 ? T{} + 1 : share;
+    share = length > 0 ? share : T{};
+    const Vec d{to_point[0] - share * along[0], to_point[1] - share * along[1], to_point[2] - share * along[2]};
+    return dot(d, d);
+  }
+};
+
+double distance_squared_inline(const Vec3d& p, const TriangleD& t) {
+  Edges<DoublePair> first;
+  Edges<double> last;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const DoublePair from = {t[0][i], t[1][i]}, to = {t[1][i], t[2][i]};
+    first.along[i] = to - from;
+    first.to_point[i] = p[i] - from;
+    last.along[i] = t[0][i] - t[2][i];
+    last.to_point[i] = p[i] - t[2][i];
+  }
+  const Vec3d n = cross(t[1] - t[0], t[2] - t[0]);
+  const double nn = dot(n, n);
+  const DoublePair inwards = first.inwards(n);
+  if (nn > 0 && inwards[0] >= 0 && inwards[1] >= 0 && last.inwards(n) >= 0) {
+    const double height = dot(p - t[0], n);
+    return height * height / nn;
+  }
+  const DoublePair two = first.distance_squared();
+  return std::min(std::min(two[0], two[1]), last.distance_squared());
 }
 
 }  // namespace
@@ -35,23 +75,14 @@ double segment_distance_squared(const Vec3d& p, const Vec3d& a, const Vec3d& b) 
 double distance_squared(const Vec3d& p, const Bounds3d& b) {
   double sum = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    const double d = std::max({b.min[i] - p[i], 0.0, p[i] - b.max[i]});
+    const double d = std::max(std::max(b.min[i] - p[i], p[i] - b.max[i]), 0.0);
     sum += d * d;
   }
   return sum;
 }
 
 double distance_squared(const Vec3d& p, const TriangleD& t) {
-  const Vec3d n = cross(t[1] - t[0], t[2] - t[0]);
-  const double nn = dot(n, n);
-  bool over = nn > 0;
-  for (std::size_t e = 0; e < 3 && over; ++e) over = dot(cross(t[(e + 1) % 3] - t[e], p - t[e]), n) >= 0;
-  if (over) {
-    const double height = dot(p - t[0], n);
-    return height * height / nn;
-  }
-  return std::min({segment_distance_squared(p, t[0], t[1]), segment_distance_squared(p, t[1], t[2]),
-                   segment_distance_squared(p, t[2], t[0])});
+  return distance_squared_inline(p, t);
 }
 
 Vec3d nearest_point(const Vec3d& p, const TriangleD& t) {
@@ -259,7 +290,7 @@ TriangleBvh::Nearest TriangleBvh::near_enough(const Vec3d& p, double enough, std
     if (e.distance >= best.distance_squared) continue;
     const Node& n = nodes_[e.node];
     for (std::uint32_t i = n.first; i < n.first + n.count; ++i) {
-      const double d = bp::distance_squared(p, items_[i].corners);
+      const double d = distance_squared_inline(p, items_[i].corners);
       if (d < best.distance_squared) best = {d, i};
     }
     if (n.count != 0) continue;

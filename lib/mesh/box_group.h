@@ -64,6 +64,17 @@ struct SmallBox {
           {clamp(b.max.x - base.x), clamp(b.max.y - base.y), clamp(b.max.z - base.z)}};
 }
 
+/// A box that groups are compared with: each coordinate in all lanes.
+struct BoxQuery {
+  FourInts min[3], max[3];
+  explicit BoxQuery(const SmallBox& b) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      min[i] = FourInts{} + b.min[i];
+      max[i] = FourInts{} + b.max[i];
+    }
+  }
+};
+
 /// Eight boxes side by side, all relative to the same point; none at first.
 struct BoxGroup {
   static constexpr std::uint32_t kWidth = 8;
@@ -81,12 +92,13 @@ struct BoxGroup {
     for (std::uint32_t k = 0; k < kWidth; ++k) set(k, kNothing);
   }
   /// Bit k: box k meets `b`.
-  [[nodiscard]] std::uint32_t meeting(const SmallBox& b) const {
-    const auto meets = [&](std::size_t half) {
-      return (min[0][half] <= b.max[0]) & (max[0][half] >= b.min[0]) & (min[1][half] <= b.max[1]) &
-             (max[1][half] >= b.min[1]) & (min[2][half] <= b.max[2]) & (max[2][half] >= b.min[2]);
+  [[nodiscard]] std::uint32_t meeting(const BoxQuery& b) const {
+    // Instruction sets have "greater than" for integers, but not its opposite.
+    const auto misses = [&](std::size_t half) {
+      return (min[0][half] > b.max[0]) | (b.min[0] > max[0][half]) | (min[1][half] > b.max[1]) |
+             (b.min[1] > max[1][half]) | (min[2][half] > b.max[2]) | (b.min[2] > max[2][half]);
     };
-    return bits_of(meets(0), meets(1));
+    return bits_of(misses(0), misses(1)) ^ 0xff;
   }
   /// Bit k: box k, if it is there, lies on the inner side.
   [[nodiscard]] std::uint32_t inside(const InnerSide& side) const {

@@ -62,6 +62,30 @@ BoxGroup::InnerSide BoxTree::inner_side(const Plane& plane) const {
   return {{float(n[0]), float(n[1]), float(n[2])}, float(offset - slack)};
 }
 
+/// In the order of walk(): of the children of a group the last one comes first.
+void BoxTree::gather(const LatticeBox& box, Nearby& nearby) const {
+  constexpr std::size_t kMost = 256;
+  nearby.groups_.clear();
+  nearby.boxes_.clear();
+  nearby.complete_ = false;
+  if (levels_.size() < 2) return;
+  const BoxQuery query(to_small(box));
+  nearby.complete_ = walk([&](const BoxGroup& group) { return group.meeting(query); },
+                          [&](std::uint32_t first, std::uint32_t hits) {
+                            const BoxGroup& boxes = groups_[levels_[1] + first / kWidth];
+                            for (; hits != 0; hits &= std::bit_floor(hits) - 1) {
+                              const auto k = std::uint32_t(std::bit_width(hits)) - 1;
+                              const auto at = std::uint32_t(nearby.groups_.size() % kWidth);
+                              if (at == 0) nearby.boxes_.emplace_back();
+                              nearby.boxes_.back().set(at, boxes.box(k));
+                              nearby.groups_.push_back(first + k);
+                              prefetch(groups_[first + k]);
+                            }
+                            return nearby.groups_.size() <= kMost;
+                          },
+                          1);
+}
+
 void BoxTree::remove(std::uint32_t item) {
   const std::uint32_t i = place_of_[item];
   groups_[i / kWidth].set(i % kWidth, BoxGroup::kNothing);

@@ -32,8 +32,8 @@ class BoxTree {
   /// The same, by their places in order().
   template <class Visit>
   bool query_places(const LatticeBox& box, Visit&& visit) const {
-    const SmallBox small = to_small(box);
-    return walk([&](const BoxGroup& group) { return group.meeting(small); },
+    const BoxQuery query(to_small(box));
+    return walk([&](const BoxGroup& group) { return group.meeting(query); },
                 [&](std::uint32_t first, std::uint32_t hits) {
                   for (; hits != 0; hits &= hits - 1) {
                     if (!visit(first + std::uint32_t(std::countr_zero(hits)))) return false;
@@ -52,14 +52,42 @@ class BoxTree {
   /// the items order()[first + k] for the bits k of `hits`.
   template <class Visit>
   bool query_groups(const LatticeBox& box, const Plane& plane, Visit&& visit) const {
-    const SmallBox small = to_small(box);
+    const BoxQuery query(to_small(box));
     const BoxGroup::InnerSide inner = inner_side(plane);
-    return walk(
-        [&](const BoxGroup& group) {
-          const std::uint32_t hits = group.meeting(small);
-          return hits == 0 ? 0 : hits & ~group.inside(inner);
-        },
-        visit);
+    return walk([&](const BoxGroup& group) { return group.meeting(query); },
+                [&](std::uint32_t first, std::uint32_t hits) {
+                  hits &= ~groups_[first / kWidth].inside(inner);
+                  return hits == 0 || visit(first, hits);
+                });
+  }
+
+  /// Groups of items that meet a box, with their boxes: for several questions about boxes within it.
+  class Nearby {
+   public:
+    [[nodiscard]] bool complete() const { return complete_; }
+
+   private:
+    friend BoxTree;
+    std::vector<std::uint32_t> groups_;  // in the order in which a query visits them
+    std::vector<BoxGroup> boxes_;        // around them
+    bool complete_ = false;
+  };
+  /// Not complete, after some work in vain, if the box meets hundreds of groups.
+  void gather(const LatticeBox& box, Nearby& nearby) const;
+  /// The same as without `nearby`, which is complete, of a box around this one.
+  template <class Visit>
+  bool query_groups(const Nearby& nearby, const LatticeBox& box, const Plane& plane, Visit&& visit) const {
+    const BoxQuery query(to_small(box));
+    const BoxGroup::InnerSide inner = inner_side(plane);
+    for (std::size_t i = 0; i < nearby.boxes_.size(); ++i) {
+      for (std::uint32_t near = nearby.boxes_[i].meeting(query); near != 0; near &= near - 1) {
+        const std::uint32_t group = nearby.groups_[i * kWidth + std::uint32_t(std::countr_zero(near))];
+        std::uint32_t hits = groups_[group].meeting(query);
+        if (hits != 0) hits &= ~groups_[group].inside(inner);
+        if (hits != 0 && !visit(group * kWidth, hits)) return false;
+      }
+    }
+    return true;
   }
   /// Items, those near in space near each other; changes with build() only.
   [[nodiscard]] std::span<const std::uint32_t> order() const { return order_; }
@@ -72,10 +100,15 @@ class BoxTree {
   struct Place {
     std::uint32_t level, group;
   };
+  static void prefetch(const BoxGroup& group) {
+    constexpr std::size_t kCacheLine = 64;
+    for (std::size_t at = 0; at < sizeof(BoxGroup); at += kCacheLine)
+      __builtin_prefetch(reinterpret_cast<const char*>(&group) + at);
+  }
 
-  /// visit(first, hits) for the groups of items that are reached through the children hits(group).
+  /// visit(first, hits) for the groups of `lowest` level that are reached through the children hits(group).
   template <class Hits, class Visit>
-  bool walk(Hits&& hits_of, Visit&& visit) const {
+  bool walk(Hits&& hits_of, Visit&& visit, std::uint32_t lowest = 0) const {
     if (levels_.empty()) return true;
     Place stack[kMostLevels * kWidth];
     int top = 0;
@@ -84,12 +117,15 @@ class BoxTree {
       const Place place = stack[--top];
       std::uint32_t hits = hits_of(groups_[levels_[place.level] + place.group]);
       const std::uint32_t first = place.group * kWidth;
-      if (place.level == 0) {
+      if (place.level == lowest) {
         if (hits != 0 && !visit(first, hits)) return false;
         continue;
       }
-      for (; hits != 0; hits &= hits - 1)
-        stack[top++] = {place.level - 1, first + std::uint32_t(std::countr_zero(hits))};
+      for (; hits != 0; hits &= hits - 1) {
+        const Place below{place.level - 1, first + std::uint32_t(std::countr_zero(hits))};
+        prefetch(groups_[levels_[below.level] + below.group]);
+        stack[top++] = below;
+      }
     }
     return true;
   }

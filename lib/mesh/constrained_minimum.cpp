@@ -70,17 +70,22 @@ std::optional<Vec3d> on_plane(const Quadric& q, const PlaneConstraint& plane,
 
 }  // namespace
 
+GrowingMinimum::GrowingMinimum(const Quadric& q, const Vec3d& prior)
+    : regularised_(q.regularised(prior)), x_(regularised_.minimum()) {}
+
+std::optional<Vec3d> GrowingMinimum::under(std::span<const PlaneConstraint> constraints) {
+  for (; known_ < constraints.size(); ++known_) {
+    if (dot(constraints[known_].n, x_) >= constraints[known_].d - kEps) continue;
+    const auto on = on_plane(regularised_, constraints[known_], constraints.first(known_));
+    if (!on) return std::nullopt;
+    x_ = *on;
+  }
+  return x_;
+}
+
 std::optional<Vec3d> constrained_minimum(const Quadric& q, const Vec3d& prior,
                                          std::span<const PlaneConstraint> constraints) {
-  const Quadric r = q.regularised(prior);
-  Vec3d x = r.minimum();
-  for (std::size_t i = 0; i < constraints.size(); ++i) {
-    if (dot(constraints[i].n, x) >= constraints[i].d - kEps) continue;
-    const auto on = on_plane(r, constraints[i], constraints.first(i));
-    if (!on) return std::nullopt;
-    x = *on;
-  }
-  return x;
+  return GrowingMinimum(q, prior).under(constraints);
 }
 
 }  // namespace bp

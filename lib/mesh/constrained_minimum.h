@@ -19,4 +19,17 @@ struct PlaneConstraint {
 [[nodiscard]] std::optional<Vec3d> constrained_minimum(const Quadric& q, const Vec3d& prior,
                                                        std::span<const PlaneConstraint> constraints);
 
+/// The same, where constraints are added and the point is asked for again: what it was before is not sought again.
+class GrowingMinimum {
+ public:
+  GrowingMinimum(const Quadric& q, const Vec3d& prior);
+  /// For `constraints`, which begin with those of the last call. Nothing as soon as they contradict each other.
+  [[nodiscard]] std::optional<Vec3d> under(std::span<const PlaneConstraint> constraints);
+
+ private:
+  Quadric regularised_;
+  Vec3d x_;
+  std::size_t known_ = 0;  // constraints that x_ keeps
+};
+
 }  // namespace bp

@@ -97,9 +97,16 @@ bool is_graph(std::span<const NewFace> star, std::span<const LatticeCoord> norma
 }  // namespace
 
 /// Separating planes of a new face in doubles, with the bound of their rounding: its own plane and, upright on it, one
-/// along each edge. They tell nearly all faces beside it apart; the exact test is for the rest.
+/// along each edge. They tell nearly all faces beside it apart; the exact test is for the rest. All four are asked at
+/// once: which of them tells is a guess, and branches cost more than what they save.
 class FaceProbe {
  public:
+  /// Corners of another face, relative to the origin, and the sums of the sizes of their coordinates.
+  struct Corners {
+    std::array<Vec3d, 3> at;
+    std::array<double, 3> size;
+  };
+
   FaceProbe(const NewFace& face, const LatticeCoord& normal, const LatticeCoord& origin) {
     const Vec3d n = to_double(normal);
     std::array<Vec3d, 3> p;
@@ -107,58 +114,54 @@ class FaceProbe {
       p[k] = to_double(face.corners[k] - origin);
       reach_ = std::max(reach_, sum_of_sizes(p[k]));
     }
-    planes_[3] = plane(n, p[0], sum_of_sizes(n));
+    set_plane(kOwn, n, p[0], sum_of_sizes(n));
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3d& q = p[(k + 1) % 3];
       const Vec3d edge{q[0] - p[k][0], q[1] - p[k][1], q[2] - p[k][2]};
-      planes_[k] = plane(cross(edge, n), p[k], sum_of_sizes(edge) * sum_of_sizes(n));
+      set_plane(k, cross(edge, n), p[k], sum_of_sizes(edge) * sum_of_sizes(n));
     }
   }
 
-  /// True only if the faces have no point in common but the corners shared. `corners` of the other, relative to the
-  /// origin.
-  [[nodiscard]] bool apart(const std::array<Vec3d, 3>& corners, Shared shared) const {
+  /// True only if the faces have no point in common but the corners shared.
+  [[nodiscard]] bool apart(const Corners& corners, Shared shared) const {
+    // Planes of use, by the corners shared: its own, and those along an edge that all of these are on.
+    constexpr std::array<std::uint32_t, 8> kUseful = {0b1111, 0b1101, 0b1011, 0b1001, 0b1110, 0b1100, 0b1010, 0b1000};
     if (shared.b == 7) return false;
-    int above = 0, below = 0, others = 0;
-    std::array<unsigned, 3> other{};
-    for (unsigned j = 0; j < 3; ++j) {
-      if ((shared.b >> j) & 1) continue;
-      other[std::size_t(others++)] = j;
-      const int side = planes_[3].side(corners[j], reach_);
-      above += side > 0;
-      below += side < 0;
+    std::uint32_t beyond = kUseful[shared.a], below = 1u << kOwn;
+    for (std::size_t j = 0; j < 3; ++j) {
+      const std::uint32_t is_shared = (shared.b >> j & 1) != 0 ? ~0u : 0;
+      const Sides sides = sides_of(corners.at[j], corners.size[j] + reach_);
+      beyond &= sides.above | is_shared;
+      below &= sides.below | is_shared;
     }
-    if (above == others || below == others) return true;
-    for (unsigned k = 0; k < 3; ++k) {
-      const unsigned edge = (1u << k) | (1u << ((k + 1) % 3));
-      if ((shared.a & ~edge) != 0) continue;  // the plane along an edge that a shared corner is not on
-      int beyond = 0;
-      while (beyond < others && planes_[k].side(corners[other[std::size_t(beyond)]], reach_) > 0) ++beyond;
-      if (beyond == others) return true;
-    }
-    return false;
+    return (beyond | below) != 0;
   }
 
  private:
-  struct Plane {
-    Vec3d normal;
-    double offset, slack;
-    /// 0: within rounding.
-    [[nodiscard]] int side(const Vec3d& p, double reach) const {
-      const double at = normal[0] * p[0] + normal[1] * p[1] + normal[2] * p[2] - offset;
-      const double error = slack * (sum_of_sizes(p) + reach);
-      return int(at > error) - int(at < -error);
-    }
+  static constexpr std::size_t kOwn = 3;  // place of the face's own plane; the others are along its edges
+  /// Bits of the planes that a point is surely above or below.
+  struct Sides {
+    std::uint32_t above, below;
   };
+  [[nodiscard]] Sides sides_of(const Vec3d& p, double reach) const {
+    const auto height = [&](std::size_t half) {
+      return normal_[0][half] * p[0] + normal_[1][half] * p[1] + normal_[2][half] * p[2] - offset_[half];
+    };
+    const TwoDoubles low = height(0), high = height(1), error_low = slack_[0] * reach, error_high = slack_[1] * reach;
+    return {bits_of(low > error_low, high > error_high), bits_of(low < -error_low, high < -error_high)};
+  }
 
   /// `size` bounds the sum of sizes of the products that made `normal`. Coordinates are integers below 2^31, exact in
   /// doubles; a component of `normal` carries at most 4 roundings of products below `size`, the two sums of products
   /// with points 4 more each: below 16 roundings of size * (|p| + |point|).
-  static Plane plane(const Vec3d& normal, const Vec3d& point, double size) {
-    return {normal, dot(normal, point), 0x1p-49 * size};
+  void set_plane(std::size_t k, const Vec3d& normal, const Vec3d& point, double size) {
+    for (std::size_t i = 0; i < 3; ++i) normal_[i][k / 2][k % 2] = normal[i];
+    offset_[k / 2][k % 2] = dot(normal, point);
+    slack_[k / 2][k % 2] = 0x1p-49 * size;
   }
 
-  std::array<Plane, 4> planes_;  // along the edges, outside positive; its own
+  std::array<std::array<TwoDoubles, 2>, 3> normal_;  // of four planes side by side, outside positive
+  std::array<TwoDoubles, 2> offset_, slack_;
   double reach_ = 0;
 };
 
@@ -256,13 +259,14 @@ bool Guard::clear_of_mesh(std::span<const NewFace> faces, std::span<const FaceId
 
 bool Guard::clear_of_face(std::span<const NewFace> faces, FaceId other) const {
   NewFace o;
-  std::array<Vec3d, 3> corners;  // relative to the origin
+  FaceProbe::Corners corners;
   for (std::size_t k = 0; k < 3; ++k) {
     o.ids[k] = mesh_.from(3 * other + HalfEdgeId(k));
     o.corners[k] = mesh_.position(o.ids[k]);
-    corners[k] = to_double(o.corners[k] - origin_);
+    corners.at[k] = to_double(o.corners[k] - origin_);
+    corners.size[k] = sum_of_sizes(corners.at[k]);
   }
-  const SmallBox box = relative_to(origin_, box_of(o.corners[0], o.corners[1], o.corners[2]));
+  const BoxQuery box(relative_to(origin_, box_of(o.corners[0], o.corners[1], o.corners[2])));
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     for (std::uint32_t hits = groups_[g].meeting(box); hits != 0; hits &= hits - 1) {
       const std::size_t i = BoxGroup::kWidth * g + std::size_t(std::countr_zero(hits));

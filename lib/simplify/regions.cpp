@@ -1,6 +1,7 @@
 #include "lib/simplify/regions.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 
 #include "lib/core/parallel.h"
@@ -16,8 +17,15 @@ constexpr std::int64_t kFacesAtOnce = 1 << 14;
 class Splitter {
  public:
   Splitter(const Piece& whole, std::uint64_t most, double share)
-      : whole_(whole), most_(most), share_(share), faces_(whole.triangles.size()) {
-    for (FaceId f = 0; f < faces_.size(); ++f) faces_[f] = f;
+      : whole_(whole), most_(most), share_(share), faces_(whole.triangles.size()), middles_(faces_.size()) {
+    const LatticeBox box = box_of(whole.vertices);
+    for (int axis = 0; axis < 3; ++axis) base_[axis] = box.min[axis] + (box.max[axis] - box.min[axis]) / 2;
+    parallel_ranges(std::int64_t(faces_.size()), kFacesAtOnce, [&](std::int64_t begin, std::int64_t end) {
+      for (auto f = FaceId(begin); f < FaceId(end); ++f) {
+        faces_[f] = f;
+        set_middle(f);
+      }
+    });
     nodes_.push_back({0, faces_.size(), kEverywhere});
     for (std::size_t done = 0; done < nodes_.size();) {  // a level of the tree at a time
       const std::size_t level = done;
@@ -55,9 +63,15 @@ class Splitter {
     std::array<std::size_t, 2> below{};  // nodes; of a leaf the first one is its number
   };
 
-  [[nodiscard]] LatticeCoord thrice_middle(FaceId f) const {
+  /// A mesh spans at most twice kMaxSpan (HalfEdgeMesh::room()), so three times the way from its centre fits.
+  void set_middle(FaceId f) {
+    static_assert(HalfEdgeMesh::kMaxSpan <= std::int64_t(1) << 29);
     const auto& [a, b, c] = whole_.triangles[f];
-    return whole_.vertices[a] + whole_.vertices[b] + whole_.vertices[c];
+    const LatticeCoord sum = whole_.vertices[a] + whole_.vertices[b] + whole_.vertices[c] - base_ * 3;
+    middles_[f] = {std::int32_t(sum.x), std::int32_t(sum.y), std::int32_t(sum.z)};
+  }
+  [[nodiscard]] std::int64_t thrice_middle(FaceId f, int axis) const {
+    return 3 * base_[axis] + middles_[f][std::size_t(axis)];
   }
 
   /// Decides where, and sorts its faces.
@@ -68,7 +82,7 @@ class Splitter {
       if (plane <= node.cell.min[axis] || plane >= node.cell.max[axis]) continue;
       const auto first = faces_.begin() + std::ptrdiff_t(node.begin), last = faces_.begin() + std::ptrdiff_t(node.end);
       node.middle = std::size_t(
-          std::stable_partition(first, last, [&](FaceId f) { return thrice_middle(f)[axis] <= 3 * plane; }) -
+          std::stable_partition(first, last, [&](FaceId f) { return thrice_middle(f, axis) <= 3 * plane; }) -
           faces_.begin());
       if (node.middle == node.begin || node.middle == node.end) continue;
       node.axis = axis;
@@ -104,7 +118,7 @@ class Splitter {
     std::array<std::int64_t, 3> spread{};
     for (int axis = 0; axis < 3; ++axis) {
       std::vector<std::int64_t> at;
-      for (std::size_t i = begin; i < end; i += step) at.push_back(thrice_middle(faces_[i])[axis]);
+      for (std::size_t i = begin; i < end; i += step) at.push_back(thrice_middle(faces_[i], axis));
       std::sort(at.begin(), at.end());
       spread[std::size_t(axis)] = at[at.size() * 3 / 4] - at[at.size() / 4];
     }
@@ -118,7 +132,7 @@ class Splitter {
   /// between them, and these would be locked.
   [[nodiscard]] std::int64_t plane_across(int axis, std::size_t begin, std::size_t end) const {
     std::vector<std::int64_t> at;
-    for (std::size_t i = begin; i < end; ++i) at.push_back(thrice_middle(faces_[i])[axis]);
+    for (std::size_t i = begin; i < end; ++i) at.push_back(thrice_middle(faces_[i], axis));
     const auto middle = at.begin() + std::ptrdiff_t(share_ * double(at.size()));
     std::nth_element(at.begin(), middle, at.end());
     const std::int64_t plane = floor_div(*middle, std::int64_t(3));
@@ -141,6 +155,8 @@ class Splitter {
   const std::uint64_t most_;  // faces of a leaf
   const double share_;
   std::vector<FaceId> faces_;
+  LatticeCoord base_;                                 // the centre
+  std::vector<std::array<std::int32_t, 3>> middles_;  // per face: three times its middle, relative to three times base_
   std::vector<Node> nodes_;
   std::vector<Region> leaves_;
 };

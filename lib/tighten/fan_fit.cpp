@@ -167,11 +167,12 @@ std::optional<Vec3d> FanFit::least_volume(const Vec3d& start, double reach) {
   q.by = gradient_[1] / 2 - pull * start[1];
   q.bz = gradient_[2] / 2 - pull * start[2];
   cuts_ = avoided_;
-  std::optional<Vec3d> x = constrained_minimum(q, start, cuts_);
+  GrowingMinimum minimum(q, start);
+  std::optional<Vec3d> x = minimum.under(cuts_);
   for (int round = 0; x && round < kCutRounds; ++round) {
     bind(*x);
     if (!cut(*x)) break;
-    x = constrained_minimum(q, start, cuts_);
+    x = minimum.under(cuts_);
   }
   return x;
 }

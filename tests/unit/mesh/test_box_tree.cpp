@@ -128,3 +128,40 @@ TEST_CASE("a query of the tree of boxes with a plane leaves out boxes on its inn
   CHECK(inside > 1000);
   CHECK(double(left_out) > (far_ones ? -1 : 0.9) * double(inside));
 }
+
+TEST_CASE("groups gathered around a box answer queries within it in the same order as the tree", "[quick][meshing]") {
+  const int count = GENERATE(0, 5, 9, 300, 2000, 5000);
+  RandomBoxes random(unsigned(count) + 7);
+  std::vector<LatticeBox> boxes;
+  while (int(boxes.size()) < count) boxes.push_back(random.next());
+  std::vector<std::uint32_t> items(boxes.size());
+  std::iota(items.begin(), items.end(), 0u);
+  BoxTree tree;
+  tree.build(boxes, items);
+  BoxTree::Nearby nearby;
+  int complete = 0;
+  for (int round = 0; round < 200; ++round) {
+    const LatticeBox inner = random.next();
+    tree.gather(inner.grown(round % 3 == 0 ? 9000 : 200), nearby);
+    if (!nearby.complete()) continue;
+    ++complete;
+    const BoxTree::Plane plane{inner.min, {double(random.between(-9, 9)), double(random.between(-9, 9)), 1}};
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> from_tree, from_groups;
+    const auto note = [](auto& list) {
+      return [&list](std::uint32_t first, std::uint32_t hits) {
+        list.emplace_back(first, hits);
+        return list.size() < 20;
+      };
+    };
+    const bool all = tree.query_groups(inner, plane, note(from_tree));
+    CHECK(tree.query_groups(nearby, inner, plane, note(from_groups)) == all);
+    CHECK(from_groups == from_tree);
+  }
+  if (count <= 8) {
+    CHECK(complete == 0);  // there are no groups of groups
+  } else if (count <= 2000) {
+    CHECK(complete == 200);
+  } else {
+    CHECK(complete < 200);
+  }
+}

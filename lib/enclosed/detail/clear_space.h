@@ -1,0 +1,43 @@
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+#include "lib/core/vec3.h"
+#include "lib/enclosed/enclosed_triangles.h"
+
+namespace bp {
+
+/// A half-space clear of a body: n . p > limit for a corner p as rounded. Whichever n, that proves it.
+struct ClearSpace {
+  std::array<float, 3> n;
+  float limit;
+
+  /// Bit k: it holds the corners of triangle k from the first to the last one asked for.
+  [[nodiscard]] std::uint32_t holds(const EightTriangles& eight, std::size_t last) const {
+    const auto beyond = [&](std::size_t half) {
+      FourInts all{-1, -1, -1, -1};
+      for (std::size_t k = 0; k <= last; ++k) {
+        const auto& c = eight.corners[k];
+        all &= n[0] * c[0][half] + n[1] * c[1][half] + n[2] * c[2][half] > limit;
+      }
+      return all;
+    };
+    return bits_of(beyond(0), beyond(1));
+  }
+};
+
+/// `body` relative to the tree's base. Floats: each of the three terms of n . p passes through at most 6 roundings (n,
+/// p, the product, two sums), the limit through 2, so with sizes of n that sum to 1 the height errs by less than 14
+/// roundings of reach or limit; to_voxels by less than 2^-14 lattice units.
+inline ClearSpace beyond(const Vec3d& direction, std::span<const Vec3d> body, double reach) {
+  const double size = std::abs(direction[0]) + std::abs(direction[1]) + std::abs(direction[2]);
+  if (!(size > 0)) return {{0, 0, 0}, 1};
+  const Vec3d n = (1 / size) * direction;
+  double limit = dot(n, body[0]);
+  for (const Vec3d& p : body) limit = std::max(limit, dot(n, p));
+  return {{float(n[0]), float(n[1]), float(n[2])}, float(limit + 0x1p-12 + 0x1p-20 * (reach + std::abs(limit)))};
+}
+
+}  // namespace bp
