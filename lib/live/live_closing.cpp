@@ -136,19 +136,19 @@ void LiveClosing::close(const ScalePlan& plan, std::uint64_t revision, Clock::ti
   status_.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-/// Bricks whose pieces may have changed since closing_: where voxels near them or their scales did.
-std::vector<BrickCoord> LiveClosing::changed_bricks(const BrickShelf& closing, const ScaleField& field) {
-  std::set<BrickCoord> there, changed;
+std::vector<LiveClosing::Change> LiveClosing::changes(const BrickShelf& closing, const ScaleField& field) {
+  std::set<BrickCoord> there;
+  std::map<BrickCoord, bool> changed;  // whether voxels did
   for (const BrickCoord c : closing.coords()) there.insert(c);
   std::set<BrickCoord> all = there;
   if (closing_ != nullptr) {
     for (const BrickCoord c : closing_->coords()) all.insert(c);
   } else {
-    for (const auto& [brick, piece] : pieces_) changed.insert(brick);
+    for (const auto& [brick, piece] : pieces_) changed[brick] = true;
   }
   for (const BrickCoord c : all) {
     const VoxelBox box = closing_ == nullptr ? voxels_of_brick(c) : differing(*closing_, closing, c);
-    if (!box.empty()) for_each(bricks_of(box.grown(piece_apron())), [&](BrickCoord b) { changed.insert(b); });
+    if (!box.empty()) for_each(bricks_of(box.grown(piece_apron())), [&](BrickCoord b) { changed[b] = true; });
   }
   const std::vector<BrickCoord> sampled(there.begin(), there.end());
   std::vector<ScaleLattice> lattices(sampled.size());
@@ -157,28 +157,33 @@ std::vector<BrickCoord> LiveClosing::changed_bricks(const BrickShelf& closing, c
   });
   for (std::size_t i = 0; i < sampled.size(); ++i) {
     ScaleLattice& old = lattices_[sampled[i]];
-    if (!same(old, lattices[i])) changed.insert(sampled[i]);
+    if (!same(old, lattices[i])) changed.emplace(sampled[i], false);
     old = std::move(lattices[i]);
   }
-  return {changed.begin(), changed.end()};
+  std::vector<Change> all_changes;
+  for (const auto& [brick, voxels] : changed) all_changes.push_back({brick, voxels});
+  return all_changes;
 }
 
 void LiveClosing::make_pieces(const BrickShelf& closing, const ScaleField& field) {
-  const std::vector<BrickCoord> bricks = changed_bricks(closing, field);
+  const std::vector<Change> bricks = changes(closing, field);
   std::vector<std::shared_ptr<const SurfacePiece>> made(bricks.size());
   parallel_for(std::int64_t(bricks.size()), [&](std::int64_t i) {
-    const BrickCoord c = bricks[std::size_t(i)];
-    const auto lattice = lattices_.find(c);
+    const auto [brick, voxels] = bricks[std::size_t(i)];
     static const ScaleLattice none;
-    made[std::size_t(i)] =
-        std::make_shared<const SurfacePiece>(piece_of(closing, c, lattice == lattices_.end() ? none : lattice->second));
+    const auto found = lattices_.find(brick);
+    const ScaleLattice& lattice = found == lattices_.end() ? none : found->second;
+    const auto old = pieces_.find(brick);  // only this thread changes them
+    made[std::size_t(i)] = std::make_shared<const SurfacePiece>(voxels || old == pieces_.end()
+                                                                    ? piece_of(closing, brick, lattice)
+                                                                    : with_scales(*old->second.surface, lattice));
   });
   const std::lock_guard lock(mutex_);
   if (bricks.empty()) return;
   ++status_.generation;
   for (std::size_t i = 0; i < bricks.size(); ++i) {
-    if (made[i]->triangles.empty() && !pieces_.contains(bricks[i])) continue;
-    pieces_[bricks[i]] = {status_.generation, std::move(made[i])};
+    if (made[i]->triangles.empty() && !pieces_.contains(bricks[i].brick)) continue;
+    pieces_[bricks[i].brick] = {status_.generation, std::move(made[i])};
   }
 }
 

@@ -60,7 +60,12 @@ class LiveClosing {
   void work();
   void close(const ScalePlan& plan, std::uint64_t revision, Clock::time_point begin);
   void make_pieces(const BrickShelf& closing, const ScaleField& field);
-  [[nodiscard]] std::vector<BrickCoord> changed_bricks(const BrickShelf& closing, const ScaleField& field);
+  /// A brick whose piece may have changed since closing_: where voxels near it did, or only the scales in it.
+  struct Change {
+    BrickCoord brick;
+    bool voxels = false;
+  };
+  [[nodiscard]] std::vector<Change> changes(const BrickShelf& closing, const ScaleField& field);
 
   const LiveScene scene_;
   Backends& backends_;

@@ -78,6 +78,7 @@ class PieceMaker {
     blurred_ = true;
     number = std::uint32_t(piece_.vertices.size());
     piece_.vertices.push_back(smooth(x, y, z));
+    piece_.corners.push_back({first_.x + x, first_.y + y, first_.z + z});
     return number;
   }
 
@@ -89,8 +90,10 @@ class PieceMaker {
     for (std::size_t i = 0; i < 3; ++i) {
       constexpr float kMost = SurfacePiece::kMostMoved;
       const float step = square > 1e-8F ? (0.5F - level.value) * g[i] / square : 0;
-      const float moved = std::clamp(step, -kMost, kMost) + float(std::array{x, y, z}[i] + SurfacePiece::kOrigin);
-      out.position[i] = std::uint16_t(std::lround(moved * float(SurfacePiece::kPerVoxel)));
+      // Rounded before the corner is added: a corner on the side of two bricks moves alike in both.
+      const long moved = std::lround(std::clamp(step, -kMost, kMost) * float(SurfacePiece::kPerVoxel));
+      out.position[i] =
+          std::uint16_t((std::array{x, y, z}[i] + SurfacePiece::kOrigin) * SurfacePiece::kPerVoxel + int(moved));
       out.normal[i] = std::int8_t(length > 0 ? std::lround(-127 * g[i] / length) : 0);
     }
     out.scale = scale_->at({first_.x + x, first_.y + y, first_.z + z});
@@ -110,6 +113,11 @@ class PieceMaker {
 
 std::int32_t piece_apron() {
   return BlurredBox::kApron;
+}
+
+SurfacePiece with_scales(SurfacePiece piece, const ScaleLattice& scale) {
+  for (std::size_t i = 0; i < piece.vertices.size(); ++i) piece.vertices[i].scale = scale.at(piece.corners[i]);
+  return piece;
 }
 
 SurfacePiece piece_of(const BrickShelf& shelf, BrickCoord brick, const ScaleLattice& scale) {

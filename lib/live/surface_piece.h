@@ -28,6 +28,7 @@ struct SurfacePiece {
   BrickCoord brick;
   std::vector<Vertex> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<VoxelCoord> corners;  ///< of the voxels, that the vertices come from; they are not drawn
 };
 
 /// Voxels around a brick that its piece depends on.
@@ -36,5 +37,7 @@ struct SurfacePiece {
 /// The piece of a brick of `shelf`; empty if it has no face. `scale` has samples for the brick, grown by one voxel.
 /// Neighbours agree on the vertices that they share.
 [[nodiscard]] SurfacePiece piece_of(const BrickShelf& shelf, BrickCoord brick, const ScaleLattice& scale);
+/// The same piece where only scales have changed.
+[[nodiscard]] SurfacePiece with_scales(SurfacePiece piece, const ScaleLattice& scale);
 
 }  // namespace bp

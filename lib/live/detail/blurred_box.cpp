@@ -7,41 +7,50 @@ namespace {
 constexpr std::ptrdiff_t kRow = BlurredBox::kSide, kSlice = kRow * BlurredBox::kSide, kAll = kSlice * BlurredBox::kSide;
 /// Box filters of reach 2, 2 and 1 along each axis: nearly a Gaussian of 2 voxels.
 constexpr std::array kReaches{2, 2, 1};
-constexpr float kWeight = 1.0F / (75.0F * 75.0F * 75.0F);
+constexpr int kSum = 75;  // of the weights along one axis: 5 * 5 * 3
+/// After two axes, so that the third keeps within 16 bits: half the memory, and twice the values of a vector.
+constexpr int kShift = 3;
+constexpr float kWeight = 1.0F / float(((kSum * kSum) >> kShift) * kSum);
+static_assert(((kSum * kSum) >> kShift) * kSum < 1 << 16);
 
 }  // namespace
 
-/// Sums of 2 reach + 1 values along an axis; what lies beyond the box counts as empty, and reaches no corner of the
-/// brick. One pass over memory for each value of the filter, so that the compiler makes vectors of it.
-void BlurredBox::blur_rows(std::ptrdiff_t stride, int reach) {
-  const std::ptrdiff_t edge = stride * reach;
-  other_ = values_;
-  for (int step = 1; step <= reach; ++step) {
-    const std::ptrdiff_t by = stride * step;
-    const std::int32_t* const from = values_.data();
-    std::int32_t* const to = other_.data();
-    for (std::ptrdiff_t i = edge; i < kAll - edge; ++i) to[i] += from[i - by] + from[i + by];
+/// Sums of 2 reach + 1 values along an axis, three times. Values within a reach of the ends of the box are left over
+/// from before; they reach no corner of the brick. Rows are not told apart, so that the compiler makes vectors of it.
+void BlurredBox::blur_along(std::ptrdiff_t stride) {
+  for (const int reach : kReaches) {
+    const std::ptrdiff_t edge = stride * reach, far = stride * (reach - 1);  // far: 0 for a reach of 1
+    const std::uint16_t* const from = values_.data();
+    std::uint16_t* const to = other_.data();
+    if (reach == 1) {
+      for (std::ptrdiff_t i = edge; i < kAll - edge; ++i) to[i] = from[i] + from[i - edge] + from[i + edge];
+    } else {
+      for (std::ptrdiff_t i = edge; i < kAll - edge; ++i)
+        to[i] = from[i] + from[i - far] + from[i + far] + from[i - edge] + from[i + edge];
+    }
+    values_.swap(other_);
   }
-  values_.swap(other_);
 }
 
 void BlurredBox::reset(const BitBox& solid, VoxelCoord first) {
-  values_.assign(std::size_t(kAll), 0);
+  values_.resize(std::size_t(kAll));
+  other_.resize(std::size_t(kAll));
   for (int z = 0; z < kSide; ++z) {
     for (int y = 0; y < kSide; ++y) {
       const std::uint64_t* const row = solid.row(first.y + y - kApron, first.z + z - kApron);
       const std::int32_t x0 = first.x - kApron - solid.box().min.x;
-      std::int32_t* const out = values_.data() + z * kSlice + y * kRow;
-      for (int x = 0; x < kSide; ++x) out[x] = std::int32_t((row[(x0 + x) >> 6] >> ((x0 + x) & 63)) & 1);
+      std::uint16_t* const out = values_.data() + z * kSlice + y * kRow;
+      for (int x = 0; x < kSide; ++x) out[x] = std::uint16_t((row[(x0 + x) >> 6] >> ((x0 + x) & 63)) & 1);
     }
   }
-  for (const std::ptrdiff_t stride : {std::ptrdiff_t(1), kRow, kSlice}) {
-    for (const int reach : kReaches) blur_rows(stride, reach);
-  }
+  blur_along(1);
+  blur_along(kRow);
+  for (std::uint16_t& value : values_) value = std::uint16_t(value >> kShift);
+  blur_along(kSlice);
 }
 
 BlurredBox::Level BlurredBox::at(int x, int y, int z) const {
-  const std::int32_t* const p = values_.data() + (z + kApron) * kSlice + (y + kApron) * kRow + x + kApron;
+  const std::uint16_t* const p = values_.data() + (z + kApron) * kSlice + (y + kApron) * kRow + x + kApron;
   float corner[2][2][2];
   for (int k = 0; k < 2; ++k) {
     for (int j = 0; j < 2; ++j) {

@@ -25,8 +25,8 @@ class BlurredBox {
   [[nodiscard]] Level at(int x, int y, int z) const;
 
  private:
-  void blur_rows(std::ptrdiff_t stride, int reach);
-  std::vector<std::int32_t> values_, other_;
+  void blur_along(std::ptrdiff_t stride);
+  std::vector<std::uint16_t> values_, other_;
 };
 
 }  // namespace bp
