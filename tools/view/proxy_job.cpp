@@ -20,7 +20,6 @@ Json brief(const std::string& text) {
   return {{"answer", at("/answer")},
           {"why", at("/why")},
           {"triangles", at("/proxy/triangles")},
-          {"volume_ratio", at("/measures/volume_ratio")},
           {"farthest", at("/measures/proxy_to_scene/at_most")}};
 }
 

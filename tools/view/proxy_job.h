@@ -21,8 +21,8 @@ class ProxyJob {
     std::uint64_t revision = 0, faces = 0;    ///< of the design, and asked for
     std::shared_ptr<const std::string> file;  ///< GLB; there while it is checked, too
     std::uint64_t number = 0;                 ///< of the file: rises with each
-    Json verdict;       ///< of bpcheck: answer, why, triangles, volume_ratio, farthest; null: not known
-    std::string notes;  ///< what the tools said, a line each
+    Json verdict;                             ///< of bpcheck: answer, why, triangles, farthest; null: not known
+    std::string notes;                        ///< what the tools said, a line each
     double mesh_seconds = 0, check_seconds = 0;
   };
 

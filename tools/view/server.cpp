@@ -19,7 +19,7 @@ using Handled = httplib::Server::HandlerResponse;
 constexpr std::size_t kMostBody = 1 << 20;  ///< bytes: a stroke of 10,000 points has less
 constexpr int kThreads = 24;                ///< each holds one connection
 constexpr int kMostListeners = 8;
-constexpr int kReadSeconds = 5, kWriteSeconds = 20;
+constexpr int kReadSeconds = 5, kWriteSeconds = 20, kIdleSeconds = 2;
 constexpr std::chrono::seconds kPing{10};
 
 const httplib::Headers& headers() {
@@ -38,6 +38,13 @@ void refuse(Response& response, int status, const std::string& text) {
   response.status = status;
   response.set_content(Json{{"error", text}}.dump(), "application/json");
   response.set_header("Connection", "close");  // the body of the request was not read
+}
+
+/// The port that was had; -1: none. Connections take over the options of the socket that is bound here.
+int bound(httplib::Server& http, int wanted) {
+  http.set_tcp_nodelay(true);  // else each small answer waits 40 ms for the client's acknowledgement
+  if (wanted == 0) return http.bind_to_any_port("127.0.0.1");
+  return http.bind_to_port("127.0.0.1", wanted) ? wanted : -1;
 }
 
 const char* const kNoPage = R"(<!doctype html><html lang="en"><meta charset="utf-8"><title>bpview</title>
@@ -65,19 +72,14 @@ struct Server::State {
   std::atomic<int> listeners{0};
 };
 
-Server::State::State(Session& of, int wanted)
-    : session(of),
-      port(wanted == 0                              ? http.bind_to_any_port("127.0.0.1")
-           : http.bind_to_port("127.0.0.1", wanted) ? wanted
-                                                    : -1),
-      access(port) {
+Server::State::State(Session& of, int wanted) : session(of), port(bound(http, wanted)), access(port) {
   if (port <= 0) fail(ErrorCode::out_of_resource, "no port of 127.0.0.1 can be had, or --port names one that is taken");
   http.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
   http.set_payload_max_length(kMostBody);
   http.set_read_timeout(kReadSeconds);
   http.set_write_timeout(kWriteSeconds);
   http.set_keep_alive_max_count(1000);
-  http.set_tcp_nodelay(true);
+  http.set_keep_alive_timeout(kIdleSeconds);
   http.set_default_headers(headers());
   http.set_pre_routing_handler([this](const Request& q, Response& r) { return check(q, r); });
   http.set_exception_handler([](const Request&, Response& response, const std::exception_ptr&) {

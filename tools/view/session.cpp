@@ -173,7 +173,7 @@ void Session::edit(const std::string& json) {
       live_ = flag(request, "live");
       if (live_ && (meshed_ != design_->revision() || meshed_faces_ != faces_)) request_proxy();
     } else {
-      fail(ErrorCode::bad_input, "the request's 'op' is none that is known");
+      fail(ErrorCode::bad_input, "the request's 'op' is not known");
     }
     if (design_->revision() != before) {
       job_->stop();

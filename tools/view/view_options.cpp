@@ -15,7 +15,9 @@ ViewOptions parse_view_options(Args& args) {
       "each "
       "stroke, and the proxy is proven. Rules, proxy and the command line that makes it can be saved.");
   args.example("bpview scene.glb --resolution 256");
-  o.voxels.add_scenes(args, "scenes, shown and voxelized together");
+  args.positional("SCENE", o.voxels.scenes, "files of scenes, shown and voxelized together");
+  args.group("Files");
+  add_scene_format(args, o.voxels.format);
   args.option("--rules", "FILE", o.rules, "rules to go on from, as bpscale reads them; saved rules replace the file");
   args.option("-o,--output", "FILE", o.out, "GLB file of the proxy, once it is saved");
   o.voxels.add_to(args, std::to_string(kDefaultResolution));
@@ -34,7 +36,7 @@ ViewOptions parse_view_options(Args& args) {
   if (std::count(o.voxels.scenes.begin(), o.voxels.scenes.end(), "-") > 0)
     fail(ErrorCode::bad_argument, "bpview reads files, not stdin: the scene is read again for each proxy");
   if (mesh_format_of(o.out) != MeshFormat::glb)
-    fail(ErrorCode::bad_argument, "{}: bpview saves GLB; the command line that it shows makes every format", o.out);
+    fail(ErrorCode::bad_argument, "{}: bpview saves GLB; its command line makes every format", o.out);
   if (o.faces < 4) fail(ErrorCode::bad_argument, "--faces {}: a closed surface has at least 4", o.faces);
   if (o.port > 65535) fail(ErrorCode::bad_argument, "--port {}: the largest is 65535", o.port);
   return o;

@@ -10,7 +10,7 @@ export interface State {
   design: { revision: number; base: number | string; base_world: number; rules: Rule[]; can_undo: boolean; can_redo: boolean; saved: boolean };
   closing: { asked: number; shown: number; generation: number; voxels: number; seconds: number; error: string };
   proxy: { step: 'none' | 'meshing' | 'checking' | 'ready' | 'failed' | 'stopped'; current: boolean; faces: number; number: number; bytes: number;
-    mesh_seconds: number; check_seconds: number; notes: string; verdict: { answer: string; why: string | null; triangles: number; volume_ratio: number | null; farthest: number | null } | null };
+    mesh_seconds: number; check_seconds: number; notes: string; verdict: { answer: string; why: string | null; triangles: number; farthest: number | null } | null };
   faces: number; live: boolean; rules_file: string; out_file: string; command: string;
 }
 

@@ -81,7 +81,10 @@ byId('copy').onclick = async () => {
 };
 
 addEventListener('keydown', (event) => {
-  if (event.target instanceof HTMLInputElement && event.target.type !== 'range' && event.target.type !== 'checkbox') return;
+  if (event.target instanceof HTMLInputElement && event.target.type !== 'range' && event.target.type !== 'checkbox') {
+    if (event.key === 'Enter' || event.key === 'Escape') byId('view').focus();  // keys are commands again
+    return;
+  }
   const key = event.key.toLowerCase();
   if (event.ctrlKey || event.metaKey) {
     if (key === 'z') edit(event.shiftKey ? 'redo' : 'undo');

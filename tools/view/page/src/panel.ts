@@ -109,7 +109,6 @@ function showProxy(state: State): void {
   const rows: [string, string][] = [];
   if (v && p.step === 'ready') {
     rows.push(['triangles', v.triangles.toLocaleString('en')]);
-    if (v.volume_ratio) rows.push(['volume / scene', show(v.volume_ratio, 4)]);
     const far = v.farthest;
     if (far !== null) rows.push(['farthest from scene', `${show(far)} (${percent(far, state.scene)})`]);
     rows.push(['made, checked', `${show(p.mesh_seconds, 2)} s, ${show(p.check_seconds, 2)} s`]);
