@@ -18,6 +18,16 @@ pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
 pkg_check_modules(webp REQUIRED IMPORTED_TARGET libwebp)
 pkg_check_modules(draco REQUIRED IMPORTED_TARGET draco)
 
+# bpview alone needs it. Debian's package has it as a library.
+pkg_check_modules(httplib IMPORTED_TARGET cpp-httplib)
+if(httplib_FOUND)
+  message(STATUS "bpview: cpp-httplib ${httplib_VERSION}")
+else()
+  message(STATUS "bpview: skipped, for cpp-httplib was not found (libcpp-httplib-dev)")
+endif()
+find_program(BP_NPM npm)
+find_program(BP_NODE node)
+
 if(BP_TESTS)
   find_package(OpenMesh REQUIRED)  # a second opinion on meshes
   find_package(Catch2 REQUIRED)  # 2.13 (Debian 12) or 3 (Ubuntu 24.04); tests/catch.h hides the difference

@@ -37,6 +37,7 @@ set(rules
   "lib/pass/leaf:lib/core lib/geometry lib/mesh lib/tileset lib/pass/bake"
   "lib/pass/hide:lib/core lib/grid lib/volume lib/pass/close lib/pass/mesh"
   "lib/pass/measure:lib/core lib/geometry lib/grid lib/volume lib/pass"
+  "lib/live:lib/core lib/grid lib/volume lib/device lib/pass lib/pass/close lib/pass/measure"
   "lib/levels:lib/core lib/store lib/geometry lib/grid lib/volume lib/closing lib/device lib/mesh lib/surface lib/hulls lib/tileset lib/pass lib/pass/voxelize lib/pass/close lib/pass/measure lib/pass/mesh lib/pass/color lib/pass/hide"
   "io/files:lib/core"
   "io/store:lib/core lib/store lib/grid io/files"
@@ -57,6 +58,7 @@ set(rules
   "tools/info:lib/* io/* tools/cli tools/run tools/notes"
   "tools/lod:lib/* io/* tools/cli tools/cli/options tools/run tools/notes"
   "tools/mesh:lib/* io/* tools/cli tools/cli/options tools/run tools/notes"
+  "tools/view:lib/* io/* tools/cli tools/cli/options tools/run"
   "tools:lib/* io/* tools/*"
   "samples:lib/* io/* tools/cli"
   "tests:lib/* io/* gpu tools/* samples")
@@ -76,6 +78,7 @@ set(foreign
   "meshoptimizer:^(tests/bench/.*\\.cpp|tests/support/simplified\\.h|io/gltf/meshopt_codec\\.cpp)$"
   "tbb/:^lib/core/parallel\\.(h|cpp)$"
   "oneapi/:^lib/core/parallel\\.(h|cpp)$"
+  "httplib:^tools/view/server\\.cpp$"
   "cuda:^(gpu/|tests/)"
   "cub/:^gpu/"
   "catch2/:^tests/(catch\\.h|main\\.cpp)$")

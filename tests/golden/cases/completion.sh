@@ -32,7 +32,9 @@ asked bpmesh --progress ''
 asked bpmesh --progress j
 asked bplod --prof
 # The others parse; fish answers, too.
-for tool in bpvox bpscale bpclose bpmesh bpcheck bpinfo bplod bpdeform; do
+tools="bpvox bpscale bpclose bpmesh bpcheck bpinfo bplod bpdeform"
+command -v bpview > /dev/null && tools+=" bpview" # a build without cpp-httplib has none
+for tool in $tools; do
   for shell in bash zsh fish; do
     $tool --help $shell > script
     command -v $shell > /dev/null && ! $shell -n script && echo "$tool: $shell cannot read its script"

@@ -1,7 +1,9 @@
 # The section OPTIONS of each manual is what `TOOL --help markdown` prints; tests/options.sh rewrites it.
-for tool in bpvox bpscale bpclose bpmesh bpcheck bpinfo bplod bpdeform; do
+tools="bpvox bpscale bpclose bpmesh bpcheck bpinfo bplod bpdeform"
+command -v bpview > /dev/null && tools+=" bpview" # a build without cpp-httplib has none
+for tool in $tools; do
   command -v $tool > /dev/null || { echo "$tool: missing"; continue; }
-  $tool --version | sed 's/+[0-9a-f]\{16\}$/+DIGEST/'
+  [ $tool = bpview ] || $tool --version | sed 's/+[0-9a-f]\{16\}$/+DIGEST/'
   bash "$BP_ROOT/tests/options.sh" check $tool "$BP_ROOT/docs/$tool.1.md"
   $tool --help > short
   [ $(wc -l < short) -le 31 ] || echo "$tool: --help has $(wc -l < short) lines"
@@ -13,7 +15,7 @@ for tool in bpvox bpscale bpclose bpmesh bpcheck bpinfo bplod bpdeform; do
 done
 # An option of another tool of the pipe: the message says whose it is.
 cut -d ' ' -f 2 options | sort -u | while read -r option; do
-  for tool in bpvox bpscale bpclose bpmesh bpcheck bpinfo bplod bpdeform; do
+  for tool in $tools; do
     grep -qx -e "$tool $option" options && continue
     said=$($tool $option 2>&1)
     [[ $said == *"there is no option $option any more; "* ]] && continue
@@ -25,7 +27,7 @@ done
 rm options short
 # A man page fits 80 columns, and names no page that is not there.
 if command -v pandoc > /dev/null && command -v mandoc > /dev/null; then
-  for tool in bpvox bpscale bpclose bpmesh bpcheck bpinfo bplod bpdeform; do
+  for tool in $tools; do
     pandoc -s -f markdown-smart -t man -M docs=/doc -L "$BP_ROOT/cmake/man.lua" "$BP_ROOT/docs/$tool.1.md" -o page
     mandoc -T utf8 -O width=78 page | col -bx > shown
     awk -v t=$tool 'length > 80 { print t ".1: too long: " $0 }' shown

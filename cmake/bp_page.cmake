@@ -1,0 +1,33 @@
+# The page of bpview as a C++ source. Without npm or network it is empty, and bpview says how to get it.
+#   cmake -DNPM=npm -DNODE=node -DSOURCE=<tools/view/page> -DFOLDER=<build folder> -DOUTPUT=<file.cpp> -P cmake/bp_page.cmake
+function(make_page result)
+  set(${result} FALSE PARENT_SCOPE)
+  if(NOT NPM OR NOT NODE)
+    message("bpview: npm was not found; its page is left out")
+    return()
+  endif()
+  file(MAKE_DIRECTORY ${FOLDER})
+  file(SHA256 ${SOURCE}/package-lock.json wanted)
+  set(installed "")
+  if(EXISTS ${FOLDER}/installed)
+    file(READ ${FOLDER}/installed installed)
+  endif()
+  if(NOT installed STREQUAL wanted)
+    file(COPY ${SOURCE}/package.json ${SOURCE}/package-lock.json DESTINATION ${FOLDER})
+    execute_process(COMMAND ${NPM} ci --no-audit --no-fund --ignore-scripts --loglevel=error WORKING_DIRECTORY ${FOLDER}
+                    RESULT_VARIABLE status OUTPUT_VARIABLE said ERROR_VARIABLE said TIMEOUT 300)
+    if(NOT status EQUAL 0)
+      message("bpview: npm cannot install the packages of its page, which is left out: ${said}")
+      return()
+    endif()
+    file(WRITE ${FOLDER}/installed ${wanted})
+  endif()
+  execute_process(COMMAND ${CMAKE_COMMAND} -E env NODE_PATH=${FOLDER}/node_modules ${NODE} ${SOURCE}/build.mjs ${OUTPUT}
+                  COMMAND_ERROR_IS_FATAL ANY)
+  set(${result} TRUE PARENT_SCOPE)
+endfunction()
+
+make_page(made)
+if(NOT made)
+  file(WRITE ${OUTPUT} "#include \"tools/view/page_files.h\"\n\nnamespace bp {\n\nstd::span<const PageFile> page_files() {\n  return {};\n}\n\n}  // namespace bp\n")
+endif()

@@ -1,0 +1,196 @@
+#include "lib/live/design.h"
+#include "lib/live/live_closing.h"
+#include "lib/pass/close/close_pass.h"
+#include "lib/pass/measure/shape_rules.h"
+#include "tests/catch.h"
+#include "tests/reference/random_closing.h"
+#include "tests/support/voxelized.h"
+
+using namespace bp;
+using reference::Random;
+
+namespace {
+
+/// Two plates with a gap, a comb, and a box that is nearly closed: it becomes a cavity at larger scales.
+test::Triangles scene() {
+  test::Triangles all;
+  test::add_box(all, {0, 0, 0}, {10, 1, 6});
+  test::add_box(all, {0, 2, 0}, {10, 2.5, 6});
+  for (int i = 0; i < 6; ++i) test::add_box(all, {i * 1.5, 2.6, 0}, {i * 1.5 + 0.6, 4.5, 3});
+  test::add_box(all, {1, 2.6, 3.5}, {1.2, 5, 6});
+  test::add_box(all, {4, 2.6, 3.5}, {4.2, 5, 6});
+  test::add_box(all, {1, 2.6, 3.5}, {4.2, 5, 3.7});
+  test::add_box(all, {1, 2.6, 5.8}, {4.2, 5, 6});
+  test::add_box(all, {1, 4.8, 3.5}, {4.2, 5, 5.2});
+  return all;
+}
+
+LiveScene live_scene(const test::Triangles& triangles, double voxel) {
+  test::Voxelized v = test::voxelized(triangles, voxel);
+  LiveScene out;
+  out.header = v.header;
+  out.solid = std::move(v.shelf);
+  out.context.make_shelf = test::memory_shelves();
+  out.context.memory.bytes = std::uint64_t(1) << 30;
+  return out;
+}
+
+RuleContext context_of(const StreamHeader& header) {
+  RuleContext c;
+  c.diagonal = header.bounds.diagonal();
+  c.voxel = header.frame.voxel;
+  return c;
+}
+
+/// What bpscale and bpclose make of a file of rules: through the JSON of a stream's header.
+std::unique_ptr<BrickShelf> by_the_pipe(const std::string& rules, const LiveScene& scene, BrickShelf& solid) {
+  CloseOptions options;
+  options.context.make_shelf = test::memory_shelves();
+  options.context.memory.bytes = std::uint64_t(1) << 30;
+  const ScalePlan plan = parse_scale_rules(rules, "rules.json", context_of(scene.header));
+  const ScalePlan found = measured(plan, scene.header, solid, {0, options.context});
+  const ScaleField field = parse_scale_field(to_json(found.field), "stream");
+  Backends backends = test::plain_backends(1);
+  return close_shelf(scene.header, solid, backends, field, scene.params, options);
+}
+
+std::map<BrickCoord, BrickBits> bricks(const BrickShelf& shelf) {
+  std::map<BrickCoord, BrickBits> all;
+  for (const BrickCoord c : shelf.coords()) (void)shelf.get(c, all[c]);
+  return all;
+}
+
+std::string random_rule(Random& random) {
+  const auto number = [&](int lo, int hi) { return fmt::format("{}", random.between(lo * 64, hi * 64) / 64.0); };
+  const auto point = [&] { return fmt::format("[{},{},{}]", number(-1, 11), number(-1, 6), number(-1, 7)); };
+  std::string at = point();
+  if (random.one_in(2)) {
+    at = "[" + at;
+    for (int i = random.between(1, 4); i > 0; --i) at += "," + point();
+    at += "]";
+  }
+  const char* const mode = std::array{"set", "increase", "decrease", "erase"}[std::size_t(random.between(0, 3))];
+  const std::string support = random.one_in(4) ? fmt::format(R"(,"support":{})", number(0, 2)) : "";
+  return fmt::format(R"({{"at":{},"radius":{},"scale":{},"mode":"{}"{}}})", at, number(0, 3), number(0, 2), mode,
+                     support);
+}
+
+void random_edit(Design& design, Random& random) {
+  const int what = random.between(0, 9);
+  if (what < 5) {
+    design.add(random_rule(random));
+  } else if (what == 5) {
+    design.set_base(fmt::format("{}", random.between(1, 96) / 64.0), random.one_in(2));
+  } else if (what == 6 && design.rules() > 0) {
+    design.remove(std::size_t(random.between(0, int(design.rules()) - 1)));
+  } else if (what == 7) {
+    design.redo();
+  } else {
+    design.undo();
+  }
+}
+
+/// All pieces, made one after the other, against those made anew.
+void check_pieces(const std::map<BrickCoord, LiveClosing::Piece>& shown, const LiveClosing& live,
+                  const ScaleField& field) {
+  std::size_t faces = 0, expected = 0;
+  for (const auto& [brick, piece] : shown) faces += piece.surface->triangles.size();
+  for (const BrickCoord c : live.closing()->coords()) {
+    const VoxelBox box = voxels_of(BrickBox{c, {c.x + 1, c.y + 1, c.z + 1}}).grown(1);
+    const SurfacePiece made = piece_of(*live.closing(), c, field.sample(live.scene().header.frame, box));
+    expected += made.triangles.size();
+    if (made.triangles.empty()) continue;
+    REQUIRE(shown.contains(c));
+    const SurfacePiece& was = *shown.at(c).surface;
+    REQUIRE(was.triangles == made.triangles);
+    REQUIRE(was.vertices.size() == made.vertices.size());
+    for (std::size_t i = 0; i < made.vertices.size(); ++i) {
+      REQUIRE(was.vertices[i].position == made.vertices[i].position);
+      REQUIRE(was.vertices[i].normal == made.vertices[i].normal);
+      REQUIRE(was.vertices[i].scale == made.vertices[i].scale);
+    }
+  }
+  CHECK(faces == expected);
+}
+
+void random_design(std::uint64_t seed, int edits) {
+  CAPTURE(seed);
+  Random random(seed);
+  LiveScene live_of = live_scene(scene(), 0.0625);
+  live_of.params.element = random.one_in(3) ? StructuringElement::ball : StructuringElement::cube;
+  BrickShelf& solid = *live_of.solid;
+  const std::string begin = random.one_in(3) ? R"({"base": 0.25, "rules": [{"gap": 0.5}]})" : R"({"base": 0.4})";
+  Design design(begin, "rules.json", context_of(live_of.header), live_of.header.frame);
+  Backends backends = test::plain_backends(2);
+  LiveClosing live(std::move(live_of), backends, [] {});
+  std::map<BrickCoord, LiveClosing::Piece> shown;
+  std::uint64_t generation = 0;
+  for (int i = 0; i < edits; ++i) {
+    live.request(design.plan(), design.revision());
+    if (random.one_in(3)) {  // a request that is replaced leaves no trace
+      random_edit(design, random);
+      live.request(design.plan(), design.revision());
+    }
+    live.wait();
+    const LiveClosing::Status status = live.status();
+    REQUIRE(status.error.empty());
+    REQUIRE(status.shown == design.revision());
+    for (LiveClosing::Piece& piece : live.since(generation)) shown[piece.surface->brick] = std::move(piece);
+    generation = status.generation;
+    REQUIRE(bricks(*live.closing()) == bricks(*by_the_pipe(design.json(), live.scene(), solid)));
+    random_edit(design, random);
+  }
+  live.request(design.plan(), design.revision());
+  live.wait();
+  for (LiveClosing::Piece& piece : live.since(generation)) shown[piece.surface->brick] = std::move(piece);
+  CloseOptions options;
+  options.context.make_shelf = test::memory_shelves();
+  check_pieces(shown, live, measured(design.plan(), live.scene().header, solid, {0, options.context}).field);
+}
+
+}  // namespace
+
+TEST_CASE("the closing shown is that of the pipe after strokes, undo and redo", "[quick][live]") {
+  for (const std::uint64_t seed : {1, 2, 3}) random_design(seed, 8);
+}
+
+TEST_CASE("the closing shown is that of the pipe after a hundred random designs", "[property][live]") {
+  for (std::uint64_t seed = 100; seed < 120; ++seed) random_design(seed, 10);
+}
+
+TEST_CASE("a rule that cannot be closed by is an error, and the next one is not", "[quick][live]") {
+  LiveScene live_of = live_scene(scene(), 0.25);
+  live_of.context.memory.bytes = 1000;  // not even a tile fits
+  Backends backends = test::plain_backends(1);
+  LiveClosing live(std::move(live_of), backends, [] {});
+  ScalePlan plan;
+  plan.field.base = 1;
+  live.request(plan, 1);
+  live.wait();
+  CHECK_FALSE(live.status().error.empty());
+  CHECK_FALSE(live.status().busy());
+  CHECK(live.since(0).empty());
+}
+
+TEST_CASE("a stroke changes the pieces near it, and no other", "[quick][live]") {
+  test::Triangles far = scene();
+  for (TriangleD t : scene()) {
+    for (Vec3d& p : t) p[0] += 40;
+    far.push_back(t);
+  }
+  Backends backends = test::plain_backends(2);
+  LiveScene live_of = live_scene(far, 0.0625);
+  Design design(R"({"base": 0.4})", "rules.json", context_of(live_of.header), live_of.header.frame);
+  LiveClosing live(std::move(live_of), backends, [] {});
+  live.request(design.plan(), design.revision());
+  live.wait();
+  const std::size_t all = live.since(0).size();
+  const std::uint64_t before = live.status().generation;
+  design.add(R"({"at": [2,2,1], "radius": 0.5, "scale": 0.1, "mode": "decrease"})");
+  live.request(design.plan(), design.revision());
+  live.wait();
+  const auto changed = live.since(before);
+  CHECK_FALSE(changed.empty());
+  CHECK(changed.size() * 2 < all);
+  for (const LiveClosing::Piece& piece : changed) CHECK(piece.surface->brick.x < 6);
+}

@@ -1,0 +1,173 @@
+// A person at the page of bpview:  node page.cjs FOLDER SCENE [OPTIONS...]
+// FOLDER holds the scene, and gets rules, proxy and pictures. CHROMIUM: the browser, else /usr/bin/chromium. Exit status 1 if something is wrong.
+const fs = require('fs'), path = require('path');
+const { execFileSync, spawn } = require('child_process');
+const { chromium } = require('playwright-core');
+const [folder, scene, ...options] = process.argv.slice(2);
+const sleep = (ms) => new Promise((done) => setTimeout(done, ms));
+let failed = 0;
+const check = (what, fine, ...facts) => { if (!fine) { failed++; console.log('FAILED:', what, ...facts); } };
+
+/// bpview, once it has printed its link.
+function serve(...more) {
+  const child = spawn('bpview', [scene, '--no-open', ...options, ...more], { cwd: folder, stdio: ['ignore', 'pipe', 'inherit'] });
+  return new Promise((done, fail) => {
+    let text = '';
+    child.stdout.on('data', (data) => { text += data; if (text.includes('\n')) done({ child, link: text.trim() }); });
+    child.on('exit', (code) => fail(new Error(`bpview ended with status ${code}`)));
+  });
+}
+
+async function main() {
+  let { child, link } = await serve();
+  const browser = await chromium.launch({ executablePath: process.env.CHROMIUM || '/usr/bin/chromium',
+    args: ['--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync',
+      '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'] });
+  const context = await browser.newContext({ viewport: { width: 1280, height: 720 } });
+  const troubles = [];
+  const open = async (where) => {
+    const page = await context.newPage();
+    page.setDefaultTimeout(120000);
+    page.on('pageerror', (error) => troubles.push(error.message));
+    page.on('console', (message) => { if (message.type() === 'error') troubles.push(message.text()); });
+    const begin = Date.now();
+    await page.goto(where);
+    await page.waitForFunction(() => window.bpview?.ready && window.bpview.generation > 0);
+    console.log(`page ready after ${Date.now() - begin} ms`);
+    return page;
+  };
+  const page = await open(link);
+  check('the token leaves the address', !page.url().includes('#'), page.url());
+  const state = (of = page) => of.evaluate(() => fetch('/api/state').then((r) => r.json()));
+  const until = async (done, what, of = page) => {
+    for (let i = 0; i < 1200; ++i, await sleep(50)) { const s = await state(of); if (done(s)) return s; }
+    throw new Error(`waited in vain: ${what}`);
+  };
+  const isReady = (s) => s.proxy.step === 'ready' && s.proxy.current;
+  const picture = (name) => page.screenshot({ path: path.join(folder, `${name}.png`) });
+  const stroke = async (points) => {
+    await page.mouse.move(...points[0]);
+    await page.mouse.down();
+    for (const point of points.slice(1)) { await page.mouse.move(...point, { steps: 4 }); await sleep(40); }
+    await page.mouse.up();
+  };
+  const middle = async () => { const box = await page.locator('#canvas').boundingBox(); return [box.x + box.width * 0.44, box.y + box.height / 2]; };  // the body
+  const [x, y] = await middle();
+
+  let s = await until(isReady, 'the first proxy');
+  check('the first proxy is proven', s.proxy.verdict.answer === 'proven', s.proxy);
+  await page.waitForFunction(() => document.getElementById('badge').textContent === 'proven');
+  await picture('closing');
+
+  // Brushes, with the latency from the last event of the pointer to the surface on the screen.
+  await page.keyboard.press('b');
+  const before = s.design.revision, times = [];
+  for (let i = 0; i < 5; ++i) {
+    const shown = await page.evaluate(() => window.bpview.revision);
+    await page.mouse.move(x - 8 + 4 * i, y - 20 + 15 * i);
+    await page.mouse.down();
+    const begin = await page.evaluate(() => performance.now());
+    await page.mouse.up();
+    const end = await page.evaluate((old) => new Promise((done) => {
+      const look = () => (window.bpview.revision > old ? requestAnimationFrame(() => done(performance.now())) : setTimeout(look, 2));
+      look();
+    }), shown);
+    times.push(Math.round(end - begin));
+  }
+  console.log(`stroke to frame: ${times.join(' ')} ms`);
+  await stroke([[x - 20, y - 120], [x, y - 100], [x, y - 60], [x, y], [x - 4, y + 40]]);
+  s = await until((q) => q.design.rules.length === 6, 'six strokes');
+  check('a stroke has many points', Array.isArray(s.design.rules[5].at[0]), s.design.rules[5]);
+  check('a stroke is one step', s.design.revision > before + 5);
+  await page.keyboard.press('c');
+  await page.fill('#target', '5%');
+  await page.keyboard.press('Enter');
+  await stroke([[x - 2, y + 60], [x, y + 80]]);
+  s = await until((q) => q.design.rules.length === 7, 'a coarser stroke');
+  check('a coarser stroke has the scale that was asked for', s.design.rules[6].mode === 'increase' && s.design.rules[6].scale === '5%', s.design.rules[6]);
+  const turned = await page.evaluate(() => window.bpview.frames());
+  await stroke([[40, 600], [80, 560]]);  // beside the surface the view turns
+  check('beside the surface nothing is brushed', (await state()).design.rules.length === 7);
+  check('the view turned', (await page.evaluate(() => window.bpview.frames())) > turned);
+  await page.keyboard.press('f');
+
+  // Undo and redo by keys and buttons.
+  await page.locator('#view').focus();
+  const full = await state();
+  for (let i = 0; i < 3; ++i) await page.keyboard.press('Control+z');
+  s = await until((q) => q.design.rules.length === 4, 'three undone');
+  await page.keyboard.press('Control+Shift+Z');
+  await page.click('#redo');
+  await page.keyboard.press('Control+y');
+  s = await until((q) => q.design.rules.length === 7 && q.closing.shown === q.design.revision, 'three redone');
+  s = await until((q) => q.closing.voxels === full.closing.voxels || q.closing.shown > full.closing.shown, 'the closing again');
+  await page.locator('#rules button').last().click();  // the first rule
+  s = await until((q) => q.design.rules.length === 6, 'a rule removed');
+
+  // Sliders and keys.
+  await page.keyboard.press('[');
+  await page.locator('#base-slide').focus();
+  await page.keyboard.press('ArrowRight');
+  s = await until((q) => q.design.base !== full.design.base, 'another base');
+  await page.fill('#faces', '700');
+  await page.keyboard.press('Enter');
+  s = await until((q) => q.faces === 700, 'other faces');
+  for (const key of ['1', '3']) await page.keyboard.press(key);
+  check('keys show layers', await page.getAttribute('[data-layer=proxy]', 'aria-pressed') === 'true');
+  await page.click('#live');
+  await until((q) => !q.live && !['meshing', 'checking'].includes(q.proxy.step), 'the proxy at work');
+  await page.waitForFunction(() => document.getElementById('mesh').textContent === 'Mesh');
+  await page.click('#mesh');
+  s = await until(isReady, 'a proxy');
+  check('the proxy is proven', s.proxy.verdict.answer === 'proven', s.proxy);
+  await page.waitForFunction(() => document.getElementById('badge').textContent === 'proven');
+  await page.waitForFunction((n) => window.bpview.proxy === n, s.proxy.number);
+  await picture('all');
+  await page.keyboard.press('2');
+  await sleep(300);
+  await picture('proxy');
+
+  // What is saved is what the command line makes.
+  await page.click('#save-rules');
+  await page.click('#save-proxy');
+  await page.waitForFunction(() => document.getElementById('save-rules').textContent === 'Rules saved');
+  await until(() => fs.existsSync(path.join(folder, 'proxy.glb')), 'the saved proxy');
+  const mine = fs.readFileSync(path.join(folder, 'proxy.glb')), command = await page.textContent('#command');
+  execFileSync('bash', ['-c', `set -o pipefail; ${command} --overwrite`], { cwd: folder, stdio: ['ignore', 'ignore', 'ignore'] });
+  check('the proxy has the bytes of the command line', fs.readFileSync(path.join(folder, 'proxy.glb')).equals(mine), command);
+
+  // A second tab sees the same; a reload needs no link.
+  const other = await open(page.url());
+  await other.keyboard.press('Control+z');
+  await until((q) => q.design.can_redo, 'an undo in another tab', page);
+  await other.close();
+  await page.reload();
+  await page.waitForFunction(() => window.bpview?.ready && window.bpview.generation > 0);
+  check('a reload keeps the design', (await state()).design.rules.length === 6);
+  check('nothing went wrong on the page', troubles.length === 0, troubles);
+
+  // A stranger, and a server that is gone.
+  const stranger = await (await browser.newContext()).newPage();
+  await stranger.goto(page.url());
+  await stranger.waitForSelector('#message:not([hidden])');
+  check('without the link the page says so', (await stranger.textContent('#message')).includes('link'));
+  child.kill('SIGINT');
+  await new Promise((done) => child.on('exit', done));
+  await page.waitForSelector('#message:not([hidden])');
+  check('the page says that the server is gone', (await page.textContent('#message')).includes('does not answer'));
+
+  // Dark, from the saved rules.
+  ({ child, link } = await serve('--rules', 'rules.json'));
+  await page.emulateMedia({ colorScheme: 'dark' });
+  await page.goto(link);
+  await page.waitForFunction(() => window.bpview?.ready && window.bpview.generation > 0);
+  check('a design goes on from its rules', (await state()).design.rules.length === 6);
+  await until(isReady, 'a proxy of the saved rules');
+  await sleep(500);
+  await picture('dark');
+  await browser.close();
+  child.kill('SIGINT');
+  await new Promise((done) => child.on('exit', done));
+  process.exit(failed > 0 ? 1 : 0);
+}
+main().catch((error) => { console.error(error); process.exit(1); });

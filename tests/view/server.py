@@ -1,0 +1,167 @@
+#!/usr/bin/env python3
+"""Who gets in to bpview, and what comes out: hosts, origins, tokens, paths, sizes, and bytes as the command line makes them.
+   tests/view/server.py FOLDER      the tools are on PATH; FOLDER is made anew"""
+import json, os, random, shutil, signal, socket, subprocess, sys, threading, time
+from served import Served, comb
+
+failed = 0
+
+
+def check(what, fine, *facts):
+    global failed
+    if not fine:
+        failed += 1
+        print("FAILED:", what, *facts)
+
+
+def who_gets_in(s):
+    status = lambda *args, **more: s.ask(*args, **more)[0]
+    page = s.ask("GET", "/", own=False)
+    check("the page needs no token", page[0] == 200, page[0])
+    check("the page has its policy", page[1]["Content-Security-Policy"].startswith("default-src 'self';"))
+    check("no type is guessed", page[1]["X-Content-Type-Options"] == "nosniff")
+    check("no other site may read", page[1]["Access-Control-Allow-Origin"] is None)
+    for path in ("/api/state", "/api/scene", "/api/surface", "/api/proxy", "/api/events"):
+        check("a stranger reads nothing", status("GET", path) == 401, path)
+        check("a wrong cookie is none", status("GET", path, headers={"Cookie": f"bpview_{s.port}=" + "0" * 32}) == 401, path)
+    check("a stranger changes nothing", status("POST", "/api/edit", '{"op": "undo"}') == 401)
+    for token in ("", "0" * 32, s.token[:-1], s.token + "0", s.token.upper() + "x"):
+        check("a wrong token is refused", status("POST", "/session", token) == 403, token)
+    check("a token from another site is refused", status("POST", "/session", s.token, headers={"Origin": "http://evil.example"}) == 403)
+    s.enter()
+    for word in ("HttpOnly", "SameSite=Strict", "Path=/"):
+        check("the cookie is kept from others", word in s.set_cookie, s.set_cookie)
+    check("the page reads", status("GET", "/api/state") == 200)
+    for host in ("evil.example", f"evil.example:{s.port}", "127.0.0.1", f"127.0.0.1.evil.example:{s.port}", f"[::1]:{s.port}", "", f"127.0.0.1:{s.port + 1}"):
+        check("another host is refused", status("GET", "/api/state", headers={"Host": host}) == 421, host)
+        check("even for the page", status("GET", "/", headers={"Host": host}) == 421, host)
+    check("localhost is this server, too", status("GET", "/api/state", headers={"Host": f"localhost:{s.port}"}) == 200)
+    before = s.state()["design"]["revision"]
+    edit = '{"op": "base", "base": "4%"}'
+    for origin in ("http://evil.example", "null", "", f"https://127.0.0.1:{s.port}", "http://127.0.0.1", s.origin + ".evil.example", s.origin + "/"):
+        check("another origin is refused", status("POST", "/api/edit", edit, headers={"Origin": origin}) == 403, origin)
+    check("no origin is refused", status("POST", "/api/edit", edit, headers={"Cookie": s.cookie}, own=False) == 403)
+    check("another site may not embed", status("GET", "/api/scene", headers={"Sec-Fetch-Site": "cross-site"}) == 403)
+    for method in ("PUT", "DELETE", "OPTIONS", "PATCH", "HEAD"):
+        check("other methods are refused", status(method, "/api/state") in (400, 405), method)
+    check("nothing was changed", s.state()["design"]["revision"] == before)
+
+
+def what_is_asked(s):
+    for path in ("/../../../etc/passwd", "/%2e%2e/%2e%2e/etc/passwd", "/api/../../etc/passwd", "//etc/passwd", "/page.js/../../x", "/api/scene/../../rules.json",
+                 "/..%2f..%2fetc%2fpasswd", "/rules.json", "/served.obj", "/api/", "/api/surface/1", "/index.html%00", "/\\..\\x", "/.git/config"):
+        status, _, body = s.ask("GET", path)
+        check("a path leads nowhere", status in (400, 404) and b"root:" not in body, path, status)
+    for after in ("-1", "x", "99999999999999999999999999", "1e3", "%00", "1;2"):
+        check("any number will do", s.ask("GET", f"/api/surface?after={after}")[0] == 200, after)
+    before = s.state()["design"]
+    big = b"[" * (2 << 20)
+    check("a huge body is refused", s.ask("POST", "/api/edit", big)[0] == 413)
+    check("a deep body is refused", s.ask("POST", "/api/edit", b"[" * 900000)[0] == 400)
+    check("a huge token is refused", s.ask("POST", "/session", big)[0] == 413)
+    rule = {"at": [1, 1, 1], "radius": 1, "scale": 0.1}
+    for body in ("", "{}", "[]", "null", '"x"', '{"op": 1}', '{"op": "save"}', '{"op": "rule"}', '{"op": "rule", "rule": 5}', '{"op": "faces", "faces": -1}', '{"op": "faces", "faces": 1e99}',
+                 '{"op": "faces", "faces": 3}', '{"op": "remove", "rule": 7}', '{"op": "base", "base": "999%"}', '{"op": "base", "base": [[[[[[[[[[1]]]]]]]]]]}', '{"op": "base"',
+                 json.dumps({"op": "rule", "rule": {**rule, "file": "/etc/passwd"}}), json.dumps({"op": "rule", "rule": {**rule, "at": [1e400, 0, 0]}}),
+                 json.dumps({"op": "rule", "rule": {"node": "*", "scale": "\ud800"}}), '{"op": "rule", "rule": {"at": [1,1,1], "radius": 1, "scale": 1e308}}', b"\xff\xfe\x00"):
+        status, _, answer = s.ask("POST", "/api/edit", body)
+        check("nonsense is refused, and says why", status == 400 and json.loads(answer)["error"], body, status, answer)
+    for body in ('{"what": "/etc/passwd"}', '{"what": "rules", "file": 5', '{}', '{"what": ["rules"]}'):
+        check("what is saved has a name of its own", s.ask("POST", "/api/save", body)[0] == 400, body)
+    check("nothing was changed", s.state()["design"] == before)
+    # Slow clients: more than there are threads may wait, and go.
+    slow = [socket.create_connection(("127.0.0.1", s.port)) for _ in range(12)]
+    for one in slow:
+        one.send(b"GET /api/state HT")
+    begin = time.time()
+    check("slow clients keep nobody out", s.ask("GET", "/api/state")[0] == 200 and time.time() - begin < 15, time.time() - begin)
+    for one in slow:
+        one.close()
+    generator = random.Random(1)
+    for _ in range(300):
+        line = bytes(generator.choice(b"GETPOS /:%.\\\r\n\0\xff?=&abc{}\"[]HTTP1") for _ in range(generator.randrange(400)))
+        with socket.create_connection(("127.0.0.1", s.port)) as one:
+            try:
+                one.send((b"POST /api/edit HTTP/1.1\r\nHost: 127.0.0.1:%d\r\n" % s.port if generator.random() < 0.5 else b"") + line)
+            except OSError:
+                pass
+    check("noise ends nothing", s.ask("GET", "/api/state")[0] == 200 and s.process.poll() is None)
+
+
+def same_bytes(s, folder):
+    """A design of random strokes, undone and redone: what is saved is what the command line makes."""
+    generator = random.Random(4)
+    number = lambda low, high: round(generator.uniform(low, high), 3)
+    point = lambda: [number(-1, 11), number(-1, 5), number(-1, 7)]
+    s.edit(op="live", live=False)
+    for round_ in range(3):
+        for _ in range(12):
+            what = generator.randrange(10)
+            if what < 6:
+                rule = {"at": generator.choice([point(), [point() for _ in range(3)]]), "radius": generator.choice(["4%", number(0.1, 2)]),
+                        "mode": generator.choice(["increase", "decrease", "erase"]), "scale": generator.choice(["1%", "3vx", number(0.05, 1)])}
+                if rule["mode"] == "erase":
+                    del rule["scale"]
+                s.edit(op="rule", rule=rule, again=generator.random() < 0.3)
+            else:
+                s.edit(**generator.choice([{"op": "undo"}, {"op": "redo"}, {"op": "base", "base": number(0.1, 0.9)}]))
+        s.edit(op="rule", rule={"node": "part_2", "scale": 0.1, "radius": 0.3})
+        s.edit(op="faces", faces=generator.choice([60, 200, 500]))
+        s.post("/api/mesh")
+        state = s.wait(lambda q: q["proxy"]["step"] in ("ready", "failed") and q["proxy"]["current"] and q["closing"]["shown"] == q["design"]["revision"])
+        check("the proxy is proven", (state["proxy"]["verdict"] or {}).get("answer") == "proven", state["proxy"])
+        s.post("/api/save", {"what": "rules"})
+        s.post("/api/save", {"what": "proxy"})
+        with open(f"{folder}/proxy.glb", "rb") as file:
+            mine = file.read()
+        closed = state["command"].split(" | bpmesh")[0]
+        check("the command names the files", state["command"].endswith("-o proxy.glb") and "bpscale rules.json" in state["command"], state["command"])
+        subprocess.run(["bash", "-c", "set -o pipefail; " + state["command"] + " --overwrite"], cwd=folder, check=True, stderr=subprocess.DEVNULL)
+        with open(f"{folder}/proxy.glb", "rb") as file:
+            check("the proxy has the bytes of the command line", file.read() == mine, state["command"])
+        told = subprocess.run(["bash", "-c", closed + " | bpinfo --json"], cwd=folder, check=True, capture_output=True).stdout
+        voxels = json.loads(told)["layers"]["closing"]["voxels"]
+        check("the closing has the voxels of the command line", voxels == state["closing"]["voxels"], voxels, state["closing"])
+
+
+def main():
+    folder = sys.argv[1]
+    shutil.rmtree(folder, ignore_errors=True)
+    os.makedirs(folder)
+    comb(f"{folder}/served.obj")
+    s = Served("served.obj", "--resolution", "96", "--faces", "200", cwd=folder)
+    who_gets_in(s)
+    what_is_asked(s)
+    same_bytes(s, folder)
+    with open(f"{folder}/rules.json") as file:
+        rules = file.read()
+    code, said = s.end()
+    check("Ctrl-C ends it in good order", code == 0, code, said)
+    check("nothing stays behind", sorted(os.listdir(folder)) == ["proxy.glb", "rules.json", "served.obj"], os.listdir(folder))
+
+    s = Served("served.obj", "--resolution", "96", cwd=folder)  # rules.json is there, and was not named
+    s.enter()
+    for what in ("rules", "proxy"):
+        s.wait(lambda q: q["proxy"]["step"] == "ready")
+        check("a file that is there stays", s.ask("POST", "/api/save", json.dumps({"what": what}))[0] == 400, what)
+    s.edit(op="faces", faces=300)
+    s.post("/api/stop")
+    s.process.kill()
+    s.process.communicate()
+    s = Served("served.obj", "--resolution", "96", "--rules", "rules.json", cwd=folder)
+    s.enter()
+    s.post("/api/save", {"what": "rules"})
+    with open(f"{folder}/rules.json") as file:
+        check("a design goes on from its rules", file.read() == rules)
+    listener = socket.create_connection(("127.0.0.1", s.port))
+    listener.send(f"GET /api/events HTTP/1.1\r\nHost: 127.0.0.1:{s.port}\r\nCookie: {s.cookie}\r\n\r\n".encode())
+    check("events tell the state", b"data: {" in listener.recv(1 << 16) + listener.recv(1 << 16))
+    begin = time.time()
+    code, said = s.end(signal.SIGTERM)
+    check("it ends while a page listens", code == 0 and time.time() - begin < 8, code, time.time() - begin)
+    left = subprocess.run(["pgrep", "-f", "/proc/self/fd/"], capture_output=True, text=True).stdout
+    check("no tool is left", left == "", left)
+    sys.exit(failed > 0)
+
+
+main()

@@ -1,0 +1,50 @@
+// What the server tells and takes (tools/view/session.h).
+
+export type Vec3 = [number, number, number];
+export interface Rule {
+  at?: Vec3 | Vec3[]; box?: Vec3[]; node?: string; view?: unknown; thickness?: unknown; gap?: unknown;
+  name?: string; radius?: number | string; support?: number | string; scale?: number | string; mode?: string;
+}
+export interface State {
+  scene: { files: string[]; triangles: number; shown: boolean; min: Vec3; max: Vec3; diagonal: number; middle: Vec3; voxel: number; origin: Vec3; up: string };
+  design: { revision: number; base: number | string; base_world: number; rules: Rule[]; can_undo: boolean; can_redo: boolean; saved: boolean };
+  closing: { asked: number; shown: number; generation: number; voxels: number; seconds: number; error: string };
+  proxy: { step: 'none' | 'meshing' | 'checking' | 'ready' | 'failed' | 'stopped'; current: boolean; faces: number; number: number; bytes: number;
+    mesh_seconds: number; check_seconds: number; notes: string; verdict: { answer: string; why: string | null; triangles: number; farthest: number | null } | null };
+  faces: number; live: boolean; rules_file: string; out_file: string; command: string;
+}
+
+async function checked(response: Response): Promise<Response> {
+  if (response.ok) return response;
+  const text = await response.text();
+  let message = text;
+  try { message = JSON.parse(text).error; } catch { /* not by the server itself */ }
+  throw new Error(message || `the server answered ${response.status}`);
+}
+
+/// Shows the token of the link once, and takes it out of the address.
+export async function enter(): Promise<void> {
+  const token = location.hash.slice(1);
+  if (!token) return;
+  await checked(await fetch('/session', { method: 'POST', body: token }));
+  history.replaceState(null, '', '/');
+}
+
+export async function bytes(path: string): Promise<ArrayBuffer> {
+  return (await checked(await fetch(path))).arrayBuffer();
+}
+
+export async function post(path: string, body: unknown = {}): Promise<void> {
+  await checked(await fetch(path, { method: 'POST', body: JSON.stringify(body) }));
+}
+
+export async function state(): Promise<State> {
+  return (await checked(await fetch('/api/state'))).json();
+}
+
+/// Calls `tell` with each state; `lost` while the server does not answer.
+export function listen(tell: (state: State) => void, lost: () => void): void {
+  const events = new EventSource('/api/events');
+  events.onmessage = (event) => tell(JSON.parse(event.data));
+  events.onerror = lost;
+}

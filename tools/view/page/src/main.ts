@@ -1,0 +1,155 @@
+// The page of bpview. docs/bpview.1.md says what a person does here.
+import { bytes, enter, listen, post, state as askState, type State, type Vec3 } from './api';
+import { Brush, type Tool } from './brush';
+import { show } from './lengths';
+import { complain, FaceField, LengthField, showState } from './panel';
+import { View, type Layer } from './view';
+import { readMesh, readScene, readSurface } from './wire';
+
+const byId = <T extends HTMLElement>(id: string): T => document.getElementById(id) as T;
+let state: State;
+const shown: Record<Layer, boolean> = { scene: false, closing: true, proxy: false };
+/// What the tests wait for and read.
+const told = { generation: 0, proxy: 0, revision: 0, ready: false, frames: () => view.frames };
+(window as any).bpview = told;
+
+const view = new View(byId('canvas'));
+
+/// Edits reach the server in the order in which they were made.
+let queue: Promise<unknown> = Promise.resolve();
+function send(path: string, body: unknown = {}): Promise<unknown> {
+  queue = queue.then(() => post(path, body)).catch(complain);
+  return queue;
+}
+/// Of what follows quickly, only the last waits.
+let waiting: (() => void) | null = null;
+function sendLast(body: unknown): void {
+  const idle = waiting === null;
+  waiting = () => { void send('/api/edit', body); };
+  if (!idle) return;
+  void queue.then(() => setTimeout(() => { const next = waiting!; waiting = null; next(); }, 30));
+}
+
+const facts = () => state.scene;
+const base = new LengthField('base', facts, false, (value, again) => sendLast({ op: 'base', base: value, again }));
+const target = new LengthField('target', facts, false, (value) => { brush.target = value; });
+const radius = new LengthField('radius', facts, false, (value) => { brush.radius = value; });
+const faces = new FaceField((n) => { void send('/api/edit', { op: 'faces', faces: n }); });
+const brush: Brush = new Brush(byId('canvas'), view, facts,
+  (rule, again) => (again ? sendLast : (body: unknown) => void send('/api/edit', body))({ op: 'rule', rule, again }),
+  (at: Vec3 | null) => { byId('point').textContent = at ? at.map((x) => show(x, 5)).join('  ') : ''; });
+
+function showLayers(): void {
+  view.show(shown);
+  for (const button of document.querySelectorAll<HTMLButtonElement>('[data-layer]'))
+    button.ariaPressed = String(shown[button.dataset.layer as Layer]);
+}
+function toggle(layer: Layer): void {
+  shown[layer] = !shown[layer];
+  showLayers();
+}
+function choose(tool: Tool): void {
+  brush.tool = tool;
+  byId('canvas').classList.toggle('brush', tool !== 'turn');
+  const hints: Record<Tool, string> = { turn: 'drag: turn · right drag: move · wheel: zoom', decrease: 'drag on the surface: finer · Alt: turn',
+    increase: 'drag on the surface: coarser · Alt: turn', erase: 'drag on the surface: base scale · Alt: turn' };
+  byId('hint').textContent = hints[tool];
+  for (const button of document.querySelectorAll<HTMLButtonElement>('[data-tool]')) button.ariaPressed = String(button.dataset.tool === tool);
+  if (tool === 'turn') view.setBrush(null, 0, '#000');
+}
+function size(by: number): void {
+  const now = Number(byId<HTMLInputElement>('radius-slide').value);
+  byId<HTMLInputElement>('radius-slide').value = String(now + by);
+  byId('radius-slide').dispatchEvent(new Event('input'));
+  byId('radius-slide').dispatchEvent(new Event('change'));
+}
+const isBusy = () => state.proxy.step === 'meshing' || state.proxy.step === 'checking';
+const edit = (op: string) => void send('/api/edit', { op });
+
+for (const button of document.querySelectorAll<HTMLButtonElement>('[data-layer]')) button.onclick = () => toggle(button.dataset.layer as Layer);
+for (const button of document.querySelectorAll<HTMLButtonElement>('[data-tool]')) button.onclick = () => choose(button.dataset.tool as Tool);
+byId('undo').onclick = () => edit('undo');
+byId('redo').onclick = () => edit('redo');
+byId('mesh').onclick = () => void send(isBusy() ? '/api/stop' : '/api/mesh');
+byId('save-rules').onclick = () => void send('/api/save', { what: 'rules' });
+byId('save-proxy').onclick = () => void send('/api/save', { what: 'proxy' });
+byId<HTMLInputElement>('live').onchange = (event) => void send('/api/edit', { op: 'live', live: (event.target as HTMLInputElement).checked });
+byId('copy').onclick = async () => {
+  await navigator.clipboard.writeText(state.command).catch(complain);
+  byId('copy').textContent = 'Copied';
+  setTimeout(() => { byId('copy').textContent = 'Copy'; }, 1500);
+};
+
+addEventListener('keydown', (event) => {
+  if (event.target instanceof HTMLInputElement && event.target.type !== 'range' && event.target.type !== 'checkbox') {
+    if (event.key === 'Enter' || event.key === 'Escape') byId('view').focus();  // keys are commands again
+    return;
+  }
+  const key = event.key.toLowerCase();
+  if (event.ctrlKey || event.metaKey) {
+    if (key === 'z') edit(event.shiftKey ? 'redo' : 'undo');
+    else if (key === 'y') edit('redo');
+    else return;
+    event.preventDefault();
+    return;
+  }
+  if (event.altKey) return;
+  const acts: Record<string, () => void> = {
+    1: () => toggle('scene'), 2: () => toggle('closing'), 3: () => toggle('proxy'), f: () => view.frame(), '[': () => size(-40), ']': () => size(40),
+    v: () => choose('turn'), escape: () => choose('turn'), b: () => choose('decrease'), c: () => choose('increase'), e: () => choose('erase'),
+    m: () => byId('mesh').click(),
+  };
+  acts[key]?.();
+});
+
+/// Geometry that is newer than what is shown, one request at a time.
+let fetching = false;
+async function follow(): Promise<void> {
+  if (fetching) return;
+  fetching = true;
+  try {
+    while (told.generation !== state.closing.generation || told.proxy !== state.proxy.number) {
+      if (told.generation !== state.closing.generation) {
+        const surface = readSurface(await bytes(`/api/surface?after=${told.generation}`));
+        view.setPieces(surface.pieces);
+        told.generation = surface.generation;
+      }
+      if (told.proxy !== state.proxy.number) {
+        const number = state.proxy.number, data = await bytes('/api/proxy');
+        view.setProxy(data.byteLength ? readMesh(data) : null);
+        told.proxy = number;
+      }
+    }
+    told.revision = state.closing.shown;
+  } catch (error) {
+    complain(error);
+  }
+  fetching = false;
+}
+
+function tell(next: State): void {
+  state = next;
+  showState(state, (i) => void send('/api/edit', { op: 'remove', rule: i }));
+  base.follow(state.design.base);
+  faces.follow(state.faces);
+  view.setBase(state.design.base_world);
+  void follow();
+}
+
+async function begin(): Promise<void> {
+  await enter();
+  state = await askState();
+  view.begin(state);
+  base.set(state.design.base);
+  target.set('0.5%');
+  radius.set('3%');
+  [brush.target, brush.radius] = ['0.5%', '3%'];
+  choose('turn');
+  showLayers();
+  tell(state);
+  listen(tell, () => complain('bpview does not answer; is it still running?'));
+  if (state.scene.shown) view.setScene(readScene(await bytes('/api/scene')));
+  else byId<HTMLButtonElement>('layers').querySelector<HTMLButtonElement>('[data-layer=scene]')!.disabled = true;
+  told.ready = true;
+}
+begin().catch(complain);

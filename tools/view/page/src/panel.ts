@@ -1,0 +1,156 @@
+// The panel beside the view: it shows the state, and says what a person changes.
+import type { Rule, State } from './api';
+import { faceSlide, parse, percent, show, slide, toWorld, type Length } from './lengths';
+
+const byId = <T extends HTMLElement>(id: string): T => document.getElementById(id) as T;
+const input = (id: string) => byId<HTMLInputElement>(id);
+
+/// A text and a slider for one length. `changed` gets it, and whether the slider still moves.
+export class LengthField {
+  value: Length = '1%';
+  private touched = 0;
+  private moving = false;
+  constructor(private name: string, private scene: () => State['scene'], private zero: boolean, private changed: (value: Length, again: boolean) => void) {
+    const text = input(name), range = input(`${name}-slide`);
+    range.addEventListener('input', () => {
+      const again = this.moving;
+      this.moving = true;
+      this.touched = performance.now();
+      this.value = `${show(slide.toPercent(Number(range.value), this.zero), 2)}%`;
+      text.value = String(this.value);
+      text.classList.remove('wrong');
+      this.changed(this.value, again);
+    });
+    range.addEventListener('change', () => { this.moving = false; });
+    text.addEventListener('change', () => {
+      const value = parse(text.value), world = toWorld(value, this.scene());
+      text.classList.toggle('wrong', Number.isNaN(world));
+      if (Number.isNaN(world)) return;
+      this.set(value);
+      this.changed(value, false);
+    });
+  }
+  /// Not while a person moves it: the server's answer lags behind.
+  follow(value: Length): void {
+    if (performance.now() - this.touched > 700 && document.activeElement !== input(this.name)) this.set(value);
+  }
+  set(value: Length): void {
+    this.value = value;
+    input(this.name).value = String(value);
+    input(`${this.name}-slide`).value = String(slide.fromPercent((toWorld(value, this.scene()) / this.scene().diagonal) * 100));
+  }
+}
+
+export class FaceField {
+  private touched = 0;
+  private wait = 0;
+  constructor(private changed: (faces: number) => void) {
+    input('faces-slide').addEventListener('input', () => {
+      this.touched = performance.now();
+      const n = faceSlide.to(Number(input('faces-slide').value));
+      input('faces').value = String(n);
+      clearTimeout(this.wait);
+      this.wait = window.setTimeout(() => this.changed(n), 250);
+    });
+    input('faces').addEventListener('change', () => {
+      const n = Number(input('faces').value), fine = Number.isInteger(n) && n >= 4 && n <= 1e7;
+      input('faces').classList.toggle('wrong', !fine);
+      if (fine) this.changed(n);
+    });
+  }
+  follow(n: number): void {
+    if (performance.now() - this.touched < 700 || document.activeElement === input('faces')) return;
+    input('faces').value = String(n);
+    input('faces-slide').value = String(faceSlide.from(n));
+  }
+}
+
+function placeOf(rule: Rule): string {
+  if (rule.name) return rule.name;
+  if (rule.node) return rule.node;
+  if (rule.box) return 'box';
+  if (rule.view) return 'by distance';
+  if (rule.thickness !== undefined) return 'thin parts';
+  if (rule.gap !== undefined) return 'openings';
+  return Array.isArray(rule.at?.[0]) ? 'stroke' : 'dab';
+}
+
+function showRules(rules: Rule[], remove: (i: number) => void): void {
+  const list = byId('rules');
+  list.replaceChildren(...rules.map((rule, i) => {
+    const item = document.createElement('li'), dot = document.createElement('i'), text = document.createElement('span'), button = document.createElement('button');
+    dot.className = rule.mode ?? 'set';
+    const words: Record<string, string> = { decrease: 'finer', increase: 'coarser', erase: 'erase', set: 'set' };
+    text.textContent = `${i + 1}  ${words[rule.mode ?? 'set']} ${placeOf(rule)}${rule.scale !== undefined ? ` to ${rule.scale}` : ''}${rule.radius !== undefined ? `, radius ${rule.radius}` : ''}`;
+    button.textContent = '×';
+    button.title = button.ariaLabel = `Remove rule ${i + 1}`;
+    button.onclick = () => remove(i);
+    item.append(dot, text, button);
+    return item;
+  }).reverse());
+}
+
+const kProof = 'Closed, oriented, 2-manifold and free of self-intersections; every triangle of the scene lies strictly inside.';
+
+function showProxy(state: State): void {
+  const p = state.proxy, badge = byId('badge'), verdict = byId('verdict'), v = p.verdict;
+  const working = p.step === 'meshing' || p.step === 'checking';
+  const answer: string = v?.answer ?? '';
+  let text = 'none', kind = '', sentence = '';
+  if (p.step === 'meshing') [text, kind, sentence] = ['meshing …', 'work', ''];
+  else if (p.step === 'checking') [text, kind, sentence] = ['checking …', 'work', ''];
+  else if (p.step === 'failed') [text, kind, sentence] = ['failed', 'refuted', p.notes];
+  else if (p.step === 'ready' && !p.current) [text, sentence] = ['of an earlier design', 'Press Mesh for the design as it is now.'];
+  else if (p.step === 'ready' && answer === 'proven') [text, kind, sentence] = ['proven', 'proven', kProof];
+  else if (p.step === 'ready') [text, kind, sentence] = [answer || 'no answer', 'refuted', v?.why ?? p.notes];
+  badge.textContent = text;
+  badge.className = `badge ${kind}`;
+  verdict.textContent = sentence;
+  const rows: [string, string][] = [];
+  if (v && p.step === 'ready') {
+    rows.push(['triangles', v.triangles.toLocaleString('en')]);
+    const far = v.farthest;
+    if (far !== null) rows.push(['farthest from scene', `${show(far)} (${percent(far, state.scene)})`]);
+    rows.push(['made, checked', `${show(p.mesh_seconds, 2)} s, ${show(p.check_seconds, 2)} s`]);
+  }
+  byId('measures').replaceChildren(...rows.flatMap(([name, value]) => {
+    const dt = document.createElement('dt'), dd = document.createElement('dd');
+    dt.textContent = name;
+    dd.textContent = value;
+    return [dt, dd];
+  }));
+  byId('mesh').textContent = working ? 'Stop' : 'Mesh';
+  byId<HTMLButtonElement>('save-proxy').disabled = !(p.step === 'ready' && p.current);
+  byId('save-proxy').title = `Writes ${state.out_file}`;
+}
+
+export function showState(state: State, remove: (i: number) => void): void {
+  const s = state.scene, c = state.closing;
+  byId('title').textContent = s.files.join(', ');
+  byId('title').title = s.files.join(', ');
+  document.title = `${s.files[0] ?? ''} – bpview`;
+  const size = s.max.map((x, i) => show(x - s.min[i])).join(' × ');
+  byId('facts').textContent = `${s.triangles.toLocaleString('en')} triangles, ${size}; voxel ${show(s.voxel)}`;
+  byId('base-world').textContent = `${show(state.design.base_world)} in scene units, ${show(state.design.base_world / s.voxel, 2)} voxels`;
+  byId<HTMLButtonElement>('undo').disabled = !state.design.can_undo;
+  byId<HTMLButtonElement>('redo').disabled = !state.design.can_redo;
+  showRules(state.design.rules, remove);
+  showProxy(state);
+  input('live').checked = state.live;
+  byId('save-rules').textContent = state.design.saved ? 'Rules saved' : 'Rules';
+  byId('save-rules').title = `Writes ${state.rules_file}`;
+  byId('command').textContent = state.command;
+  const behind = c.asked !== c.shown && !c.error;
+  byId('times').textContent = c.error ? c.error : behind ? 'closing …' : `closing ${Math.round(c.seconds * 1000)} ms, ${c.voxels.toLocaleString('en')} voxels`;
+  byId('legend').hidden = state.design.rules.length === 0;
+  byId('legend-low').textContent = `${percent(state.design.base_world / 8, s)}`;
+  byId('legend-high').textContent = `${percent(state.design.base_world * 8, s)}`;
+}
+
+export function complain(error: unknown): void {
+  const message = byId('message');
+  message.textContent = error instanceof Error ? error.message : String(error);
+  message.hidden = false;
+  clearTimeout(Number(message.dataset.timer));
+  message.dataset.timer = String(setTimeout(() => { message.hidden = true; }, 6000));
+}

@@ -1,0 +1,217 @@
+#include "tools/view/server.h"
+
+#include <httplib.h>
+
+#include <atomic>
+
+#include "lib/core/error.h"
+#include "tools/view/access.h"
+#include "tools/view/page_files.h"
+
+namespace bp {
+
+namespace {
+
+using Request = httplib::Request;
+using Response = httplib::Response;
+using Handled = httplib::Server::HandlerResponse;
+
+constexpr std::size_t kMostBody = 1 << 20;  ///< bytes: a stroke of 10,000 points has less
+constexpr int kThreads = 24;                ///< each holds one connection
+constexpr int kMostListeners = 8;
+constexpr int kReadSeconds = 5, kWriteSeconds = 20, kIdleSeconds = 2;
+constexpr std::chrono::seconds kPing{10};
+
+const httplib::Headers& headers() {
+  static const httplib::Headers all{
+      {"Content-Security-Policy", "default-src 'self'; frame-ancestors 'none'; base-uri 'none'; form-action 'none'"},
+      {"X-Content-Type-Options", "nosniff"},
+      {"Cross-Origin-Resource-Policy", "same-origin"},
+      {"Cross-Origin-Opener-Policy", "same-origin"},
+      {"Referrer-Policy", "no-referrer"},
+      {"Cache-Control", "no-store"},
+  };
+  return all;
+}
+
+void refuse(Response& response, int status, const std::string& text) {
+  response.status = status;
+  response.set_content(Json{{"error", text}}.dump(), "application/json");
+  response.set_header("Connection", "close");  // the body of the request was not read
+}
+
+/// The port that was had; -1: none. Connections take over the options of the socket that is bound here.
+int bound(httplib::Server& http, int wanted) {
+  http.set_tcp_nodelay(true);  // else each small answer waits 40 ms for the client's acknowledgement
+  if (wanted == 0) return http.bind_to_any_port("127.0.0.1");
+  return http.bind_to_port("127.0.0.1", wanted) ? wanted : -1;
+}
+
+const char* const kNoPage = R"(<!doctype html><html lang="en"><meta charset="utf-8"><title>bpview</title>
+<h1>bpview has no page</h1>
+<p>This bpview was built where npm was missing, or had no network. Install npm, run the build again, and start bpview anew.</p>
+</html>
+)";
+
+}  // namespace
+
+struct Server::State {
+  State(Session& of, int wanted);
+  Handled check(const Request& request, Response& response);
+  void add_routes();
+  void add_page();
+  void listen(const Request& request, Response& response);
+  [[nodiscard]] bool is_open(const Request& request) const;
+  /// A step of the design or the like: refused input is an answer, not a failure of the server.
+  httplib::Server::Handler doing(const std::function<void(const std::string& body)>& act);
+
+  Session& session;
+  httplib::Server http;
+  const int port;
+  Access access;
+  std::atomic<int> listeners{0};
+};
+
+Server::State::State(Session& of, int wanted) : session(of), port(bound(http, wanted)), access(port) {
+  if (port <= 0) fail(ErrorCode::out_of_resource, "no port of 127.0.0.1 can be had, or --port names one that is taken");
+  http.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
+  http.set_payload_max_length(kMostBody);
+  http.set_read_timeout(kReadSeconds);
+  http.set_write_timeout(kWriteSeconds);
+  http.set_keep_alive_max_count(1000);
+  http.set_keep_alive_timeout(kIdleSeconds);
+  http.set_default_headers(headers());
+  http.set_pre_routing_handler([this](const Request& q, Response& r) { return check(q, r); });
+  http.set_exception_handler([](const Request&, Response& response, const std::exception_ptr&) {
+    refuse(response, 500, "unexpected failure");
+  });
+  add_page();
+  add_routes();
+}
+
+/// The page itself, which holds no secret, and the exchange of the token.
+bool Server::State::is_open(const Request& request) const {
+  if (request.path == "/session") return true;
+  if (request.path == "/") return true;
+  for (const PageFile& file : page_files()) {
+    if (request.path == file.path) return true;
+  }
+  return false;
+}
+
+Handled Server::State::check(const Request& request, Response& response) {
+  const auto stop = [&](int status, const char* text) {
+    refuse(response, status, text);
+    return Handled::Handled;
+  };
+  if (request.get_header_value_count("Host") != 1 || !access.is_host(request.get_header_value("Host")))
+    return stop(421, "this server has another name");
+  if (request.method != "GET" && request.method != "POST") return stop(405, "GET and POST only");
+  if (request.method == "POST" && !access.is_origin(request.get_header_value("Origin")))
+    return stop(403, "another site may not change the design");
+  if (const std::string site = request.get_header_value("Sec-Fetch-Site");
+      !is_open(request) && !site.empty() && site != "same-origin")
+    return stop(403, "another site may not read the design");
+  if (!is_open(request) && !access.has_cookie(request.get_header_value("Cookie")))
+    return stop(401, "open the link that bpview printed");
+  return Handled::Unhandled;
+}
+
+void Server::State::add_page() {
+  for (const PageFile& file : page_files()) {
+    const auto send = [&file](const Request&, Response& response) {
+      response.set_header("Content-Encoding", "gzip");
+      response.set_content(reinterpret_cast<const char*>(file.bytes.data()), file.bytes.size(), file.type);
+    };
+    http.Get(file.path, send);
+    if (std::string_view(file.path) == "/index.html") http.Get("/", send);
+  }
+  if (page_files().empty()) {
+    http.Get("/", [](const Request&, Response& response) { response.set_content(kNoPage, "text/html"); });
+  }
+}
+
+httplib::Server::Handler Server::State::doing(const std::function<void(const std::string& body)>& act) {
+  return [act](const Request& request, Response& response) {
+    try {
+      act(request.body);
+      response.set_content("{}", "application/json");
+    } catch (const Error& e) {
+      response.status = e.code() == ErrorCode::bad_input || e.code() == ErrorCode::bad_argument ? 400 : 500;
+      response.set_content(Json{{"error", e.what()}}.dump(-1, ' ', false, Json::error_handler_t::replace),
+                           "application/json");
+    }
+  };
+}
+
+void Server::State::add_routes() {
+  http.Post("/session", [this](const Request& request, Response& response) {
+    const std::string cookie = access.cookie_for(request.body);
+    if (cookie.empty()) return refuse(response, 403, "the link is not valid; open the one that bpview printed");
+    response.set_header("Set-Cookie", cookie);
+    response.set_content("{}", "application/json");
+  });
+  const auto bytes = [this](const char* path, const auto& make) {
+    http.Get(path, [make](const Request& request, Response& response) {
+      response.set_content(make(request), "application/octet-stream");
+    });
+  };
+  bytes("/api/scene", [this](const Request&) { return session.scene(); });
+  bytes("/api/proxy", [this](const Request&) { return session.proxy(); });
+  bytes("/api/surface", [this](const Request& request) {
+    const std::string after = request.get_param_value("after");
+    return session.surface(after.empty() ? 0 : std::strtoull(after.c_str(), nullptr, 10));
+  });
+  http.Get("/api/state",
+           [this](const Request&, Response& response) { response.set_content(session.state(), "application/json"); });
+  http.Get("/api/events", [this](const Request& request, Response& response) { listen(request, response); });
+  http.Post("/api/edit", doing([this](const std::string& body) { session.edit(body); }));
+  http.Post("/api/save", doing([this](const std::string& body) { session.save(body); }));
+  http.Post("/api/mesh", doing([this](const std::string&) { session.mesh(); }));
+  http.Post("/api/stop", doing([this](const std::string&) { session.stop(); }));
+}
+
+/// Server-sent events: the state, whenever it changes; and a comment now and then, so that a page that went is noticed.
+void Server::State::listen(const Request&, Response& response) {
+  if (++listeners > kMostListeners) {
+    --listeners;
+    return refuse(response, 503, "too many pages are open");
+  }
+  auto seen = std::make_shared<std::uint64_t>(0);
+  response.set_chunked_content_provider(
+      "text/event-stream",
+      [this, seen](std::size_t, httplib::DataSink& sink) {
+        const std::uint64_t number = session.events().wait(*seen, kPing);
+        if (session.events().ended()) {
+          sink.done();
+          return true;
+        }
+        const std::string text = number == *seen ? ":\n\n" : "data: " + session.state() + "\n\n";
+        *seen = number;
+        return sink.write(text.data(), text.size());
+      },
+      [this](bool) { --listeners; });
+}
+
+Server::Server(Session& session, std::uint64_t port) : state_(std::make_unique<State>(session, int(port))) {}
+
+Server::~Server() = default;
+
+std::string Server::link() const {
+  return fmt::format("http://127.0.0.1:{}/#{}", state_->port, state_->access.token());
+}
+
+std::string Server::link_for_once() const {
+  return fmt::format("http://127.0.0.1:{}/#{}", state_->port, state_->access.token_for_once());
+}
+
+void Server::run() {
+  if (!state_->http.listen_after_bind()) fail(ErrorCode::failed, "the server ended unexpectedly");
+}
+
+void Server::stop() {
+  state_->session.events().end();
+  state_->http.stop();
+}
+
+}  // namespace bp

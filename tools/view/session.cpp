@@ -1,0 +1,299 @@
+#include "tools/view/session.h"
+
+#include <cmath>
+#include <filesystem>
+
+#include "io/files/file.h"
+#include "io/scene/scene_reader.h"
+#include "io/stream/brick_shelf.h"
+#include "io/stream/brick_stream.h"
+#include "lib/core/error.h"
+#include "tools/run/memory_shares.h"
+#include "tools/run/part_boxes.h"
+#include "tools/run/scene_budget.h"
+#include "tools/view/wire.h"
+
+namespace bp {
+
+namespace {
+
+/// A page that draws more is slow, and its bytes no longer fit where memory is short.
+constexpr std::uint64_t kMostShown = 2'000'000;
+constexpr std::uint64_t kMostFaces = 10'000'000;
+constexpr const char* kFirstRules = R"({"base": "2%"})";
+
+Json parse_request(const std::string& text) {
+  Json json = Json::parse(text, nullptr, false);
+  if (!json.is_object()) fail(ErrorCode::bad_input, "the request is no JSON object");
+  return json;
+}
+
+const Json& member(const Json& json, const char* key) {
+  const auto found = json.find(key);
+  if (found == json.end()) fail(ErrorCode::bad_input, "the request has no '{}'", key);
+  return *found;
+}
+
+std::string word(const Json& json, const char* key) {
+  const Json& value = member(json, key);
+  if (!value.is_string()) fail(ErrorCode::bad_input, "the request's '{}' is no text", key);
+  return value.get<std::string>();
+}
+
+std::uint64_t number(const Json& json, const char* key, std::uint64_t least, std::uint64_t most) {
+  const Json& value = member(json, key);
+  if (!value.is_number_unsigned() || value.get<std::uint64_t>() < least || value.get<std::uint64_t>() > most)
+    fail(ErrorCode::bad_input, "the request's '{}' is no whole number from {} to {}", key, least, most);
+  return value.get<std::uint64_t>();
+}
+
+bool flag(const Json& json, const char* key) {
+  const auto found = json.find(key);
+  return found != json.end() && found->is_boolean() && found->get<bool>();
+}
+
+const char* step_name(ProxyJob::Step step) {
+  constexpr const char* kNames[] = {"none", "meshing", "checking", "ready", "failed", "stopped"};
+  return kNames[std::size_t(step)];
+}
+
+SceneOptions scene_options(const ViewOptions& o) {
+  SceneOptions scene{o.voxels.format, o.common.memory_bytes / 8, o.common.temp};
+  scene.document = document_budget(o.common.memory_bytes, kVoxelProgram, 2);
+  return scene;
+}
+
+}  // namespace
+
+Session::Session(const ViewOptions& options, Backends& backends) : options_(options), faces_(options.faces) {
+  open_stream();
+  read_scene();
+  begin_design();
+  job_ = std::make_unique<ProxyJob>(options_, stream_, [this] { changed(); });
+  LiveScene scene;
+  scene.header = header_;
+  scene.solid = std::move(solid_);
+  scene.params.element = options_.closing.element;
+  const MemoryLimit limit{options_.common.memory_bytes, kVoxelProgram};
+  scene.context.memory = {limit.rest_bytes() / 4, 0.25, limit};
+  scene.context.make_shelf = make_shelf_factory(limit.rest_bytes() / 4, options_.common.temp);
+  closing_ = std::make_unique<LiveClosing>(std::move(scene), backends, [this] { changed(); });
+  closing_->request(design_->plan(), design_->revision());
+}
+
+Session::~Session() {
+  {
+    const std::lock_guard lock(mutex_);
+    ends_ = true;
+  }
+  events_.end();
+  closing_.reset();
+  job_.reset();
+}
+
+/// bpvox itself makes the stream: the proxy is made from the same one.
+void Session::open_stream() {
+  const ToolResult result = ToolPipe().run({voxelize_command(options_)}, {}, stream_, true);
+  if (result.status != 0)
+    fail(result.status == 2   ? ErrorCode::bad_argument
+         : result.status == 3 ? ErrorCode::bad_input
+                              : ErrorCode::failed,
+         "bpvox could not read the scene");
+  BrickReader reader(stream_.path());
+  header_ = reader.header();
+  solid_ = make_shelf(options_.common.memory_bytes / 8, options_.common.temp);
+  for (Brick brick; reader.read(brick);) solid_->put(brick.coord, brick.fill, brick.bits);
+  for (std::size_t i = 0; i < 3; ++i) middle_[i] = header_.bounds.min[i] / 2 + header_.bounds.max[i] / 2;
+}
+
+void Session::read_scene() {
+  const auto source = open_scenes(options_.voxels.scenes, scene_options(options_));
+  std::vector<TriangleD> all, some;
+  while (source->read(some)) {
+    triangles_ += some.size();
+    if (triangles_ <= kMostShown) all.insert(all.end(), some.begin(), some.end());
+  }
+  if (triangles_ <= kMostShown) scene_bytes_ = scene_bytes(all, middle_);
+}
+
+void Session::begin_design() {
+  RuleContext context;
+  context.diagonal = header_.bounds.diagonal();
+  context.voxel = header_.frame.voxel;
+  context.parts = [this](const std::string& pattern) {
+    return part_boxes(header_.scene, header_.bounds, pattern, scene_options(options_));
+  };
+  const bool there = options_.rules_given && std::filesystem::exists(options_.rules);
+  design_.emplace(there ? read_text(options_.rules) : kFirstRules, options_.rules, context, header_.frame);
+  saved_revision_ = there ? design_->revision() : 0;
+}
+
+void Session::changed() {
+  {
+    const std::lock_guard lock(mutex_);
+    if (live_ && !ends_) {
+      const LiveClosing::Status s = closing_->status();
+      const bool done = s.shown == design_->revision() && s.error.empty();
+      if (done && (meshed_ != design_->revision() || meshed_faces_ != faces_)) request_proxy();
+    }
+  }
+  events_.tell();
+}
+
+void Session::request_proxy() {
+  meshed_ = design_->revision();
+  meshed_faces_ = faces_;
+  job_->request(design_->json(), meshed_, meshed_faces_);
+}
+
+bool Session::is_current(const ProxyJob::Status& proxy) const {
+  return proxy.revision == design_->revision() && proxy.faces == faces_;
+}
+
+void Session::edit(const std::string& json) {
+  const Json request = parse_request(json);
+  const std::string op = word(request, "op");
+  {
+    const std::lock_guard lock(mutex_);
+    const std::uint64_t before = design_->revision();
+    if (op == "rule") {
+      design_->add(member(request, "rule").dump(), flag(request, "again"));
+    } else if (op == "base") {
+      design_->set_base(member(request, "base").dump(), flag(request, "again"));
+    } else if (op == "remove") {
+      design_->remove(number(request, "rule", 0, Design::kMostRules));
+    } else if (op == "undo") {
+      design_->undo();
+    } else if (op == "redo") {
+      design_->redo();
+    } else if (op == "faces") {
+      faces_ = number(request, "faces", 4, kMostFaces);
+      if (live_) request_proxy();
+    } else if (op == "live") {
+      live_ = flag(request, "live");
+      if (live_ && (meshed_ != design_->revision() || meshed_faces_ != faces_)) request_proxy();
+    } else {
+      fail(ErrorCode::bad_input, "the request's 'op' is not known");
+    }
+    if (design_->revision() != before) {
+      job_->stop();
+      closing_->request(design_->plan(), design_->revision());
+    }
+  }
+  events_.tell();
+}
+
+void Session::mesh() {
+  const std::lock_guard lock(mutex_);
+  request_proxy();
+}
+
+void Session::stop() {
+  job_->stop();
+}
+
+void Session::save(const std::string& json) {
+  const std::string what = word(parse_request(json), "what");
+  {
+    const std::lock_guard lock(mutex_);
+    const auto write = [&](const std::string& path, const std::string& bytes, bool overwrite) {
+      OutputFile file(path, overwrite);
+      file.write(bytes);
+      file.commit();
+    };
+    if (what == "rules") {
+      write(options_.rules, design_->json(), options_.common.overwrite || options_.rules_given || rules_saved_);
+      rules_saved_ = true;
+      saved_revision_ = design_->revision();
+    } else if (what == "proxy") {
+      const ProxyJob::Status proxy = job_->status();
+      if (proxy.step != ProxyJob::Step::ready || !is_current(proxy))
+        fail(ErrorCode::bad_input, "there is no proxy of the design as it is now");
+      write(options_.out, *proxy.file, options_.common.overwrite || proxy_saved_);
+      proxy_saved_ = true;
+    } else {
+      fail(ErrorCode::bad_input, "the request's 'what' is neither rules nor proxy");
+    }
+  }
+  events_.tell();
+}
+
+std::string Session::surface(std::uint64_t after) const {
+  const std::uint64_t generation = closing_->status().generation;  // first: what changes between is sent twice
+  return surface_bytes(closing_->since(after), generation);
+}
+
+std::string Session::proxy() const {
+  const auto file = job_->status().file;
+  if (file == nullptr) return "";
+  const MemoryFile glb(*file);
+  return mesh_bytes(read_mesh(glb.path(), scene_options(options_)), middle_);
+}
+
+Json Session::design_json() const {
+  Json rules = Json::array();
+  for (std::size_t i = 0; i < design_->rules(); ++i) {
+    Json rule = Json::parse(design_->rule(i));
+    if (const auto at = rule.find("at"); at != rule.end() && at->is_array() && at->size() > 4)
+      *at = Json::array({at->front(), at->back()});  // to be listed, not drawn
+    rules.push_back(std::move(rule));
+  }
+  return {{"revision", design_->revision()},
+          {"base", Json::parse(design_->base())},
+          {"base_world", design_->plan().field.base},
+          {"rules", std::move(rules)},
+          {"can_undo", design_->can_undo()},
+          {"can_redo", design_->can_redo()},
+          {"saved", saved_revision_ == design_->revision()}};
+}
+
+Json Session::proxy_json() const {
+  const ProxyJob::Status p = job_->status();
+  return {{"step", step_name(p.step)},
+          {"current", is_current(p)},
+          {"revision", p.revision},
+          {"faces", p.faces},
+          {"number", p.number},
+          {"bytes", p.file ? p.file->size() : 0},
+          {"mesh_seconds", p.mesh_seconds},
+          {"check_seconds", p.check_seconds},
+          {"notes", p.notes},
+          {"verdict", p.verdict}};
+}
+
+std::string Session::state() const {
+  const std::lock_guard lock(mutex_);
+  const LiveClosing::Status c = closing_->status();
+  const Bounds3d& b = header_.bounds;
+  Json files = Json::array();
+  for (const std::string& scene : options_.voxels.scenes)
+    files.push_back(std::filesystem::path(scene).filename().string());
+  const Json state{{"scene",
+                    {{"files", files},
+                     {"triangles", triangles_},
+                     {"shown", !scene_bytes_.empty()},
+                     {"min", b.min},
+                     {"max", b.max},
+                     {"diagonal", b.diagonal()},
+                     {"middle", middle_},
+                     {"voxel", header_.frame.voxel},
+                     {"origin", header_.frame.world_origin()},
+                     {"up", name_of(header_.frame.up)}}},
+                   {"design", design_json()},
+                   {"closing",
+                    {{"asked", c.asked},
+                     {"shown", c.shown},
+                     {"generation", c.generation},
+                     {"voxels", c.voxels},
+                     {"seconds", c.seconds},
+                     {"error", c.error}}},
+                   {"proxy", proxy_json()},
+                   {"faces", faces_},
+                   {"live", live_},
+                   {"rules_file", options_.rules},
+                   {"out_file", options_.out},
+                   {"command", command_line(options_, faces_)}};
+  return state.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace bp
