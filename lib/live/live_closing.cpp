@@ -64,6 +64,7 @@ LiveClosing::~LiveClosing() {
 void LiveClosing::request(ScalePlan plan, std::uint64_t revision) {
   {
     const std::lock_guard lock(mutex_);
+    if (revision == status_.asked && status_.error.empty()) return;
     next_ = std::make_unique<ScalePlan>(std::move(plan));
     status_.asked = revision;
     status_.error.clear();

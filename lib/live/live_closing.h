@@ -46,7 +46,7 @@ class LiveClosing {
   LiveClosing& operator=(const LiveClosing&) = delete;
 
   [[nodiscard]] const LiveScene& scene() const { return scene_; }
-  /// Returns at once.
+  /// Returns at once. A revision is one plan: that of the last request, unless it has failed, is not closed again.
   void request(ScalePlan plan, std::uint64_t revision);
   void wait();  ///< until the last request is done, or has failed
   [[nodiscard]] Status status() const;
