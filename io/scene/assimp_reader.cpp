@@ -114,7 +114,7 @@ class SceneUnloader {
   const ExactScene* const exact_;
   const bool colors_, walls_only_, wants_textures_;
   TextureUnloader textures_;
-  CutPolygon cut_;
+  FaceTriangles cut_;
   Summary summary_;
 };
 

@@ -70,10 +70,10 @@ class RawSource {
 using RawSourcePtr = std::unique_ptr<RawSource>;
 
 /// The triangles of the polygon that was cut last, out of the places of its corners or of their number alone.
-class CutPolygon {
+class FaceTriangles {
  public:
   /// fans: as SceneOptions::fans.
-  explicit CutPolygon(bool fans) : fans_(fans) {}
+  explicit FaceTriangles(bool fans) : fans_(fans), places_(4) {}
 
   /// place(k): of corner k of n, at least 3.
   template <class Place>
@@ -82,9 +82,14 @@ class CutPolygon {
     triangles_ = {};
     held_ = n > 3 && n <= PolygonCutter::kMostCorners && !fans_;
     if (!held_) return;
-    if (n > places_.size()) places_.resize(n);
-    for (std::size_t k = 0; k < n; ++k) places_[k] = place(k);
-    if (n == 4 && is_surely_fan(places_[0], places_[1], places_[2], places_[3])) return;
+    if (n == 4) {  // most polygons
+      const Vec3d a = place(0), b = place(1), c = place(2), d = place(3);
+      places_[0] = a, places_[1] = b, places_[2] = c, places_[3] = d;
+      if (is_surely_fan(a, b, c, d)) return;
+    } else {
+      if (n > places_.size()) places_.resize(n);
+      for (std::size_t k = 0; k < n; ++k) places_[k] = place(k);
+    }
     triangles_ = cutter_.cut(std::span(places_).first(n));
   }
   [[nodiscard]] std::size_t triangles() const { return corners_ - 2; }
@@ -156,7 +161,7 @@ class PolygonSource : public RawSource {
   [[nodiscard]] bool good_face() const;
 
   std::vector<std::uint64_t> corners_;
-  CutPolygon cut_;
+  FaceTriangles cut_;
   std::size_t next_ = 0, end_ = 0;  // triangles of the open face
 };
 

@@ -21,12 +21,13 @@ bool PolygonSource::read(std::vector<TriangleD>& out, std::vector<TriangleColors
   if (colors != nullptr) colors->clear();
   while (out.size() < kBatch) {
     if (next_ == end_ && !open_face()) break;
-    const CutTriangle t = cut_[next_];
-    out.push_back(cut_.places(t, [&](std::size_t k) { return vertex(corners_[k]); }));
-    if (colors != nullptr)
-      colors->push_back({corner_color(corners_[t[0]]), corner_color(corners_[t[1]]), corner_color(corners_[t[2]])});
-    if (rest != nullptr) add_rest(*rest, out.size() - 1, t);
-    ++next_;
+    for (; next_ < end_ && out.size() < kBatch; ++next_) {
+      const CutTriangle t = cut_[next_];
+      out.push_back(cut_.places(t, [&](std::size_t k) { return vertex(corners_[k]); }));
+      if (colors != nullptr)
+        colors->push_back({corner_color(corners_[t[0]]), corner_color(corners_[t[1]]), corner_color(corners_[t[2]])});
+      if (rest != nullptr) add_rest(*rest, out.size() - 1, t);
+    }
   }
   return !out.empty();
 }

@@ -205,7 +205,7 @@ class PackedPly final : public RawSource {
     const std::size_t count_bytes = bytes_of(layout_.count_type), index_bytes = bytes_of(layout_.index_type);
     const std::uint64_t limit = layout_.vertex_count;
     const std::byte* at = batch.bytes.data();
-    CutPolygon cut(fans_);
+    FaceTriangles cut(fans_);
     for (std::uint64_t r = 0; r < batch.records; ++r) {
       at += layout_.before;
       const auto n = std::size_t(corners_at(at));
