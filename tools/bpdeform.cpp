@@ -89,6 +89,7 @@ bp::SceneOptions scene_options(const Options& o) {
   options.temp_dir = o.common.temp;
   options.memory_bytes = o.common.memory_bytes / 4;
   options.keep_extremes = true;
+  options.fans = true;  // a cage and what it moves to have the same triangles
   options.document = bp::document_budget(o.common.memory_bytes, bp::least_memory(o.common.threads), 1);
   bp::MemoryShare cage = options.document;
   cage.bytes /= 2, cage.share /= 2;

@@ -24,7 +24,7 @@
 // loop, or take all memory), so they run in a child process. The child leaves each mesh once in a scratch file, as
 // packed positions and triangles, and sends back the places where the meshes stand.
 // Its memory goes with it; from there on the scene is streamed as glTF is. No step of postprocessing: polygons become
-// fans as everywhere, points and lines are dropped, and node transforms are composed in double.
+// triangles as everywhere, points and lines are dropped, and node transforms are composed in double.
 
 namespace bp {
 
@@ -78,11 +78,13 @@ class SceneUnloader {
         colors_(options.colors),
         walls_only_(options.walls_only),
         wants_textures_(options.textures != nullptr),
-        textures_(scratch) {}
+        textures_(scratch),
+        cut_(options.fans) {}
   Summary unload(const aiScene& scene) {
     for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
-      add_mesh(*scene.mMeshes[i], walls_only_ && see_through(*scene.mMeshes[i], scene));
-      add_positions(*scene.mMeshes[i], exact_ == nullptr ? nullptr : exact_mesh(*exact_, *scene.mMeshes[i], i));
+      const ExactMesh* const exact = exact_ == nullptr ? nullptr : exact_mesh(*exact_, *scene.mMeshes[i], i);
+      add_mesh(*scene.mMeshes[i], exact, walls_only_ && see_through(*scene.mMeshes[i], scene));
+      add_positions(*scene.mMeshes[i], exact);
       if (colors_) add_colors(*scene.mMeshes[i], scene);
       if (wants_textures_) summary_.meshes.back().texture = textures_.unload(*scene.mMeshes[i], scene);
     }
@@ -101,10 +103,10 @@ class SceneUnloader {
     Affine parent;
   };
   static bool see_through(const aiMesh& mesh, const aiScene& scene);
-  void add_mesh(const aiMesh& mesh, bool passed_over);
+  void add_mesh(const aiMesh& mesh, const ExactMesh* exact, bool passed_over);
   void add_positions(const aiMesh& mesh, const ExactMesh* exact);
   void add_colors(const aiMesh& mesh, const aiScene& scene);
-  void add_face(const aiFace& face, unsigned vertices, std::vector<std::uint32_t>& indices);
+  void add_face(const aiFace& face, const aiMesh& mesh, const ExactMesh* exact, std::vector<std::uint32_t>& indices);
   void add_nodes(const aiScene& scene);
   void follow_bones(const aiScene& scene, const BonePlaces& places);
 
@@ -112,6 +114,7 @@ class SceneUnloader {
   const ExactScene* const exact_;
   const bool colors_, walls_only_, wants_textures_;
   TextureUnloader textures_;
+  FaceTriangles cut_;
   Summary summary_;
 };
 
@@ -122,11 +125,11 @@ bool SceneUnloader::see_through(const aiMesh& mesh, const aiScene& scene) {
 }
 
 // One that is passed over keeps its number, and has no triangles.
-void SceneUnloader::add_mesh(const aiMesh& mesh, bool passed_over) {
+void SceneUnloader::add_mesh(const aiMesh& mesh, const ExactMesh* exact, bool passed_over) {
   MeshRecord record;
   record.vertices = mesh.mNumVertices;
   std::vector<std::uint32_t> indices;
-  for (unsigned i = 0; i < mesh.mNumFaces && !passed_over; ++i) add_face(mesh.mFaces[i], mesh.mNumVertices, indices);
+  for (unsigned i = 0; i < mesh.mNumFaces && !passed_over; ++i) add_face(mesh.mFaces[i], mesh, exact, indices);
   record.indices = scratch_.append(std::as_bytes(std::span(indices)));
   record.triangles = indices.size() / 3;
   summary_.meshes.push_back(record);
@@ -156,14 +159,22 @@ void SceneUnloader::add_colors(const aiMesh& mesh, const aiScene& scene) {
 }
 
 // Points and lines are no bad faces: a drawing is full of them.
-void SceneUnloader::add_face(const aiFace& face, unsigned vertices, std::vector<std::uint32_t>& indices) {
+void SceneUnloader::add_face(const aiFace& face, const aiMesh& mesh, const ExactMesh* exact,
+                             std::vector<std::uint32_t>& indices) {
   if (face.mNumIndices < 3) return;
-  if (std::any_of(face.mIndices, face.mIndices + face.mNumIndices, [&](unsigned v) { return v >= vertices; })) {
+  if (std::any_of(face.mIndices, face.mIndices + face.mNumIndices,
+                  [&](unsigned v) { return v >= mesh.mNumVertices; })) {
     ++summary_.bad_faces;
     return;
   }
-  for (unsigned k = 2; k < face.mNumIndices; ++k)
-    indices.insert(indices.end(), {face.mIndices[0], face.mIndices[k - 1], face.mIndices[k]});
+  cut_.cut(face.mNumIndices, [&](std::size_t k) {
+    const unsigned v = face.mIndices[k];
+    return exact != nullptr ? exact->positions[v]
+                            : Vec3d{mesh.mVertices[v].x, mesh.mVertices[v].y, mesh.mVertices[v].z};
+  });
+  for (std::size_t i = 0; i < cut_.triangles(); ++i) {
+    for (const std::uint32_t k : cut_[i]) indices.push_back(face.mIndices[k]);
+  }
 }
 
 void SceneUnloader::add_nodes(const aiScene& scene) {

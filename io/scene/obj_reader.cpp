@@ -22,7 +22,8 @@ namespace {
 class ObjSource final : public PolygonSource {
  public:
   ObjSource(const SceneFilePtr& file, const SceneOptions& options)
-      : file_(file),
+      : PolygonSource(options),
+        file_(file),
         text_(file),
         pool_(options.memory_bytes, temp_dir_of(options)),
         materials_(options.document),

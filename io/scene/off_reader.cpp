@@ -13,7 +13,7 @@ namespace {
 class OffSource final : public PolygonSource {
  public:
   OffSource(SceneFilePtr file, const SceneOptions& options)
-      : text_(std::move(file)), pool_(options.memory_bytes, temp_dir_of(options)) {
+      : PolygonSource(options), text_(std::move(file)), pool_(options.memory_bytes, temp_dir_of(options)) {
     read_header();
     read_vertices();
     start_ = text_.mark();

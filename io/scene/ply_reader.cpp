@@ -39,7 +39,10 @@ template <class Cursor>
 class PlySource final : public PolygonSource {
  public:
   PlySource(const SceneFilePtr& file, const SceneOptions& options, PlyHeader header)
-      : header_(std::move(header)), has_colors_(options.colors && ply_has_colors(header_)), cursor_(file, header_) {
+      : PolygonSource(options),
+        header_(std::move(header)),
+        has_colors_(options.colors && ply_has_colors(header_)),
+        cursor_(file, header_) {
     find_parts(file, options);
     rewind_faces();
   }

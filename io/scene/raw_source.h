@@ -2,6 +2,7 @@
 #include "io/scene/affine.h"
 #include "io/scene/scene_file.h"
 #include "io/scene/scene_reader.h"
+#include "lib/exact/polygon_cut.h"
 
 /// What each format implements: triangles as they stand in the file, nothing dropped but faces that name no corners.
 namespace bp {
@@ -68,10 +69,65 @@ class RawSource {
 };
 using RawSourcePtr = std::unique_ptr<RawSource>;
 
-/// Formats whose faces are lists of vertex numbers. A format gives faces and vertices; fans and checks are here.
+/// The triangles of the polygon that was cut last, out of the places of its corners or of their number alone.
+class FaceTriangles {
+ public:
+  /// fans: as SceneOptions::fans.
+  explicit FaceTriangles(bool fans) : fans_(fans), places_(4) {}
+
+  /// place(k): of corner k of n, at least 3.
+  template <class Place>
+  void cut(std::size_t n, const Place& place) {
+    corners_ = n;
+    triangles_ = {};
+    held_ = n > 3 && n <= PolygonCutter::kMostCorners && !fans_;
+    if (!held_) return;
+    if (n == 4) {  // most polygons
+      const Vec3d a = place(0), b = place(1), c = place(2), d = place(3);
+      places_[0] = a, places_[1] = b, places_[2] = c, places_[3] = d;
+      if (is_surely_fan(a, b, c, d)) return;
+    } else {
+      if (n > places_.size()) places_.resize(n);
+      for (std::size_t k = 0; k < n; ++k) places_[k] = place(k);
+    }
+    triangles_ = cutter_.cut(std::span(places_).first(n));
+  }
+  [[nodiscard]] std::size_t triangles() const { return corners_ - 2; }
+  [[nodiscard]] CutTriangle operator[](std::size_t i) const {
+    return triangles_.empty() ? fan_triangle(i) : triangles_[i];
+  }
+  /// Of triangle i, for TriangleSource::read_faces().
+  [[nodiscard]] std::uint8_t inner_edges(std::size_t i) const {
+    const bool first = i == 0, last = i + 3 == corners_;
+    const int bits = (first ? 0 : kSamePolygonBefore) | (last ? 0 : kSamePolygonAfter);
+    if (triangles_.empty()) return std::uint8_t(bits | (first ? 0 : 1) | (last ? 0 : 4));
+    const auto [a, b, c] = triangles_[i];
+    return std::uint8_t(bits | (follows(a, b) ? 0 : 1) | (follows(b, c) ? 0 : 2) | (follows(c, a) ? 0 : 4));
+  }
+  /// place: as for cut(), for corners that are not kept here.
+  template <class Place>
+  [[nodiscard]] TriangleD places(const CutTriangle& t, const Place& place) const {
+    if (!held_) return {place(t[0]), place(t[1]), place(t[2])};
+    return {places_[t[0]], places_[t[1]], places_[t[2]]};
+  }
+
+ private:
+  [[nodiscard]] bool follows(std::uint32_t a, std::uint32_t b) const { return b == (a + 1 == corners_ ? 0 : a + 1); }
+
+  const bool fans_;
+  PolygonCutter cutter_;
+  std::size_t corners_ = 2;
+  bool held_ = false;                       // places_ are those of the polygon
+  std::vector<Vec3d> places_;               // at least as many as it has corners
+  std::span<const CutTriangle> triangles_;  // empty: the fan
+};
+
+/// Formats whose faces are lists of vertex numbers. A format gives faces and vertices; they are checked and cut here.
 class PolygonSource : public RawSource {
  public:
   static constexpr std::size_t kMaxCorners = std::size_t(1) << 20;  ///< of a face; more is taken for a broken file
+
+  explicit PolygonSource(const SceneOptions& options) : cut_(options.fans) {}
 
   bool read(std::vector<TriangleD>& out) final { return read(out, nullptr, nullptr); }
   bool read_colored(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors) final {
@@ -100,18 +156,14 @@ class PolygonSource : public RawSource {
  private:
   /// `rest`: for textures, if it asks for them, and inner edges.
   bool read(std::vector<TriangleD>& out, std::vector<TriangleColors>* colors, RawBatch* rest);
-  void add_rest(RawBatch& rest, std::size_t triangle);
+  bool open_face();
+  void add_rest(RawBatch& rest, std::size_t triangle, const CutTriangle& corners);
   [[nodiscard]] bool good_face() const;
 
   std::vector<std::uint64_t> corners_;
-  std::size_t fan_ = 0;  // next corner to close a triangle of the fan; 0: no face is open
-  Vec3d first_{}, previous_{};
+  FaceTriangles cut_;
+  std::size_t next_ = 0, end_ = 0;  // triangles of the open face
 };
-
-/// Of triangle i of the n that a polygon is cut into as a fan.
-[[nodiscard]] inline std::uint8_t inner_edges_of_fan(std::size_t i, std::size_t n) {
-  return std::uint8_t((i > 0 ? 1 : 0) | (i + 1 < n ? 4 : 0));
-}
 
 /// As open_scene().
 [[nodiscard]] std::unique_ptr<TriangleSource> filtered(std::string name, RawSourcePtr raw, const SceneOptions& options);

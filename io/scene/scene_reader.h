@@ -25,8 +25,7 @@ class TextureTable;
 ///   - Coordinates are doubles from the file to the caller; node transforms are composed in double.
 ///   - Below 1e-90 in magnitude a coordinate is read as 0: exact predicates need the range (keep_extremes). A large one
 ///     stays, however large: what is finite is not left out. -0 is read as 0.
-///   - Polygons become fans. The fan of a polygon that is not convex still covers it (its signed sum is the polygon),
-///     so what encloses the fan encloses the polygon.
+///   - Polygons become triangles as PolygonCutter says: the fan from the first corner, unless that folds.
 ///   - A mesh used by many nodes is streamed through each transform; mirrored transforms keep the outside outside.
 ///   - Colours, if SceneOptions::colors asks for them: base colour factors times COLOR_0 of glTF, both linear; Kd of
 ///   MTL
@@ -63,6 +62,8 @@ struct SceneOptions {
   /// Deliver triangles of no area, too: segments and points, which take no part in a surface but have a place. Whatever
   /// encloses a scene, or checks that, asks for them.
   bool keep_degenerate = false;
+  /// Cut every polygon into its fan, whatever its shape: a cage that moves keeps its triangles.
+  bool fans = false;
   bool walls_only = false;  ///< leave out what can be seen through, see below; not counted
   /// Coordinates below the range of the exact predicates stay as they are: for proofs, which must not move a vertex.
   bool keep_extremes = false;

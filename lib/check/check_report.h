@@ -91,8 +91,8 @@ struct CheckReport {
   Finding touching;                   ///< index: scene triangle, other: proxy triangle that it touches or crosses
   Finding outside;                    ///< index: scene triangle that touches nothing and has winding number < 1
   Finding undecidable_scene;          ///< index: scene triangle outside the domain of exact predicates
-  std::uint64_t bent = 0;             ///< polygons of the scene that are not flat, each tested as its fan
-  std::uint64_t bent_open = 0;        ///< those that are not proven to be enclosed over other diagonals, too
+  std::uint64_t bent = 0;       ///< polygons of the scene that are not flat, tested as the triangles that were read
+  std::uint64_t bent_open = 0;  ///< those that are not proven to be enclosed over other diagonals, too
 
   // What was rounded as it was read (lib/core/triangle_source.h, detail/gap.h).
   double proxy_off = 0;     ///< a point of the proxy may be off by so much, scene units

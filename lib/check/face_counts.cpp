@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "lib/check/counted.h"
+#include "lib/core/triangle_source.h"
 
 namespace bp {
 
@@ -15,15 +16,15 @@ void FaceCounts::add(std::span<const std::uint8_t> inner_edges, std::uint64_t pl
   cut += inner_edges.size() + plain;
   // A face is counted by the triangles seen of it, and anew with each further one: no end needs to be awaited.
   for (const std::uint8_t edges : inner_edges) {
-    const bool goes_on = (edges & kToPrevious) != 0 && fan_ > 0;
-    if (goes_on) count(fan_, -1);
-    const std::uint64_t seen = goes_on ? fan_ + 1 : 1;
+    const bool goes_on = (edges & kSamePolygonBefore) != 0 && open_ > 0;
+    if (goes_on) count(open_, -1);
+    const std::uint64_t seen = goes_on ? open_ + 1 : 1;
     count(seen, 1);
-    fan_ = (edges & kToNext) != 0 ? seen : 0;
+    open_ = (edges & kSamePolygonAfter) != 0 ? seen : 0;
   }
   if (plain == 0) return;
   triangles += plain;
-  fan_ = 0;
+  open_ = 0;
 }
 
 std::string FaceCounts::text() const {

@@ -6,9 +6,6 @@
 /// How many polygons a mesh's triangles were cut from.
 namespace bp {
 
-/// Bits of TriangleSource::read_faces(): the edges that the triangles of a polygon's fan share.
-inline constexpr std::uint8_t kToPrevious = 1, kToNext = 4;
-
 /// Fed with TriangleSource::read_faces(), batch after batch. Parts of a polygon that a reader skipped are not seen:
 /// what is left of it counts as a polygon of fewer corners.
 class FaceCounts {
@@ -25,7 +22,7 @@ class FaceCounts {
   [[nodiscard]] std::string text() const;
 
  private:
-  std::uint64_t fan_ = 0;  ///< triangles so far of the face that the last triangle belongs to
+  std::uint64_t open_ = 0;  ///< triangles so far of the face that the last triangle belongs to
   void count(std::uint64_t triangles_of_face, int by);
 };
 

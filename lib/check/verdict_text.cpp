@@ -99,10 +99,10 @@ std::string scene_lines(const CheckReport& r) {
         "  {} without area: {}\n", bp::counted(c.kept_degenerate, "triangle"),
         r.wants_inside ? "counted for whether the scene is closed, and no more" : "checked as segments or points");
   if (r.bent > 0)
-    text += fmt::format("  {} not flat, and proven as the {} read; {} of them {} proven over other diagonals, too\n",
-                        r.bent == 1 ? "1 polygon is" : fmt::format("{} polygons are", r.bent),
-                        r.bent == 1 ? "fan that was" : "fans that were", r.bent - r.bent_open,
-                        r.bent - r.bent_open == 1 ? "is" : "are");
+    text += fmt::format(
+        "  {} not flat, and proven as the triangles that were read; {} of them {} proven over other diagonals, too\n",
+        r.bent == 1 ? "1 polygon is" : fmt::format("{} polygons are", r.bent), r.bent - r.bent_open,
+        r.bent - r.bent_open == 1 ? "is" : "are");
   if (c.animations > 0)
     text += "  " + bp::counted(c.animations, "animation") + " not followed: this is the scene before it moves\n";
   return text;

@@ -93,12 +93,16 @@ struct SceneCounts {
   [[nodiscard]] bool is_partial() const { return non_finite + bad_faces + differing > 0 || unfollowed.any(); }
 };
 
+/// Bits of TriangleSource::read_faces(): the triangle before, or after, is of the same polygon.
+inline constexpr std::uint8_t kSamePolygonBefore = 8, kSamePolygonAfter = 16;
+
 class TriangleSource {
  public:
   virtual ~TriangleSource() = default;
 
   /// Replaces `out` by the next triangles (at most some tens of thousands). False, and `out` empty, at the end.
-  /// Polygons arrive as triangle fans. Throws bad_input with file, place and remedy if the scene is broken.
+  /// Polygons arrive as their triangles, one after the other (PolygonCutter). Throws bad_input with file, place and
+  /// remedy if the scene is broken.
   virtual bool read(std::vector<TriangleD>& out) = 0;
 
   /// As read(), with the colours of each triangle's corners: white where the scene says nothing. From one rewind() to
@@ -116,7 +120,8 @@ class TriangleSource {
     return more;
   }
   /// As read_colored(), and for each triangle its inner edges, within a polygon that it is a part of: bit k stands for
-  /// the edge from corner k to the next. For pictures; sources that know of none say none.
+  /// the edge from corner k to the next, and kSamePolygonBefore and -After tell which triangles are of one polygon.
+  /// Sources that know of no polygons say 0.
   virtual bool read_faces(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors,
                           std::vector<std::uint8_t>& inner_edges) {
     const bool more = read_colored(out, colors);

@@ -20,44 +20,48 @@ bool PolygonSource::read(std::vector<TriangleD>& out, std::vector<TriangleColors
   out.clear();
   if (colors != nullptr) colors->clear();
   while (out.size() < kBatch) {
-    if (fan_ == 0) {
-      if (!next_face(corners_)) break;
-      if (!good_face()) {
-        ++bad_faces_;
-        continue;
-      }
-      first_ = vertex(corners_[0]);
-      previous_ = vertex(corners_[1]);
-      fan_ = 2;
+    if (next_ == end_ && !open_face()) break;
+    for (; next_ < end_ && out.size() < kBatch; ++next_) {
+      const CutTriangle t = cut_[next_];
+      out.push_back(cut_.places(t, [&](std::size_t k) { return vertex(corners_[k]); }));
+      if (colors != nullptr)
+        colors->push_back({corner_color(corners_[t[0]]), corner_color(corners_[t[1]]), corner_color(corners_[t[2]])});
+      if (rest != nullptr) add_rest(*rest, out.size() - 1, t);
     }
-    const Vec3d next = vertex(corners_[fan_]);
-    out.push_back({first_, previous_, next});
-    if (colors != nullptr)
-      colors->push_back({corner_color(corners_[0]), corner_color(corners_[fan_ - 1]), corner_color(corners_[fan_])});
-    if (rest != nullptr) add_rest(*rest, out.size() - 1);
-    previous_ = next;
-    if (++fan_ == corners_.size()) fan_ = 0;
   }
   return !out.empty();
 }
 
-void PolygonSource::add_rest(RawBatch& rest, std::size_t triangle) {
+/// The next good face; false at the end.
+bool PolygonSource::open_face() {
+  for (; next_face(corners_); ++bad_faces_) {
+    if (!good_face()) continue;
+    cut_.cut(corners_.size(), [&](std::size_t k) { return vertex(corners_[k]); });
+    next_ = 0;
+    end_ = cut_.triangles();
+    return true;
+  }
+  return false;
+}
+
+void PolygonSource::add_rest(RawBatch& rest, std::size_t triangle, const CutTriangle& corners) {
   if (corners_.size() > 3) {
     rest.inner_edges.resize(triangle + 1);
-    rest.inner_edges.back() = inner_edges_of_fan(fan_ - 2, corners_.size() - 2);
+    rest.inner_edges.back() = cut_.inner_edges(next_);
   }
   if (!rest.textured) return;
   TriangleTexture t;
   t.material = face_material();
-  t.normals = {corner_normal(0), corner_normal(fan_ - 1), corner_normal(fan_)};
+  t.normals = {corner_normal(corners[0]), corner_normal(corners[1]), corner_normal(corners[2])};
   if (t.material == TriangleTexture::kNoMaterial && t.normals[0] == 0) return;
-  if (t.material != TriangleTexture::kNoMaterial) t.uv = {corner_uv(0), corner_uv(fan_ - 1), corner_uv(fan_)};
+  if (t.material != TriangleTexture::kNoMaterial)
+    t.uv = {corner_uv(corners[0]), corner_uv(corners[1]), corner_uv(corners[2])};
   rest.textures.resize(triangle + 1);
   rest.textures.back() = t;
 }
 
 void PolygonSource::rewind() {
-  fan_ = 0;
+  next_ = end_ = 0;
   bad_faces_ = 0;
   rewind_faces();
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <span>
 
 #include "lib/check/detail/gap.h"
 #include "lib/core/parallel.h"
@@ -30,7 +31,7 @@ class Batcher {
   explicit Batcher(TriangleSource& source) : source_(source) {}
   bool next(EnclosureBatch& batch) {
     batch.first = count_;
-    while ((batch.triangles.size() < kBatch || (batch.inner_edges.back() & kToNext) != 0) && refill()) {
+    while ((batch.triangles.size() < kBatch || (batch.inner_edges.back() & kSamePolygonAfter) != 0) && refill()) {
       const std::size_t room = batch.triangles.size() < kBatch ? kBatch - batch.triangles.size() : 1;
       const std::size_t n = std::min(room, read_.size() - used_);
       const auto begin = std::ptrdiff_t(used_), end = begin + std::ptrdiff_t(n);
@@ -113,7 +114,22 @@ void check_gap(const WeldedMesh& mesh, const Surface& surface, const EnclosureQu
   (gap.answer == Answer::refuted ? e.too_near : e.perhaps_near).add({number, other, centre(t)}, question.max_examples);
 }
 
-/// Polygons that are not flat. A program may draw a quad over its other diagonal; of larger ones nothing is looked for.
+/// Whether all triangles of a polygon lie in one plane. What is not finite lies in none.
+bool is_flat(std::span<const TriangleD> polygon) {
+  if (!std::all_of(polygon.begin(), polygon.end(), all_finite)) return false;
+  const auto plane =
+      std::find_if(polygon.begin(), polygon.end(), [](const TriangleD& t) { return !collinear(t[0], t[1], t[2]); });
+  if (plane == polygon.end()) return true;
+  const TriangleD& a = *plane;
+  const auto is_in_plane = [&](const Vec3d& p) {
+    return p == a[0] || p == a[1] || p == a[2] || orient3d(a[0], a[1], a[2], p) == 0;
+  };
+  return std::all_of(polygon.begin(), polygon.end(),
+                     [&](const TriangleD& t) { return std::all_of(t.begin(), t.end(), is_in_plane); });
+}
+
+/// Polygons that are not flat. A quad is read as the fan from its first or its second corner. A program may draw a quad
+/// over its other diagonal; of larger ones nothing is looked for.
 void check_polygons(const Surface& surface, const EnclosureQuestion& question, const EnclosureBatch& batch,
                     EnclosureReport& e) {
   SideCache cache;
@@ -121,19 +137,16 @@ void check_polygons(const Surface& surface, const EnclosureQuestion& question, c
     return surface.touched_by(t) == Surface::kNone && question.decide_sides && winding_of(t, surface, cache) >= 1;
   };
   for (std::size_t begin = 0, end = 0; begin < batch.triangles.size(); begin = end) {
-    bool bent = false, finite = all_finite(batch.triangles[begin]);
-    for (end = begin + 1; end < batch.triangles.size() && (batch.inner_edges[end - 1] & kToNext) != 0 &&
-                          (batch.inner_edges[end] & kToPrevious) != 0;
-         ++end) {
-      const TriangleD &t = batch.triangles[end - 1], &next = batch.triangles[end];
-      finite = finite && all_finite(next);
-      bent = bent || !finite || orient3d(t[0], t[1], t[2], next[2]) != 0;
-    }
-    if (!bent) continue;
+    end = begin + 1;
+    while (end < batch.triangles.size() && (batch.inner_edges[end - 1] & kSamePolygonAfter) != 0 &&
+           (batch.inner_edges[end] & kSamePolygonBefore) != 0)
+      ++end;
+    const auto polygon = std::span(batch.triangles).subspan(begin, end - begin);
+    if (polygon.size() == 1 || is_flat(polygon)) continue;
     ++e.bent;
-    const TriangleD &t = batch.triangles[begin], &last = batch.triangles[end - 1];
-    const bool both =
-        finite && end - begin == 2 && is_enclosed({t[0], t[1], last[2]}) && is_enclosed({t[1], t[2], last[2]});
+    const TriangleD &t = polygon.front(), &last = polygon.back();
+    const bool both = polygon.size() == 2 && all_finite(t) && all_finite(last) && is_enclosed({t[0], t[1], last[2]}) &&
+                      is_enclosed({t[1], t[2], last[2]});
     if (!both) ++e.bent_open;
   }
 }

@@ -1,9 +1,13 @@
 #include "lib/check/face_counts.h"
+#include "lib/core/triangle_source.h"
 #include "tests/catch.h"
 
 using namespace bp;
 
 namespace {
+
+/// Triangles of a polygon.
+constexpr std::uint8_t kFirst = kSamePolygonAfter, kLast = kSamePolygonBefore, kInner = kFirst | kLast;
 
 FaceCounts counted(const std::vector<std::uint8_t>& inner_edges, std::uint64_t plain = 0) {
   FaceCounts faces;
@@ -15,7 +19,7 @@ FaceCounts counted(const std::vector<std::uint8_t>& inner_edges, std::uint64_t p
 
 TEST_CASE("faces are counted by the triangles that they were cut into", "[quick][core]") {
   // A triangle, two quads, a pentagon, a triangle; then three more without inner edges.
-  const std::vector<std::uint8_t> edges{0, 4, 1, 4, 1, 4, 5, 1, 0};
+  const std::vector<std::uint8_t> edges{0, kFirst, kLast, kFirst, kLast, kFirst, kInner, kLast, 0};
   const FaceCounts faces = counted(edges, 3);
   CHECK(faces.triangles == 5);
   CHECK(faces.quads == 2);
@@ -30,17 +34,19 @@ TEST_CASE("faces are counted by the triangles that they were cut into", "[quick]
 }
 
 TEST_CASE("what is left of a face without its skipped triangles counts as a smaller one", "[quick][core]") {
-  const FaceCounts faces = counted({4, 4, 1, 1, 4, 5, 4, 5, 1});  // half, quad, half, two thirds, pentagon
+  const FaceCounts faces = counted(
+      {kFirst, kFirst, kLast, kLast, kFirst, kInner, kFirst, kInner, kLast});  // half, quad, half, two thirds, pentagon
   CHECK(faces.triangles == 2);
   CHECK(faces.quads == 2);
   CHECK(faces.polygons == 1);
-  CHECK(counted({4}, 1).triangles == 2);  // the next mesh does not go on with a face of the last one
+  CHECK(counted({kFirst}, 1).triangles == 2);  // the next mesh does not go on with a face of the last one
 }
 
 TEST_CASE("faces are told in words, triangles always", "[quick][core]") {
   CHECK(counted({}).text() == "0 triangles");
   CHECK(counted({0, 0}).text() == "2 triangles");
-  CHECK(counted({4, 1, 4, 1}).text() == "2 quads, 4 triangles");
-  CHECK(counted({4, 1, 0}).text() == "1 quad and 1 triangle, 3 triangles when cut");
-  CHECK(counted({4, 5, 1, 4, 1, 0}).text() == "1 larger polygon and 1 quad and 1 triangle, 6 triangles when cut");
+  CHECK(counted({kFirst, kLast, kFirst, kLast}).text() == "2 quads, 4 triangles");
+  CHECK(counted({kFirst, kLast, 0}).text() == "1 quad and 1 triangle, 3 triangles when cut");
+  CHECK(counted({kFirst, kInner, kLast, kFirst, kLast, 0}).text() ==
+        "1 larger polygon and 1 quad and 1 triangle, 6 triangles when cut");
 }

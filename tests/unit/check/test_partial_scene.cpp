@@ -34,7 +34,8 @@ class FanSource final : public VectorSource {
     inner_edges.clear();
     for (std::size_t i = 0; i < out.size(); ++i, ++next_) {
       const std::size_t part = next_ % parts_;
-      inner_edges.push_back(std::uint8_t((part > 0 ? 1 : 0) | (part + 1 < parts_ ? 4 : 0)));
+      inner_edges.push_back(
+          std::uint8_t((part > 0 ? kSamePolygonBefore : 0) | (part + 1 < parts_ ? kSamePolygonAfter : 0)));
     }
     return more;
   }

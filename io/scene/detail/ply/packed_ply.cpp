@@ -95,7 +95,11 @@ std::optional<Layout> layout_of(const PlyHeader& header, std::uint64_t file_byte
 class PackedPly final : public RawSource {
  public:
   PackedPly(SceneFilePtr file, const SceneOptions& options, const Layout& layout)
-      : file_(std::move(file)), budget_(options.memory_bytes), layout_(layout), at_(layout.faces) {}
+      : file_(std::move(file)),
+        budget_(options.memory_bytes),
+        fans_(options.fans),
+        layout_(layout),
+        at_(layout.faces) {}
 
   [[nodiscard]] std::uint64_t points() const override { return layout_.vertex_count; }
 
@@ -195,12 +199,13 @@ class PackedPly final : public RawSource {
     return first_bytes;
   }
 
-  /// Fans, as PolygonSource makes them.
+  /// As PolygonSource makes them.
   template <class Index, class Vertex>
   void expand(RawBatch& batch, const Index& index, const Vertex& vertex) const {
     const std::size_t count_bytes = bytes_of(layout_.count_type), index_bytes = bytes_of(layout_.index_type);
     const std::uint64_t limit = layout_.vertex_count;
     const std::byte* at = batch.bytes.data();
+    FaceTriangles cut(fans_);
     for (std::uint64_t r = 0; r < batch.records; ++r) {
       at += layout_.before;
       const auto n = std::size_t(corners_at(at));
@@ -212,16 +217,17 @@ class PackedPly final : public RawSource {
         ++batch.bad_faces;
         continue;
       }
-      const Vec3d first = vertex(index(list));
-      Vec3d previous = vertex(index(list + index_bytes));
-      for (std::size_t i = 2; i < n; ++i) {
-        const Vec3d next = vertex(index(list + i * index_bytes));
-        batch.triangles.push_back({first, previous, next});
-        previous = next;
+      const auto place = [&](std::size_t k) { return vertex(index(list + k * index_bytes)); };
+      if (n == 3) {
+        batch.triangles.push_back({place(0), place(1), place(2)});
+        continue;
       }
-      if (n == 3) continue;
-      batch.inner_edges.resize(batch.triangles.size() - (n - 2));
-      for (std::size_t i = 0; i < n - 2; ++i) batch.inner_edges.push_back(inner_edges_of_fan(i, n - 2));
+      cut.cut(n, place);
+      batch.inner_edges.resize(batch.triangles.size());
+      for (std::size_t i = 0; i < cut.triangles(); ++i) {
+        batch.triangles.push_back(cut.places(cut[i], place));
+        batch.inner_edges.push_back(cut.inner_edges(i));
+      }
     }
   }
 
@@ -255,6 +261,7 @@ class PackedPly final : public RawSource {
 
   const SceneFilePtr file_;
   const std::uint64_t budget_;
+  const bool fans_;
   const Layout layout_;
   std::uint64_t at_, record_ = 0;      // of the next face
   std::unique_ptr<std::byte[]> held_;  // records of all vertices

@@ -203,12 +203,13 @@ TEST_CASE("edges within a polygon are told from its own, whatever is skipped", "
   const std::string obj = dir.file("a.obj",
                                    "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 2 0\nf 1 2 3\nf 1 2 3 4\nf 1 2 3 5 4\n"
                                    "f 2 3 4\n");
-  const std::vector<std::uint8_t> kept{0, 4, 1, 4, 1, 0};
+  const std::vector<std::uint8_t> kept{0, 4 + 16, 1 + 8, 4 + 16, 1 + 8, 0};
   CHECK(read_inner_edges(*open_scene(obj)) == kept);
   std::vector<std::uint8_t> both = kept;
   both.insert(both.end(), kept.begin(), kept.end());
   CHECK(read_inner_edges(*open_scenes({obj, obj})) == both);
-  CHECK(read_mesh(obj).inner_edges == std::vector<std::uint8_t>{0, 4, 1, 4, 5, 1});  // all triangles; the last has none
+  CHECK(read_mesh(obj).inner_edges ==
+        std::vector<std::uint8_t>{0, 20, 9, 20, 29, 9});  // all triangles; the last has none
   CHECK(read_mesh(dir.file("b.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n")).inner_edges.empty());
 }
 
