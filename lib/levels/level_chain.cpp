@@ -28,8 +28,17 @@ bool is_coarser(const LodLevel& level, const LodLevel& before, double diagonal) 
   return !(level.error_world > diagonal);  // beyond it, the scene is a point where the level would be drawn
 }
 
-double volume_of(const LodLevel& level) {
-  return level.counts.levels.front().measures.volume;
+/// Whether the target of a level follows from the first level, not from a list.
+bool follows(const ChainRange& range, std::size_t i, const LodTarget& target) {
+  return i > 0 && target.error_world == 0 && range.first + i >= range.request.faces.size();
+}
+
+/// first_faces: of a first level that fell short, from which the others follow; else 0.
+LodTarget target_of(const ChainRange& range, std::size_t i, std::uint64_t dense_faces, std::uint64_t first_faces) {
+  LodTarget target = level_target(range.request, range.first + i, range.first, dense_faces);
+  target.keep_voxels = range.keep_voxels && i == 0;
+  if (first_faces > 0 && follows(range, i, target)) target.faces = following(first_faces, i);
+  return target;
 }
 
 /// A level that was made, until the next one tells whether it is worth having.
@@ -65,22 +74,20 @@ LevelFacts facts_of(const LodLevel& level, const LodTarget& target) {
 }
 
 MadeLevels make_levels(LodChain& chain, const ChainRange& range, const LevelSteps& steps) {
-  const LevelRequest& request = range.request;
+  const bool is_chosen = range.request.is_chosen;
   MadeLevels made;
   std::optional<Waiting> before;
-  std::uint64_t first_faces = 0;  // above 0: the first level fell short, and the others follow from it
+  std::uint64_t first_faces = 0;  // above 0: the first level fell short
   const auto keep = [&](Waiting& w) {
     steps.complete(w.level, range.first + made.levels.size(), w.target);
     made.facts.push_back(facts_of(w.level, w.target));
     made.levels.push_back(std::move(w.level));
   };
   for (std::size_t i = 0; i < range.count; ++i) {
-    LodTarget target = level_target(request, range.first + i, range.first, chain.dense_faces());
-    target.keep_voxels = range.keep_voxels && i == 0;
-    const bool follows = target.error_world == 0 && range.first + i >= request.faces.size() && i > 0;
-    if (follows && first_faces > 0) target.faces = following(first_faces, i);
-    if (follows && target.faces >= before->level.mesh.triangles.size()) {
-      made.left_out.push_back({target, before->level.mesh.triangles.size()});
+    const LodTarget target = target_of(range, i, chain.dense_faces(), first_faces);
+    const std::uint64_t faces_before = before ? before->level.mesh.triangles.size() : 0;
+    if (follows(range, i, target) && target.faces >= faces_before) {
+      made.left_out.push_back({target, faces_before});
       continue;
     }
     steps.begin("level " + std::to_string(range.first + i));
@@ -88,17 +95,16 @@ MadeLevels make_levels(LodChain& chain, const ChainRange& range, const LevelStep
     const std::uint64_t faces = now.level.mesh.triangles.size();
     if (i == 0 && falls_short(now.level, target)) first_faces = faces;
     if (before) {
-      const std::uint64_t faces_before = before->level.mesh.triangles.size();
       if (!is_coarser(now.level, before->level, range.diagonal)) {
         made.left_out.push_back({target, faces_before, faces, now.level.error_world});
         continue;
       }
       const double ratio = volume_of(now.level) / volume_of(before->level);
-      if (request.is_chosen && ratio > kCrumpled) {
+      if (is_chosen && ratio > kCrumpled) {
         made.left_out.push_back({target, faces_before, faces, now.level.error_world, 0, ratio});
         break;
       }
-      if (request.is_chosen && before->level.error_world * kWorthHaving > now.level.error_world) {
+      if (is_chosen && before->level.error_world * kWorthHaving > now.level.error_world) {
         made.left_out.push_back({before->target, 0, faces_before, before->level.error_world, faces});
       } else {
         now.level.error_world = std::max(now.level.error_world, before->level.error_world);

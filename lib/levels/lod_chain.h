@@ -83,6 +83,11 @@ struct LodLevel {
   MeshCounts counts;
 };
 
+/// What a level holds, scene units cubed.
+[[nodiscard]] inline double volume_of(const LodLevel& level) {
+  return level.counts.levels.front().measures.volume;
+}
+
 class LodChain {
  public:
   /// `solid` holds the bricks of `header`, a solid layer. Keeps references to `backends`.

@@ -13,10 +13,6 @@ namespace {
 constexpr std::uint64_t kFew = 32;  // with more, the way that keeps near the scene is nearest as a rule
 constexpr double kClearlyNearer = 0.9;
 
-double volume_of(const LodLevel& level) {
-  return level.counts.levels.front().measures.volume;
-}
-
 }  // namespace
 
 bool is_of_few_faces(const LodTarget& target) {

@@ -22,7 +22,7 @@ constexpr double kStep = 2;
 /// Lattice units that are tried for a step. Folds of a scan are often smaller than the longer one, and vanish.
 constexpr std::array<double, 2> kUnits{1, 4};
 constexpr double kFarthest = 2 * kLatticePerVoxel;  // of a vertex; sharp tips move far
-constexpr std::int64_t kGrain = 256;
+constexpr std::int64_t kVerticesAtOnce = 256;
 
 /// A closed mesh on the lattice whose vertices are fans: where two fans touch in a place, the place has two vertices.
 struct Fans {
@@ -141,7 +141,7 @@ LatticeMesh moved_outwards(const Fans& fans, const GridFrame& frame, double dist
   mesh.frame = frame;
   mesh.vertices = fans.places;
   mesh.triangles = fans.triangles;
-  parallel_ranges(std::int64_t(mesh.vertices.size()), kGrain, [&](std::int64_t begin, std::int64_t end) {
+  parallel_ranges(std::int64_t(mesh.vertices.size()), kVerticesAtOnce, [&](std::int64_t begin, std::int64_t end) {
     for (auto v = VertexId(begin); v < VertexId(end); ++v) {
       Planes planes;
       before.for_each_outgoing(v, [&](HalfEdgeId h) { add_plane(before, HalfEdgeMesh::face(h), distance, planes); });

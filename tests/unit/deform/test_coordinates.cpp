@@ -217,8 +217,9 @@ TEST_CASE("maximum likelihood coordinates are not negative inside, and those of 
       for (const double w : found.weights) REQUIRE(w > -1e-9);
     }
   }
-  const IndexedMesh corner{
-      {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}, {}, {}};
+  IndexedMesh corner;
+  corner.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  corner.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
   for (const CoordinateKind kind : {CoordinateKind::mean_value, CoordinateKind::maximum_likelihood}) {
     const Probe found = probe(CageCoordinates(make_cage(corner, "corner"), kind), {0.1, 0.2, 0.3});
     for (std::size_t v = 0; v < 4; ++v) CHECK(std::abs(found.weights[v] - std::array{0.4, 0.1, 0.2, 0.3}[v]) < 1e-9);
