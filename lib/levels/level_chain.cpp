@@ -47,6 +47,16 @@ struct Waiting {
   LodTarget target;
 };
 
+/// Why a level is left out that follows `before`; faces 0: it is not.
+LeftOut not_worth_having(const Waiting& now, const LodLevel& before, const ChainRange& range) {
+  const LodLevel& level = now.level;
+  LeftOut reason{now.target, before.mesh.triangles.size(), level.mesh.triangles.size(), level.error_world};
+  if (!is_coarser(level, before, range.diagonal)) return reason;
+  reason.volume_ratio = volume_of(level) / volume_of(before);
+  if (range.request.is_chosen && reason.volume_ratio > kCrumpled) return reason;
+  return {};
+}
+
 }  // namespace
 
 void put_solid(VoxelizedScene& scene, std::unique_ptr<BrickShelf> solid) {
@@ -74,7 +84,6 @@ LevelFacts facts_of(const LodLevel& level, const LodTarget& target) {
 }
 
 MadeLevels make_levels(LodChain& chain, const ChainRange& range, const LevelSteps& steps) {
-  const bool is_chosen = range.request.is_chosen;
   MadeLevels made;
   std::optional<Waiting> before;
   std::uint64_t first_faces = 0;  // above 0: the first level fell short
@@ -92,20 +101,15 @@ MadeLevels make_levels(LodChain& chain, const ChainRange& range, const LevelStep
     }
     steps.begin("level " + std::to_string(range.first + i));
     Waiting now{chain.make(target), target};
-    const std::uint64_t faces = now.level.mesh.triangles.size();
-    if (i == 0 && falls_short(now.level, target)) first_faces = faces;
+    if (i == 0 && falls_short(now.level, target)) first_faces = now.level.mesh.triangles.size();
     if (before) {
-      if (!is_coarser(now.level, before->level, range.diagonal)) {
-        made.left_out.push_back({target, faces_before, faces, now.level.error_world});
-        continue;
-      }
-      const double ratio = volume_of(now.level) / volume_of(before->level);
-      if (is_chosen && ratio > kCrumpled) {
-        made.left_out.push_back({target, faces_before, faces, now.level.error_world, 0, ratio});
-        break;
-      }
-      if (is_chosen && before->level.error_world * kWorthHaving > now.level.error_world) {
-        made.left_out.push_back({before->target, 0, faces_before, before->level.error_world, faces});
+      const LeftOut reason = not_worth_having(now, before->level, range);
+      if (reason.faces > 0) made.left_out.push_back(reason);
+      if (reason.volume_ratio > 0) break;
+      if (reason.faces > 0) continue;
+      if (range.request.is_chosen && before->level.error_world * kWorthHaving > now.level.error_world) {
+        made.left_out.push_back(
+            {before->target, 0, faces_before, before->level.error_world, now.level.mesh.triangles.size()});
       } else {
         now.level.error_world = std::max(now.level.error_world, before->level.error_world);
         keep(*before);
