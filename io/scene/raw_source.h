@@ -96,7 +96,7 @@ class FaceTriangles {
   [[nodiscard]] CutTriangle operator[](std::size_t i) const {
     return triangles_.empty() ? fan_triangle(i) : triangles_[i];
   }
-  /// Of triangle i, for TriangleSource::read_faces().
+  /// The bits of triangle i for TriangleSource::read_faces().
   [[nodiscard]] std::uint8_t inner_edges(std::size_t i) const {
     const bool first = i == 0, last = i + 3 == corners_;
     const int bits = (first ? 0 : kSamePolygonBefore) | (last ? 0 : kSamePolygonAfter);

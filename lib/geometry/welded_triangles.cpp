@@ -1,9 +1,21 @@
 #include "lib/geometry/welded_triangles.h"
 
 #include <algorithm>
+#include <compare>
 #include <numeric>
 
 namespace bp {
+
+namespace {
+
+/// The halves of an edge follow each other in the order of these.
+struct EdgeSide {
+  std::uint32_t low, high, half_edge;
+  bool up;
+  auto operator<=>(const EdgeSide&) const = default;
+};
+
+}  // namespace
 
 WeldedTriangles welded(std::span<const TriangleD> triangles) {
   std::vector<std::uint32_t> order(3 * triangles.size());
@@ -17,6 +29,24 @@ WeldedTriangles welded(std::span<const TriangleD> triangles) {
     mesh.triangles[i / 3][i % 3] = std::uint32_t(mesh.places.size() - 1);
   }
   return mesh;
+}
+
+std::vector<std::uint32_t> twins_of(std::span<const std::array<std::uint32_t, 3>> triangles) {
+  std::vector<EdgeSide> sides;
+  sides.reserve(3 * triangles.size());
+  for (std::uint32_t h = 0; h < 3 * triangles.size(); ++h) {
+    const std::uint32_t a = triangles[h / 3][h % 3], b = triangles[h / 3][(h + 1) % 3];
+    if (a != b) sides.push_back({std::min(a, b), std::max(a, b), h, a < b});
+  }
+  std::sort(sides.begin(), sides.end());
+  std::vector<std::uint32_t> twins(3 * triangles.size(), kNoTwin);
+  for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
+    for (end = i + 1; end < sides.size() && sides[end].low == sides[i].low && sides[end].high == sides[i].high;) ++end;
+    if (end != i + 2 || sides[i].up == sides[i + 1].up) continue;
+    twins[sides[i].half_edge] = sides[i + 1].half_edge;
+    twins[sides[i + 1].half_edge] = sides[i].half_edge;
+  }
+  return twins;
 }
 
 }  // namespace bp

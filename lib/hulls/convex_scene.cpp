@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <compare>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -31,23 +30,10 @@ constexpr double kFlatSides = 5e-4;  // of the volume, for fewer corners: flat s
 
 /// Unites faces across edges that exactly two have, in opposite directions: walls that touch along an edge stay apart.
 DisjointSets joined_faces(const WeldedTriangles& mesh) {
-  struct HalfEdge {
-    std::uint32_t low, high, face;
-    bool up;
-    auto operator<=>(const HalfEdge&) const = default;
-  };
-  std::vector<HalfEdge> edges;
-  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t a = mesh.triangles[f][k], b = mesh.triangles[f][(k + 1) % 3];
-      if (a != b) edges.push_back({std::min(a, b), std::max(a, b), f, a < b});
-    }
-  }
-  std::sort(edges.begin(), edges.end());
+  const std::vector<std::uint32_t> twins = twins_of(mesh.triangles);
   DisjointSets joined(mesh.triangles.size());
-  for (std::size_t i = 0, end = 0; i < edges.size(); i = end) {
-    for (end = i + 1; end < edges.size() && edges[end].low == edges[i].low && edges[end].high == edges[i].high;) ++end;
-    if (end == i + 2 && edges[i].up != edges[i + 1].up) joined.unite(edges[i].face, edges[i + 1].face);
+  for (std::uint32_t h = 0; h < twins.size(); ++h) {
+    if (twins[h] != kNoTwin) joined.unite(h / 3, twins[h] / 3);
   }
   return joined;
 }

@@ -8,7 +8,8 @@ namespace bp {
 
 namespace {
 
-// Of levels that nobody asked for. A smooth body's error grows by 4 with a quarter of the faces, so errors end no list.
+// Which levels that nobody asked for are left out. A smooth body's error grows by 4 with a quarter of the faces, so
+// errors end no list.
 constexpr double kWorthHaving = 1.3;  // times as near as the level after it, at least
 constexpr double kCrumpled = 3;       // volumes of the level before
 

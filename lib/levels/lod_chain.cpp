@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "lib/closing/closing.h"
 #include "lib/core/error.h"
@@ -54,12 +55,13 @@ struct LodChain::State {
     options.surface.reset();
     take_off(outside->bytes());
     last_scale = options.least_scale_world;
-    if (options.mode == MeshMode::bounding && has_triangles() && !options.field && !options.cage) begin_with_scene();
   }
 
   /// Where the scene is a surface that bounds a solid, the levels follow from it, as from a finer level.
   void begin_with_scene() {
-    if (options.scene.size() > outside->dense_faces) return;  // then the voxels' surface is the shorter way
+    if (std::exchange(asked_scene, true) || !finer.mesh.triangles.empty()) return;
+    if (!has_triangles() || options.field || options.scene.size() > outside->dense_faces)
+      return;  // then the voxels' surface is the shorter way
     std::optional<LatticeMesh> surface = outward_scene(options.scene, header.frame);
     if (!surface) return;
     surface->provenance = header.provenance;
@@ -144,8 +146,9 @@ struct LodChain::State {
   }
 
   /// Whether the target follows from the level before: parts and holes of that have faces enough for their shape.
-  [[nodiscard]] bool continues(const LodTarget& target) const {
+  [[nodiscard]] bool continues(const LodTarget& target) {
     if (!is_by_budget(target) || options.mode != MeshMode::bounding || has_ways(target)) return false;
+    begin_with_scene();
     if (finer.mesh.triangles.empty() || !(finer.mesh.frame == header.frame)) return false;
     return finer.mesh.triangles.size() <= target.faces ||
            (finer.measures.shells + finer.measures.handles) * kFacesPerPart <= target.faces;
@@ -267,7 +270,8 @@ struct LodChain::State {
     LatticeMesh mesh;
     MeshMeasures measures;
     double scale_world = 0;
-  } finer;  // the bounding level made last, or the scene's own surface
+  } finer;                   // the bounding level made last, or the scene's own surface
+  bool asked_scene = false;  // whether it has such a surface
 
  private:
   void take_off(std::uint64_t bytes) {

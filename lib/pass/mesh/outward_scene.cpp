@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <compare>
 
 #include "lib/core/disjoint_sets.h"
 #include "lib/core/parallel.h"
@@ -30,13 +29,6 @@ struct Fans {
   std::vector<Triangle> triangles;   // outwards
 };
 
-/// Half-edges in the order of their edges: those of an edge follow each other.
-struct EdgeSide {
-  std::uint32_t low, high, half_edge;
-  bool up;
-  auto operator<=>(const EdgeSide&) const = default;
-};
-
 /// The triangles with three distinct corners.
 std::vector<Triangle> with_edges(const std::vector<Triangle>& all) {
   std::vector<Triangle> triangles;
@@ -44,26 +36,6 @@ std::vector<Triangle> with_edges(const std::vector<Triangle>& all) {
     if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) triangles.push_back(t);
   }
   return triangles;
-}
-
-/// The other half of each half-edge; empty if the triangles are not closed.
-std::vector<std::uint32_t> twins_of(const std::vector<Triangle>& triangles) {
-  std::vector<EdgeSide> sides(3 * triangles.size());
-  for (std::uint32_t h = 0; h < sides.size(); ++h) {
-    const std::uint32_t a = triangles[h / 3][h % 3], b = triangles[h / 3][(h + 1) % 3];
-    sides[h] = {std::min(a, b), std::max(a, b), h, a < b};
-  }
-  std::sort(sides.begin(), sides.end());
-  std::vector<std::uint32_t> twins(sides.size());
-  for (std::size_t i = 0; i < sides.size(); i += 2) {
-    if (i + 1 == sides.size()) return {};
-    const EdgeSide &a = sides[i], &b = sides[i + 1];
-    const auto is_same = [&](const EdgeSide& e) { return e.low == a.low && e.high == a.high; };
-    if (!is_same(b) || a.up == b.up || (i + 2 < sides.size() && is_same(sides[i + 2]))) return {};
-    twins[a.half_edge] = b.half_edge;
-    twins[b.half_edge] = a.half_edge;
-  }
-  return twins;
 }
 
 /// Turns the parts whose volume is negative: cavities, and what was read inside out.
@@ -92,7 +64,7 @@ std::optional<Fans> fans_of(std::span<const TriangleD> scene, const GridFrame& f
   const WeldedTriangles mesh = welded(on_lattice(scene, frame, unit));
   const std::vector<Triangle> triangles = with_edges(mesh.triangles);
   const std::vector<std::uint32_t> twins = twins_of(triangles);
-  if (twins.empty()) return {};
+  if (twins.empty() || std::find(twins.begin(), twins.end(), kNoTwin) != twins.end()) return {};
   DisjointSets corners(3 * triangles.size()), parts(triangles.size());
   for (std::uint32_t h = 0; h < twins.size(); ++h) {
     corners.unite(h, HalfEdgeMesh::next(twins[h]));  // both ends of the edge are reached: h runs over both halves

@@ -229,13 +229,19 @@ class Tents {
     for (const Vec3d& place : apexes(disc, origin, middle, up, size)) {
       const LatticeCoord apex = origin + rounded(place);
       if (is_far(disc, apex) || !is_free(disc, apex, faces, gone)) continue;
-      const auto number = VertexId(mesh_.vertices.size());
+      const std::vector<Triangle> tent = tent_over(disc, VertexId(mesh_.vertices.size()));
       mesh_.vertices.push_back(apex);
-      for (std::size_t i = 0; i < disc.rim.size(); ++i)
-        mesh_.triangles.push_back({disc.rim[i], disc.rim[(i + 1) % disc.rim.size()], number});
+      mesh_.triangles.insert(mesh_.triangles.end(), tent.begin(), tent.end());
       return true;
     }
     return false;
+  }
+
+  static std::vector<Triangle> tent_over(const Disc& disc, VertexId apex) {
+    std::vector<Triangle> tent;
+    for (std::size_t i = 0; i < disc.rim.size(); ++i)
+      tent.push_back({disc.rim[i], disc.rim[(i + 1) % disc.rim.size()], apex});
+    return tent;
   }
 
   /// Whether the apex lies so far from the faces that a surface of voxels would be nearer. Tightening takes back most
@@ -278,11 +284,8 @@ class Tents {
   /// Whether the tent meets neither the scene nor the rest of the mesh. Tents that meet each other are found later.
   bool is_free(const Disc& disc, const LatticeCoord& apex, const Faces& faces, const std::vector<char>& gone) {
     mesh_.vertices.push_back(apex);
-    const auto number = VertexId(mesh_.vertices.size() - 1);
+    const std::vector<Triangle> tent = tent_over(disc, VertexId(mesh_.vertices.size() - 1));
     bool free = true;
-    std::vector<Triangle> tent;
-    for (std::size_t i = 0; i < disc.rim.size(); ++i)
-      tent.push_back({disc.rim[i], disc.rim[(i + 1) % disc.rim.size()], number});
     for (std::size_t i = 0; i < tent.size() && free; ++i) {
       const auto& [a, b, c] = tent[i];
       const LatticeCoord &p = mesh_.vertices[a], &q = mesh_.vertices[b], &r = mesh_.vertices[c];
