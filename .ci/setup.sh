@@ -8,9 +8,10 @@ install_packages() {
     echo "no Debian or Ubuntu here: these packages are needed, under your system's names: $(packages)" >&2
     return 0
   }
-  local missing=()
+  local here missing=()
+  here=$(provided)
   for package in $(packages); do
-    [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2> /dev/null || true)" = installed ] || missing+=("$package")
+    grep -qxF -- "$package" <<< "$here" || missing+=("$package")
   done
   [ ${#missing[@]} = 0 ] && return 0
   echo "installing ${missing[*]}"
@@ -18,6 +19,12 @@ install_packages() {
   [ "$(id -u)" = 0 ] || as_root=(sudo)
   "${as_root[@]}" apt-get update -q
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "${missing[@]}"
+}
+
+# The names of the installed packages and of what they stand in for: another vendor's nodejs contains npm, and refuses it.
+provided() {
+  dpkg-query -W -f='${db:Status-Status} ${Package}, ${Provides}\n' | sed -n 's/^installed //p' | tr ',' '\n' |
+    sed -e 's/(.*//' -e 's/[[:space:]]//g' -e '/^$/d' | sort -u
 }
 
 packages() { sed -e 's/#.*//' "$root/.ci/packages.txt" | tr '\n' ' '; }
