@@ -1,4 +1,5 @@
 #pragma once
+#include <limits>
 #include <vector>
 
 #include "lib/geometry/triangle_bvh.h"
@@ -21,6 +22,8 @@ struct SearchEffort {
   /// The tolerance doubles each time that so many parts of triangles, at least 1, have been looked at.
   std::size_t patience = 1 << 17;
   std::size_t more_parts = 1 << 18;  ///< kept at a time, in addition to the triangles; 120 bytes each
+  /// The search ends where at_least exceeds this: then it is all that is known, and at_most says nothing.
+  double enough = std::numeric_limits<double>::infinity();
 };
 
 /// Neither may be empty. at_most exceeds at_least by at most 0.1 % of it, 1e-7 of the bounds of `from`, or `tolerance`
