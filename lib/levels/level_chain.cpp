@@ -10,7 +10,7 @@ namespace {
 
 // Which levels that nobody asked for are left out. A smooth body's error grows by 4 with a quarter of the faces, so
 // errors end no list.
-constexpr double kWorthHaving = 1.3;  // times as near as the level after it, at least; 1 of levels that were asked for
+constexpr double kWorthHaving = 1.3;  // times as near as the level after it, at least
 constexpr double kCrumpled = 3;       // volumes of the level before
 
 /// Whether there are clearly fewer faces than the level's budget: its voxels, or its scale, show no more.
@@ -50,6 +50,13 @@ LeftOut not_worth_having(const MadeLevel& now, const LodLevel& before, const Cha
   reason.volume_ratio = volume_of(level) / volume_of(before);
   if (range.request.is_chosen && reason.volume_ratio > kCrumpled) return reason;
   return {};
+}
+
+/// Whether the next level, which has fewer faces, does as well. Of levels that were chosen it need only be nearly as
+/// near; of those that were asked for it must be nearer, and hold no more.
+bool is_needless(const LodLevel& level, const LodLevel& next, const ChainRange& range) {
+  if (range.request.is_chosen) return level.error_world * kWorthHaving > next.error_world;
+  return level.error_world > next.error_world && volume_of(level) >= volume_of(next);
 }
 
 }  // namespace
@@ -103,11 +110,10 @@ void LevelSequence::make_next() {
 }
 
 MadeLevels LevelSequence::take() {
-  const double worth = range_.request.is_chosen ? kWorthHaving : 1;
   std::vector<MadeLevel> kept;  // coarsest first
   for (; !made_.levels.empty(); made_.levels.pop_back()) {
     auto& [level, target] = made_.levels.back();
-    if (!kept.empty() && level.error_world * worth > kept.back().level.error_world) {
+    if (!kept.empty() && is_needless(level, kept.back().level, range_)) {
       const std::uint64_t faces_after = kept.back().level.mesh.triangles.size();
       made_.left_out.push_back({target, 0, level.mesh.triangles.size(), level.error_world, faces_after});
     } else {
@@ -115,6 +121,10 @@ MadeLevels LevelSequence::take() {
     }
   }
   made_.levels.assign(std::make_move_iterator(kept.rbegin()), std::make_move_iterator(kept.rend()));
+  for (std::size_t i = 1; i < made_.levels.size(); ++i) {
+    double& error = made_.levels[i].level.error_world;
+    error = std::max(error, made_.levels[i - 1].level.error_world);
+  }
   return std::move(made_);
 }
 

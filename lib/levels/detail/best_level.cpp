@@ -11,7 +11,6 @@ namespace bp {
 namespace {
 
 constexpr double kUnseenVox = 0.125;
-constexpr double kPriceOfFaces = 4;  // the power of how many times too many they are
 
 double area_world(const LatticeMesh& mesh) {
   double sum = 0;
@@ -27,14 +26,14 @@ double BestLevel::unseen() const {
 
 /// What the error is multiplied by in the price.
 double BestLevel::weight(const LodLevel& level) const {
-  const double faces = double(level.mesh.triangles.size());
-  const double excess = level.reached ? 1 : std::pow(faces / double(faces_), kPriceOfFaces);
-  return mode_ == MeshMode::fit ? excess : excess * (volume_of(level) + unseen() * area_world(level.mesh));
+  return mode_ == MeshMode::fit ? 1 : volume_of(level) + unseen() * area_world(level.mesh);
 }
 
 /// With a larger error the level would not be better than the best one so far.
 double BestLevel::most_error(const LodLevel& level) const {
-  if (!level_) return std::numeric_limits<double>::infinity();
+  constexpr double kAny = std::numeric_limits<double>::infinity();
+  if (!level_) return kAny;
+  if (level.reached != level_->reached) return level.reached ? kAny : -1;
   return (level_->error_world + unseen()) * weight(*level_) / weight(level) - unseen();
 }
 

@@ -7,12 +7,12 @@
 
 namespace bp {
 
-/// The best of the meshes that are proposed for one level: the one of the lowest price.
+/// The best of the meshes that are proposed for one level. A mesh that has at most the faces asked for is better than
+/// one that has more. Else the one of the lower price is better.
 ///
 /// The price of a mesh is its error times its volume: either may grow by a tenth where the other one falls by a tenth.
 /// An eighth of a voxel is added to the error, and a skin of that thickness to the volume, so that nothing is paid for
-/// differences that nobody sees. A mesh of twice as many faces as were asked for costs 16 times as much. Of fits, the
-/// error alone counts.
+/// differences that nobody sees. Of fits, the error alone counts.
 class BestLevel {
  public:
   /// faces: asked for; 0: none. Keeps a reference to `ruler`.

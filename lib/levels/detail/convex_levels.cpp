@@ -60,6 +60,7 @@ LodLevel convex_level(const LodLevel& place, const LatticeMesh& mesh) {
   out.mesh.triangles = mesh.triangles;
   out.scale_world = place.scale_world;
   out.reductions = place.reductions;
+  out.attempts = place.attempts;
   LevelCounts& counts = out.counts.levels.emplace_back();
   counts.measures.shells = 1;
   counts.measures.volume = double(volume6_of(out.mesh)) / 6 * std::pow(out.mesh.frame.voxel / kLatticePerVoxel, 3);
