@@ -194,7 +194,7 @@ __device__ std::uint32_t swap_children(std::uint32_t mask, int with) {
   return mask;
 }
 
-/// What the occupied voxels say about the element's block: wholly - some voxel is in reach of all of the block's
+/// The answer of the occupied voxels for the element's block: wholly - some voxel is in reach of all of the block's
 /// voxels; no - none is in reach of any; partly - neither is known. For a block of one voxel the answer is exact: never
 /// partly.
 template <class Element>

@@ -64,7 +64,7 @@ struct WindowTables {
 /// for voxels at least as far from the domain's lower faces.
 void dilate_cube(const WindowTables& tables, const GridShape& shape, const VoxelRange& region, int radius,
                  std::uint32_t* out, cudaStream_t stream);
-/// The same if the radius r(p) varies. The tables of all radii that occur must exist.
+/// Does the same for a radius r(p) that varies. The tables of all radii that occur must exist.
 ///   bits   G
 ///   most   the largest radius
 ///   words  scratch, shape.word_count(); `count`, one more, must be zero before

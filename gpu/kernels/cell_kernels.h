@@ -19,7 +19,7 @@ struct TransformBounds {
   bool bound_at_voxel = false;  ///< ball dilation with varying scale: the ball belongs to the voxel; bound(p) = w(p)
 };
 
-/// Whether 16 bits hold the values of a transform.
+/// Returns whether 16 bits hold the values of a transform.
 [[nodiscard]] bool fits_16_bits(const TransformBounds& bounds);
 
 /// Flags of cells, a byte each, 0xff or 0: every voxel is within its bound; undecided.

@@ -38,7 +38,7 @@ enum class ErrorCode {
   return 1;
 }
 
-/// What would help the user.
+/// A remedy that would help the user.
 enum class Remedy {
   more_memory,
   larger_voxels,

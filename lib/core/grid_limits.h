@@ -13,7 +13,7 @@ constexpr double kLeastVoxel = 0x1p-100, kMostVoxel = 0x1p100;
 /// coordinates with a halo of 8191 voxels.
 constexpr std::int32_t kBrickReach = (1 << 25) - 128;
 
-/// So many voxels around the grid have exact lattice points, too, because proxies reach a little beyond their voxels.
+/// The voxels around the grid that have exact lattice points, too, because proxies reach a little beyond their voxels.
 constexpr std::int64_t kExactMarginVox = 2048;
 
 }  // namespace bp

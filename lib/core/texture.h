@@ -27,7 +27,7 @@ struct TextureImage {
 
 /// How an image continues beyond its edge.
 enum class TextureWrap : std::uint8_t { repeat, mirror, clamp };
-/// What alpha means. opaque: nothing. mask: below a cutoff there is a hole. blend: it is the covering share.
+/// The meaning of alpha. opaque: nothing. mask: below a cutoff there is a hole. blend: it is the covering share.
 enum class AlphaMode : std::uint8_t { opaque, mask, blend };
 
 constexpr std::uint32_t kNoTextureImage = ~std::uint32_t(0);
@@ -66,7 +66,7 @@ struct TextureMaterial {
   }
 };
 
-/// What lies on a triangle in addition to its colours.
+/// The texture of a triangle, in addition to its colours.
 struct TriangleTexture {
   static constexpr std::uint32_t kNoMaterial = ~std::uint32_t(0);
   /// at the corners: (0, 0) is the image's upper left, (1, 1) its lower right corner; any value may occur, NaN too

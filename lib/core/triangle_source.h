@@ -52,7 +52,7 @@ struct Rounding {
   static constexpr double kRoundUp = 1 + 0x1p-40;          // covers the rounding of the bound itself
 };
 
-/// What the files of a scene say about their meshes and no reader follows. Other programs may draw these meshes
+/// Statements of a scene's files about their meshes that no reader follows. Other programs may draw these meshes
 /// elsewhere, or draw more.
 struct Unfollowed {
   std::uint64_t skins = 0;       ///< meshes that joints have moved or bent
@@ -68,7 +68,7 @@ struct Unfollowed {
   }
 };
 
-/// What a source met on its way. Triangles that are skipped are counted, never silently lost.
+/// Counts of what a source met on its way. Triangles that are skipped are counted, never silently lost.
 struct SceneCounts {
   std::uint64_t triangles = 0;        ///< delivered
   std::uint64_t non_finite = 0;       ///< skipped: a coordinate is NaN or infinite

@@ -44,13 +44,12 @@ class PolygonCutter {
   /// Returns the n - 2 triangles of a polygon of n corners; empty for those of its fan. Valid until the next call.
   /// The polygon is seen along the axis that its normal (Newell's, the sum of the fan's normals) is nearest to. A
   /// triangle *folds* if it faces the other way there. If no triangle of the fan folds, the fan stays, as for each
-  /// polygon that is convex there. Else ears are clipped. That gives triangles without folds if the polygon is simple
-  /// there, or has a hole that a double edge leads to. The fan stays also if no such triangles are found, because the
-  /// outline crosses itself; if there are more than kMostCorners corners; or if a corner is outside of the predicates'
-  /// domain.
-  /// Triangles without folds cover exactly the polygon: the edges between them cancel, so as many triangles lie over a
-  /// point as the outline winds around it. A simple outline winds once around points inside, and around no others.
-  /// Time: n for a fan, else at most n² (4,096 corners took 10 ms at most in the shapes tried).
+  /// polygon that is convex there. Otherwise ears are clipped. That gives triangles without folds if the polygon is
+  /// simple there, or has a hole that a double edge leads to. The fan stays also if no such triangles are found,
+  /// because the outline crosses itself; if there are more than kMostCorners corners; or if a corner is outside of the
+  /// predicates' domain. Triangles without folds cover exactly the polygon: the edges between them cancel, so as many
+  /// triangles lie over a point as the outline winds around it. A simple outline winds once around points inside, and
+  /// around no others. Time: n for a fan, else at most n² (4,096 corners took 10 ms at most in the shapes tried).
   [[nodiscard]] std::span<const CutTriangle> cut(std::span<const Vec3d> corners);
 
  private:

@@ -4,7 +4,7 @@
 #include "lib/core/box.h"
 #include "lib/core/indexed_mesh.h"
 
-/// What a triangle of a scene and a proxy have in common inside a box. Doubles with bounds of their errors decide, so
+/// The common part of a scene's triangle and a proxy inside a box. Doubles with bounds of their errors decide, so
 /// only one of the two answers is sure.
 namespace bp {
 

@@ -190,7 +190,7 @@ class Search {
   }
 
  private:
-  /// What was found in one part.
+  /// The pieces that were found in one part.
   struct Found {
     std::vector<Part> parts;
     double settled = 0;  // bound of the pieces that need no further look

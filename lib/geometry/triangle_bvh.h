@@ -59,13 +59,13 @@ class TriangleBvh {
     walk(meets, [&](const Item& item) { return f(item), false; });
   }
   /// Returns the first triangle on the ray from `start` to start + most * direction (`most` is at most 1) that
-  /// accept(item, along) takes. Of several at one place it is the one that is before(item, item) the others. In
+  /// accept(item, along) takes. If several are at one place, it is the one that is before(item, item) the others. In
   /// floating point; triangles count from both sides. accept() may also be asked about triangles behind the answer.
   template <class Accept, class Before>
   [[nodiscard]] std::optional<Hit> first_along(const Vec3d& start, const Vec3d& direction, double most,
                                                const Accept& accept, const Before& before) const;
-  /// Returns the nearest triangle whose squared distance is at most `most` and that accept(item) takes. Of several it
-  /// is the one that is before(item, item) the others. In floating point.
+  /// Returns the nearest triangle whose squared distance is at most `most` and that accept(item) takes. If there are
+  /// several, it is the one that is before(item, item) the others. In floating point.
   template <class Accept, class Before>
   [[nodiscard]] std::optional<Nearest> nearest_within(const Vec3d& p, double most, const Accept& accept,
                                                       const Before& before) const;

@@ -15,7 +15,7 @@ using BrickBits = std::array<std::uint64_t, kBrickWords>;
 /// The content of a brick, so that the common cases need no bits. An empty brick is not stored at all.
 enum class BrickFill : std::uint8_t { empty = 0, full = 1, mixed = 2 };
 
-/// Which set of voxels a brick belongs to. A stream carries one or both.
+/// The set of voxels that a brick belongs to. A stream carries one or both.
 enum class Layer : std::uint8_t { solid = 0, closing = 1 };  ///< the input, filled; its closing
 
 struct Brick {

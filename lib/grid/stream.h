@@ -16,7 +16,7 @@ namespace bp {
 /// The element of the dilation. That of the erosion is always the ball.
 enum class StructuringElement : std::uint8_t { ball = 0, cube = 1 };
 
-/// What the solid layer holds in addition to the voxels that triangles touch. inside: the flood's inside *without* the
+/// The voxels of the solid layer in addition to those that triangles touch. inside: the flood's inside *without* the
 /// touched voxels, the ground of proxies that lie strictly inside the scene.
 enum class FillMode : std::uint8_t { flood = 0, winding = 1, none = 2, inside = 3 };
 

@@ -15,9 +15,7 @@
 /// the pieces of the surface that changed are made again.
 namespace bp {
 
-/// The scene to be closed. Its closing is that of `bpvox
-/// bpscale
-/// bpclose` with these rules, voxel for voxel.
+/// The scene to be closed. Its closing is that of `bpvox | bpscale | bpclose` with these rules, voxel for voxel.
 struct LiveScene {
   StreamHeader header;                ///< of bpvox
   std::unique_ptr<BrickShelf> solid;  ///< with bricks of the header

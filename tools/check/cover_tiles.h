@@ -35,7 +35,7 @@ class CoverTiles {
   [[nodiscard]] IndexedMesh content(std::size_t i) const;
 
  private:
-  /// What a tile hands down to the tiles below it.
+  /// The state that a tile hands down to the tiles below it.
   struct Above {
     std::size_t number = 0;
     Transform transform = kNoTransform;

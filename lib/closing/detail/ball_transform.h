@@ -7,7 +7,7 @@
 /// Finds the voxels that lie inside a ball around some seed, by a separable power transform, only where it is asked to.
 namespace bp::detail {
 
-/// Whose scale makes the ball: |p - q|^2 < w for target p and seed q, with w = ceil(S^2).
+/// The voxel whose scale makes the ball: |p - q|^2 < w for target p and seed q, with w = ceil(S^2).
 enum class BallScale : std::uint8_t {
   uniform,   ///< w is the same everywhere
   at_seed,   ///< w(q): erosion

@@ -80,8 +80,7 @@ bool CubeDilation::dilate_slice_xy(const BitBox& solid, std::int32_t z, std::int
   const VoxelBox from = intersect(in, reach);
   bool found = false;
   if (!from.empty()) {
-    // The line reaches `pad` words beyond `out` at both ends. As many zeros stand before it, since the shifts read
-    // them.
+    // The line reaches `pad` words beyond `out` at both ends. `pad` zeros stand before it, since the shifts read them.
     const std::int32_t line = words + 2 * pad, first = (from.min.x - in.min.x) / 64,
                        count = (from.max.x - from.min.x) / 64, at = pad + (from.min.x - reach.min.x) / 64;
     line_a_.assign(std::size_t(line + 2 * pad), 0);

@@ -367,7 +367,7 @@ bool OrientedDilation::holds(const Rotation& rotation, Scale s, VoxelCoord p, Cu
                  [&](std::int32_t at) { return in_oriented_cube(rotation, s, at - x, dy, dz); });
 }
 
-/// Writes the result of the level. A voxel that is no longer open is in. Of large voxels, open ones stay only if they
+/// Writes the result of the level. A voxel that is no longer open is in. Open large voxels stay only if they
 /// may be in.
 void OrientedDilation::finish(Level& level) const {
   const VoxelBox& box = level.in.box();

@@ -21,7 +21,7 @@ function send(path: string, body: unknown = {}): Promise<unknown> {
   queue = queue.then(() => post(path, body)).catch(complain);
   return queue;
 }
-/// Runs one task at a time. Of tasks that follow quickly, only the last one waits; it replaces those before.
+/// Runs one task at a time. If tasks follow quickly, only the last one waits; it replaces those before.
 let waiting: (() => void) | null = null;
 function sendLast(body: unknown): void {
   const idle = waiting === null;
