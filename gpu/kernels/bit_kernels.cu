@@ -114,8 +114,8 @@ struct WindowAxis {
   std::uint32_t stride, n, inner, outer_stride, runs;  ///< runs: chunks of kRun outputs along the axis
 };
 
-/// out[j] = OR of in[j] to in[j + length - 1], kRun consecutive j per thread. The part that all of them share is read and
-/// joined once; the two ragged ends are running ORs. That takes (length + kRun - 1) / kRun reads per output.
+/// out[j] = OR of in[j] to in[j + length - 1], kRun consecutive j per thread. The part that all of them share is read
+/// and joined once; the two ragged ends are running ORs. That takes (length + kRun - 1) / kRun reads per output.
 template <int kRun>
 __global__ void __launch_bounds__(kPassThreads)
     window_kernel(const std::uint32_t* __restrict__ in, std::uint32_t* __restrict__ out, WindowAxis axis, int length,
