@@ -53,8 +53,7 @@ class DeviceClosing {
   /// Enqueues the closing of a tile. All pointers to the device must stay valid until the stream has passed.
   void enqueue(const TileLayout& layout, const std::uint32_t* solid, const TileField& field, std::uint32_t* closed,
                cudaStream_t stream, const Mark& mark = {});
-  /// Enqueues the closing from bricks into bricks. `closed` has room for the whole interior, which is made of whole
-  /// bricks.
+  /// Enqueues the closing from bricks into bricks. `closed` has room for the whole interior, which is whole bricks.
   ///   count  out: number of bricks of `closed` that are neither empty nor full
   void enqueue(const TileLayout& layout, const BrickTable& solid, const TileField& field, const BrickTable& closed,
                std::uint32_t* count, cudaStream_t stream);

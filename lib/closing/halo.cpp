@@ -1,6 +1,5 @@
 // The halo of a tile T. |.| is the Euclidean distance, and ||.|| the Chebyshev distance, which is never larger.
-// - E on T needs the voxels q of Dc with |p - q|^2 < w(q) for some p in T. Such a q is at t = ||q - T|| <= |p - q|,
-// hence
+// - E on T needs the voxels q of Dc with |p - q|^2 < w(q) for some p in T. Such a q is at t = ||q - T|| <= |p - q|, so
 //   t <= reach(q) := floor(sqrt(w(q) - 1)). With e the largest t of any voxel with t <= reach, all of them lie in
 //   T + e.
 // - Dc on T + e needs D on T + (e + 1): `erosion_vox`.
