@@ -73,7 +73,7 @@ __device__ std::uint64_t cells_met(const Corners& corners, const CellRange& whol
   std::uint64_t mask = ~std::uint64_t(0) >> (64 - nx * ny * nz);
   const bool flat[3] = {whole.size(0) == 1, whole.size(1) == 1, whole.size(2) == 1};
   const int thin = int(flat[0]) + int(flat[1]) + int(flat[2]);
-  // the triangle is connected, and inside the cubes along two axes, so it meets each along the third
+  // The triangle is connected, and inside the cubes along two axes, so it meets each along the third.
   if (thin >= 2) return mask;
   std::int64_t normal[3];
 #pragma unroll

@@ -69,7 +69,7 @@ struct TextureMaterial {
 /// The texture of a triangle, in addition to its colours.
 struct TriangleTexture {
   static constexpr std::uint32_t kNoMaterial = ~std::uint32_t(0);
-  /// at the corners: (0, 0) is the image's upper left, (1, 1) its lower right corner; any value may occur, NaN too
+  /// At the corners: (0, 0) is the image's upper left, (1, 1) its lower right corner; any value may occur, NaN too.
   std::array<std::array<float, 2>, 3> uv{};
   std::uint32_t material = kNoMaterial;   ///< number in the scene's TextureSet
   std::array<PackedNormal, 3> normals{};  ///< at the corners, if SceneOptions::surface asks for them

@@ -20,7 +20,7 @@ int side_in_plan(const P& a, const P& b, const P& p) {
   if (const int s = orient2d(a, b, p, 2); s != 0) return s;
   const double ay = place(a)[1], by = place(b)[1];
   if (ay != by) return ay > by ? 1 : -1;  // the derivative of the determinant by x is a.y - b.y
-  // the derivative by y is b.x - a.x; the difference of distinct doubles is not 0
+  // The derivative by y is b.x - a.x; the difference of distinct doubles is not 0.
   return sign_of(place(b)[0] - place(a)[0]);
 }
 

@@ -64,7 +64,7 @@ NearSurface::Answer NearSurface::examine(const TriangleD& part, double limit) {
   if (!exceeds(radius_squared(part, place.point), limit)) return Answer::yes;
   const double radius = std::sqrt(radius_squared(part, c));
   std::uint32_t item = place.item;
-  // the triangle of the surface is large
+  // The triangle of the surface is large.
   const bool large = area_of(to_.item(item).corners) >= kWorthwhile * area_of(part);
   if (radius < limit || large) {
     if (is_beside(part, to_.item(item).corners, limit)) return Answer::yes;

@@ -198,7 +198,9 @@ class Search {
   static constexpr auto kLess = [](const Part& a, const Part& b) { return a.at_most < b.at_most; };
 
   [[nodiscard]] double bar() const { return result_.at_least + std::max(smallest_, kRelativeError * result_.at_least); }
-  [[nodiscard]] bool done() const { return open_.empty() || !(open_.front().at_most > bar()); }
+  [[nodiscard]] bool done() const {
+    return open_.empty() || !(open_.front().at_most > bar()) || result_.at_least > effort_.enough;
+  }
   /// Gives up half of the open parts: those with the smallest bounds. The answer will be no sharper than their bound.
   void let_go() {
     const auto half = open_.begin() + std::ptrdiff_t(open_.size() / 2);

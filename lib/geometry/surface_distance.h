@@ -1,4 +1,5 @@
 #pragma once
+#include <limits>
 #include <vector>
 
 #include "lib/geometry/triangle_bvh.h"
@@ -12,7 +13,7 @@ namespace bp {
 
 /// Distances from each point of one surface to the nearest point of another, scene units.
 struct SurfaceDistance {
-  /// bounds of the largest distance: the one-sided Hausdorff distance lies between them
+  /// Bounds of the largest distance: the one-sided Hausdorff distance lies between them.
   double at_most = 0, at_least = 0;
   double mean = 0;  ///< mean over the area, by the midpoint rule
   Vec3d where{};    ///< a point at the distance at_least
@@ -23,6 +24,8 @@ struct SearchEffort {
   /// The tolerance doubles each time that so many parts of triangles, at least 1, have been examined.
   std::size_t patience = 1 << 17;
   std::size_t more_parts = 1 << 18;  ///< parts that are kept at a time, in addition to the triangles; 120 bytes each
+  /// The search ends once at_least exceeds this. Then at_least is all that is known, and at_most says nothing.
+  double enough = std::numeric_limits<double>::infinity();
 };
 
 /// Measures the distances from `from` to `to`. Neither may be empty. at_most exceeds at_least by at most 0.1 % of it,

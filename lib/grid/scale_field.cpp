@@ -98,7 +98,7 @@ Range applied(const ScaleField& field, const ScaleRule& rule, const Range& t, co
 
 /// Returns true if the rule changes no scale of this range anywhere in the ball.
 bool is_idle(const ScaleField& field, const ScaleRule& rule, const Range& t, const Range& s) {
-  // the farther, the less such a rule changes
+  // The farther, the less such a rule changes.
   if (rule.shape != ScaleShape::view && rule.support == ScaleRule::kNoSupport) {
     const double goal = rule.mode == ScaleMode::erase ? field.base : rule.scale;
     const double give = field.slope * std::max(t.least - rule.radius, 0.0);

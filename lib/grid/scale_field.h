@@ -49,7 +49,7 @@ struct ScaleRule {
   static constexpr double kNoSupport = -1;
   ScaleShape shape = ScaleShape::path;
   ScaleMode mode = ScaleMode::set;
-  /// of a box: min and max; else a path: one point, or straight lines from each point to the next
+  /// Corners of a box, min and max; otherwise a path: one point, or straight lines from each point to the next.
   std::vector<Vec3d> points;
   double radius = 0;            ///< the rule has its full effect so far around the shape
   double support = kNoSupport;  ///< sigma of a brush stroke; 0: the scale jumps
@@ -110,7 +110,7 @@ struct ShapeRule {
   Kind kind = Kind::thickness;
   double length = 0;  ///< scene units: thinner parts are thin; wider openings stay open
   double least = 0;   ///< of thickness, scene units: no scale becomes smaller
-  /// of gap; increase: only openings that close change S, decrease: only those that stay open
+  /// Used by gap. increase: only openings that close change S, decrease: only those that stay open.
   ScaleMode mode = ScaleMode::set;
   std::string name;
   friend bool operator==(const ShapeRule&, const ShapeRule&) = default;
@@ -138,7 +138,7 @@ struct RuleContext {
   /// Returns boxes of the parts of the scene whose name or material matches; throws bad_input or bad_argument. An empty
   /// function: no parts are known.
   std::function<std::vector<Bounds3d>(const std::string& pattern)> parts;
-  /// whether the file may give an orientation of cubes
+  /// True if the file may give an orientation of cubes.
   bool may_orient = false;
 };
 

@@ -93,9 +93,9 @@ class BrickShelf {
   virtual BrickFill get(BrickCoord coord, BrickBits& out) const = 0;              ///< fills `out` in each case
   [[nodiscard]] virtual BrickFill fill(BrickCoord coord) const = 0;
   virtual void drop(BrickCoord coord) = 0;
-  /// coordinates of the non-empty bricks, sorted by x, y, z
+  /// Coordinates of the non-empty bricks, sorted by x, y, z.
   [[nodiscard]] virtual std::vector<BrickCoord> coords() const = 0;
-  /// bytes held in memory by all shelves that share the budget
+  /// Bytes held in memory by all shelves that share the budget.
   [[nodiscard]] virtual std::uint64_t memory_bytes() const = 0;
 };
 /// Makes an empty shelf. Passes get the factory from the tool, which knows --memory and --temp.

@@ -20,7 +20,7 @@ struct ConvexHull {
 /// order give the same hull. Throws bad_argument if they span more.
 [[nodiscard]] std::optional<ConvexHull> hull_of(std::span<const LatticeCoord> points);
 
-/// of a solid's volume: a hull that has at most this much more is as good as the solid
+/// A share of a solid's volume: a hull that has at most this much more is as good as the solid.
 constexpr double kNearlyConvex = 0.02;
 /// Shares of a box's longest side: a step that simplifies a hull may move corners so far out of the box that the hull
 /// had at first.

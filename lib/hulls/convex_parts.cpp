@@ -42,7 +42,7 @@ constexpr double kSmall = 2e-3;            // of the volume: what a hull may hav
 constexpr double kGrowth = 0.01;           // of a hull's volume, for fewer corners
 constexpr std::uint64_t kFewestFaces = 4;  // of a closed surface
 constexpr std::size_t kFacesOfBox = 12;
-// joining knows more than the first cuts do, so more cells are cut than hulls are wanted
+// Joining knows more than the first cuts do, so more cells are cut than hulls are wanted.
 constexpr std::size_t kCellsPerHull = 4;
 
 LatticeMesh mesh_of(const LatticeMesh& mesh, ConvexHull hull) {
@@ -141,7 +141,7 @@ Hulls few_hulls(const std::vector<Wrapped>& wrapped, const HullLimits& limits, d
     count = std::min(count, joined.size());
     Hulls made = simplified(joined, limits, short_of_faces);
     if (!short_of_faces) return made;
-    // there are too few faces for each hull, unless all are boxes
+    // There are too few faces for each hull, unless all are boxes.
     if (face_count(made.hulls) > limits.faces && count > 1) {
       count = std::max(count * 3 / 4, std::min(count - 1, std::size_t(limits.faces) / kFacesOfBox));
       continue;

@@ -21,7 +21,7 @@ constexpr std::size_t kMostHulls = 32, kMostLooseHulls = 64;  ///< default numbe
 constexpr std::size_t kMostCorners = 64;                      ///< of a hull: physics engines take so many
 
 struct HullLimits {
-  /// at most; 0: kMostHulls, or kMostLooseHulls if these hold clearly less, or one for each part
+  /// The most hulls; 0: kMostHulls, or kMostLooseHulls if these hold clearly less, or one for each part.
   std::size_t hulls = 0;
   std::uint64_t faces = 0;  ///< of all hulls together, 4 at least; 0: no limit
   /// The faces instead, if `faces` leaves hulls that hold half as much again as the mesh, and these hold clearly less;

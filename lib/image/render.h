@@ -29,7 +29,7 @@ struct View {
   std::span<const std::uint8_t> inner_edges;  ///< of `triangles` (TriangleSource::read_faces()); empty: none
   bool edges = false;  ///< draw the edges of `mesh` and `triangles`, except inner ones, as dark lines
   Bounds3d bounds;     ///< the part to show, at a scale of its own; empty: as RenderOptions say
-  /// directions that the panel shows as x, y, z
+  /// Directions that the panel shows as x, y, z.
   std::array<Vec3d, 3> axes{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
   std::string label;  ///< lines separated by \n
   ColorBar bar;       ///< the meaning of its colours

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <iterator>
 
 namespace bp {
 
@@ -10,7 +10,7 @@ namespace {
 
 // Which levels that nobody asked for are left out. A smooth body's error grows by 4 with a quarter of the faces, so
 // errors end no list.
-constexpr double kWorthHaving = 1.3;  // times as near as the level after it, at least
+constexpr double kWorthHaving = 1.3;  // times as near as the level after it, at least; 1 of levels that were asked for
 constexpr double kCrumpled = 3;       // volumes of the level before
 
 /// Whether there are clearly fewer faces than the level's budget: its voxels, or its scale, show no more.
@@ -42,14 +42,8 @@ LodTarget target_of(const ChainRange& range, std::size_t i, std::uint64_t dense_
   return target;
 }
 
-/// A level that was made, until the next one tells whether it is worth having.
-struct Waiting {
-  LodLevel level;
-  LodTarget target;
-};
-
 /// Why a level is left out that follows `before`; faces 0: it is not.
-LeftOut not_worth_having(const Waiting& now, const LodLevel& before, const ChainRange& range) {
+LeftOut not_worth_having(const MadeLevel& now, const LodLevel& before, const ChainRange& range) {
   const LodLevel& level = now.level;
   LeftOut reason{now.target, before.mesh.triangles.size(), level.mesh.triangles.size(), level.error_world};
   if (!is_coarser(level, before, range.diagonal)) return reason;
@@ -81,45 +75,48 @@ LevelFacts facts_of(const LodLevel& level, const LodTarget& target) {
   facts.attempts = level.attempts;
   facts.reached = level.reached;
   facts.stopped_by = counts.stopped_by;
+  facts.tried = level.tried;
   return facts;
 }
 
-MadeLevels make_levels(LodChain& chain, const ChainRange& range, const LevelSteps& steps) {
-  MadeLevels made;
-  std::optional<Waiting> before;
-  std::uint64_t first_faces = 0;  // above 0: the first level fell short
-  const auto keep = [&](Waiting& w) {
-    steps.complete(w.level, range.first + made.levels.size(), w.target);
-    made.facts.push_back(facts_of(w.level, w.target));
-    made.levels.push_back(std::move(w.level));
-  };
-  for (std::size_t i = 0; i < range.count; ++i) {
-    const LodTarget target = target_of(range, i, chain.dense_faces(), first_faces);
-    const std::uint64_t faces_before = before ? before->level.mesh.triangles.size() : 0;
-    if (follows(range, i, target) && target.faces >= faces_before) {
-      made.left_out.push_back({target, faces_before});
-      continue;
-    }
-    steps.begin("level " + std::to_string(range.first + i));
-    Waiting now{chain.make(target), target};
-    if (i == 0 && falls_short(now.level, target)) first_faces = now.level.mesh.triangles.size();
-    if (before) {
-      const LeftOut reason = not_worth_having(now, before->level, range);
-      if (reason.faces > 0) made.left_out.push_back(reason);
-      if (reason.volume_ratio > 0) break;
-      if (reason.faces > 0) continue;
-      if (range.request.is_chosen && before->level.error_world * kWorthHaving > now.level.error_world) {
-        made.left_out.push_back(
-            {before->target, 0, faces_before, before->level.error_world, now.level.mesh.triangles.size()});
-      } else {
-        now.level.error_world = std::max(now.level.error_world, before->level.error_world);
-        keep(*before);
-      }
-    }
-    before = std::move(now);
+LodTarget LevelSequence::target() const {
+  return target_of(range_, at_, chain_.dense_faces(), first_faces_);
+}
+
+std::optional<std::size_t> LevelSequence::next() {
+  for (; at_ < range_.count; ++at_) {
+    const std::uint64_t before = made_.levels.empty() ? 0 : made_.levels.back().level.mesh.triangles.size();
+    if (!follows(range_, at_, target()) || target().faces < before) return range_.first + at_;
+    made_.left_out.push_back({target(), before});
   }
-  if (before) keep(*before);
-  return made;
+  return std::nullopt;
+}
+
+void LevelSequence::make_next() {
+  MadeLevel now{{}, target()};
+  now.level = chain_.make(now.target);
+  if (at_++ == 0 && falls_short(now.level, now.target)) first_faces_ = now.level.mesh.triangles.size();
+  if (made_.levels.empty()) return made_.levels.push_back(std::move(now));
+  const LeftOut reason = not_worth_having(now, made_.levels.back().level, range_);
+  if (reason.faces == 0) return made_.levels.push_back(std::move(now));
+  made_.left_out.push_back(reason);
+  if (reason.volume_ratio > 0) at_ = range_.count;
+}
+
+MadeLevels LevelSequence::take() {
+  const double worth = range_.request.is_chosen ? kWorthHaving : 1;
+  std::vector<MadeLevel> kept;  // coarsest first
+  for (; !made_.levels.empty(); made_.levels.pop_back()) {
+    auto& [level, target] = made_.levels.back();
+    if (!kept.empty() && level.error_world * worth > kept.back().level.error_world) {
+      const std::uint64_t faces_after = kept.back().level.mesh.triangles.size();
+      made_.left_out.push_back({target, 0, level.mesh.triangles.size(), level.error_world, faces_after});
+    } else {
+      kept.push_back(std::move(made_.levels.back()));
+    }
+  }
+  made_.levels.assign(std::make_move_iterator(kept.rbegin()), std::make_move_iterator(kept.rend()));
+  return std::move(made_);
 }
 
 }  // namespace bp

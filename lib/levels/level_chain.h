@@ -1,7 +1,9 @@
 #pragma once
-#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "lib/levels/voxel_choice.h"
 #include "lib/pass/voxelize/voxelize_pass.h"
@@ -27,17 +29,11 @@ struct LevelFacts {
   std::uint64_t voxels = 0;       ///< of its closing
   std::uint64_t faces_dense = 0;  ///< of the surface of its voxels
   int attempts = 0;
-  bool reached = true;     ///< as in LodLevel
-  std::string stopped_by;  ///< as in LevelCounts
+  bool reached = true;          ///< as in LodLevel
+  std::string stopped_by;       ///< as in LevelCounts
+  std::vector<TriedWay> tried;  ///< as in LodLevel
 };
 [[nodiscard]] LevelFacts facts_of(const LodLevel& level, const LodTarget& target);
-
-/// What a caller does while levels are made.
-struct LevelSteps {
-  std::function<void(const std::string&)> begin;  ///< a step of the work begins
-  /// Completes a level: colours, provenance. `number` counts the levels that are kept.
-  std::function<void(LodLevel&, std::size_t number, const LodTarget&)> complete;
-};
 
 /// Which levels of a request are made.
 struct ChainRange {
@@ -57,17 +53,42 @@ struct LeftOut {
   double volume_ratio = 0;         ///< its volume over that of the level before, if that is why; else 0
 };
 
+/// A level with what it was asked to be.
+struct MadeLevel {
+  LodLevel level;
+  LodTarget target;
+};
+
 struct MadeLevels {
-  std::vector<LodLevel> levels;   ///< finest first
-  std::vector<LevelFacts> facts;  ///< of each
+  std::vector<MadeLevel> levels;  ///< finest first
   std::vector<LeftOut> left_out;
 };
 
-/// At most range.count levels, finest first. A level that has no fewer faces than the one before, or an error above the
-/// scene's diagonal, is left out. Of levels that nobody asked for (LevelRequest::is_chosen), the list ends before one
-/// that holds more than three times the volume of the level before: it is crumpled; and a level is left out where the
-/// next one, with a quarter of the faces, is nearly as near. Where the first has clearly fewer faces than its budget,
-/// the budgets that follow from it are quarters of what it has, and scales double. Errors never fall.
-[[nodiscard]] MadeLevels make_levels(LodChain& chain, const ChainRange& range, const LevelSteps& steps);
+/// Makes at most range.count levels, one after the other, finest first. A level that has no fewer faces than the one
+/// before, or an error above the scene's diagonal, is left out. A level is also left out where the next one, which has
+/// fewer faces, is nearer: so errors never fall. Of levels that nobody asked for (LevelRequest::is_chosen), the next
+/// one need only be nearly as near; and the list ends before a level that holds more than three times the volume of the
+/// one before: it is crumpled. Where the first has clearly fewer faces than its budget, the budgets that follow from it
+/// are quarters of what it has, and scales double.
+class LevelSequence {
+ public:
+  /// Keeps a reference to `chain`.
+  LevelSequence(LodChain& chain, ChainRange range) : chain_(chain), range_(std::move(range)) {}
+
+  /// The number, of those in the request, of the level that make_next() makes; nothing if all are made.
+  [[nodiscard]] std::optional<std::size_t> next();
+  void make_next();
+  /// Those that are worth having. Ends the sequence.
+  [[nodiscard]] MadeLevels take();
+
+ private:
+  [[nodiscard]] LodTarget target() const;
+
+  LodChain& chain_;
+  ChainRange range_;
+  std::size_t at_ = 0;             // of the range
+  std::uint64_t first_faces_ = 0;  // above 0: the first level fell short
+  MadeLevels made_;
+};
 
 }  // namespace bp

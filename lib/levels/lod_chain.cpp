@@ -1,338 +1,253 @@
 #include "lib/levels/lod_chain.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
 #include "lib/closing/closing.h"
-#include "lib/core/error.h"
 #include "lib/grid/shelf_stream.h"
-#include "lib/hulls/convex_hull.h"
-#include "lib/levels/detail/few_faces_level.h"
-#include "lib/levels/detail/hull_level.h"
-#include "lib/levels/detail/outside.h"
-#include "lib/levels/detail/prism_level.h"
-#include "lib/pass/measure/shape_rules.h"
+#include "lib/levels/detail/best_level.h"
+#include "lib/levels/detail/convex_levels.h"
+#include "lib/levels/detail/level_voxels.h"
+#include "lib/levels/detail/ruler.h"
 #include "lib/pass/mesh/outward_scene.h"
 #include "lib/pass/mesh/scene_check.h"
-#include "lib/surface/repair.h"
-#include "lib/surface/surface.h"
-#include "lib/volume/reduce.h"
-#include "lib/volume/topology.h"
 
 namespace bp {
 
 namespace {
-
-constexpr double kExactVox = 0.125;  // of error: a level of so little is not tried to come nearer
 
 // A budget is closed at the least of the scales from a kFinest-th of its own on at which each part and hole of the
 // closing has so many faces to show its shape. Where parts and holes take all faces, the rest of the level is far off.
 // A fit lies on the closing, and has its noise.
 constexpr double kFinest = 8, kFinestOfFit = 2;
 constexpr std::uint64_t kFacesPerPart = 50;
-constexpr double kNearEnoughVox = 0.5;  // of error: no other closing of a simple scene is tried
+// With fewer faces, the mesh that keeps near the scene is not always the nearest one.
+constexpr std::uint64_t kFewFaces = 32;
+
+using Closing = LevelVoxels::Closing;
+using Keep = ShelfSource::Keep;
+
+/// Whether nothing but a number of faces decides the scale.
+bool is_by_budget(const LodTarget& target) {
+  return target.faces > 0 && target.error_world == 0 && !target.scale_world;
+}
+
+/// Whether meshing for least volume may lead to few enough faces: all parts and handles are kept, and each takes four.
+/// Where there are several, none was seen to lead from more than twice as many.
+bool may_reach_by_volume(const LodLevel& level, std::uint64_t faces) {
+  constexpr std::uint64_t kFewMore = 8;
+  const MeshMeasures& measures = level.counts.levels.front().measures;
+  const std::uint64_t parts = measures.shells + measures.handles;
+  return 4 * parts <= faces && (parts == 1 || level.mesh.triangles.size() <= 2 * faces + kFewMore);
+}
 
 }  // namespace
 
 struct LodChain::State {
-  State(const StreamHeader& h, std::unique_ptr<BrickShelf> s, Backends& b, LodOptions o)
+  State(const StreamHeader& header, std::unique_ptr<BrickShelf> solid, Backends& backends, LodOptions o)
       : options(std::move(o)),
         context(options.context),
-        backends(b),
-        header(h),
-        solid(std::move(s)),
-        diagonal(h.bounds.diagonal()) {
-    if (solid->coords().empty()) fail(ErrorCode::bad_input, "the scene fills no voxel; there is nothing to mesh");
+        scene_bounds(header.bounds),
+        voxels(header, std::move(solid), backends, options) {
     take_off(options.scene.size() * sizeof(TriangleD));
     // Here, and not at each level: in voxels of twice the size a corner may lie so near to a side, as these are
     // rounded, that the voxel beyond would have been set, too.
     if (options.mode == MeshMode::bounding && options.enclose == Enclose::scene)
-      require_within(options.scene, header.frame, *solid);
-    outside = std::make_unique<Outside>(*solid, options.surface.get(), options.mode == MeshMode::fit && has_triangles(),
-                                        header.frame, context.memory);
+      require_within(options.scene, header.frame, voxels.solid());
+    ruler.emplace(RulerScene{voxels.solid(), options.surface.get(), has_triangles() ? options.scene : no_triangles,
+                             header.frame, options.mode},
+                  context.memory);
     options.surface.reset();
-    take_off(outside->bytes());
+    take_off(ruler->bytes());
     last_scale = options.least_scale_world;
   }
 
-  /// Where the scene is a surface that bounds a solid, the levels follow from it, as from a finer level.
-  void begin_with_scene() {
-    if (std::exchange(asked_scene, true) || !finer.mesh.triangles.empty()) return;
-    if (!has_triangles() || options.field || options.scene.size() > outside->dense_faces)
-      return;  // then the voxels' surface is the shorter way
-    std::optional<LatticeMesh> surface = outward_scene(options.scene, header.frame);
-    if (!surface) return;
-    surface->provenance = header.provenance;
-    const MeshMeasures measures = bp::measure(*surface);
-    finer = {std::move(*surface), measures, 0};
-  }
-
+  /// The next level, as LodChain::make().
   LodLevel make(const LodTarget& target) {
-    if (std::optional<LodLevel> level = exact(target)) return std::move(*level);
-    LodLevel level = options.cage ? cage(target) : continues(target) ? coarser(target) : closed(target);
-    if (options.mode == MeshMode::bounding && !options.cage)
-      finer = {level.mesh, level.counts.levels.front().measures, level.scale_world};
-    return may_be_convex(target) ? convex_or(std::move(level), target) : level;
-  }
-
-  void measure(LodLevel& level) {
-    context.report("measuring", "levels", 0, 1);
-    outside->measure(level, options.mode, has_triangles() ? &options.scene : nullptr);
-  }
-
-  /// That a level lies around, or follows.
-  [[nodiscard]] bool has_triangles() const {
-    return (options.mode == MeshMode::fit || options.enclose == Enclose::scene) && !options.scene.empty();
-  }
-
-  /// Around the voxels as they are.
-  LodLevel cage(const LodTarget& target) {
-    LodLevel level;
-    MeshParams params;
-    params.faces = {target.faces};
-    params.enclose = Enclose::closing;
-    params.cage = options.cage;
-    context.report("meshing", "levels", 0, 1);
-    ShelfSource source(header, *solid, nullptr, ShelfSource::Keep::solid);
-    level.mesh = std::move(mesh_stream(source, context, std::move(params), level.counts).front());
-    measure(level);
-    return level;
-  }
-
-  using Keep = ShelfSource::Keep;
-  struct Closed {
-    ScaleField field;
-    std::unique_ptr<BrickShelf> voxels;
-  };
-
-  /// The nearest of the levels from the closings that are tried, measured: one, but of simple scenes, which take little
-  /// time, each up to twice the scale of the budget. What a closing joins, few faces need not show; what it leaves
-  /// apart, they follow.
-  LodLevel closed(const LodTarget& target) {
-    const double whole = first_scale(ground(), target, last_scale);
-    std::optional<LodLevel> best;
-    int attempts = 1;
-    for (double scale = is_by_budget(target) ? std::max(whole / finest(), last_scale) : whole;; scale *= 2) {
-      const double finest_told = finest_scale(options.field, std::max(scale, whole));
-      reduce_to(reductions_for(ground(), target, finest_told, reductions));
-      const bool last = 2 * scale > diagonal / 2;
-      const Closed closing = closing_at(scale);
-      if (scale < whole && !has_faces_for_parts(closing, target)) continue;
-      LodLevel level =
-          has_ways(target) ? nearest(target, scale, closing) : mesh(mesh_params(target, scale), scale, closing);
-      level.attempts = attempts;
-      level.reached = target.faces == 0 || level.mesh.triangles.size() <= target.faces;
-      if (!level.reached && !last) {
-        attempts += scale >= whole;
-        continue;
-      }
-      if (!has_ways(target)) measure(level);
-      if (!best || is_better(level, *best, target.faces)) best = std::move(level);
-      const bool is_near = best->error_world <= kNearEnoughVox * outside->voxel();
-      if (is_simple(target) && !is_near && !last && scale < 2 * whole) continue;
-      last_scale = best->scale_world;
-      return std::move(*best);
+    BestLevel best(*ruler, options.mode, target.faces);
+    if (options.cage) {
+      best.propose("cage", cage(target));
+      return best.take();
     }
-  }
-
-  [[nodiscard]] double finest() const { return options.mode == MeshMode::fit ? kFinestOfFit : kFinest; }
-
-  /// Whether nothing is asked but a number of faces, of a scene of few triangles: these tell quickly what is near.
-  [[nodiscard]] bool is_simple(const LodTarget& target) const {
-    return options.mode == MeshMode::bounding && has_triangles() && !options.field && is_by_budget(target) &&
-           options.scene.size() <= MeshParams::kSimpleScene;
-  }
-
-  /// Whether the target follows from the level before: parts and holes of that have faces enough for their shape.
-  [[nodiscard]] bool continues(const LodTarget& target) {
-    if (!is_by_budget(target) || options.mode != MeshMode::bounding || has_ways(target)) return false;
-    begin_with_scene();
-    if (finer.mesh.triangles.empty() || !(finer.mesh.frame == header.frame)) return false;
-    return finer.mesh.triangles.size() <= target.faces ||
-           (finer.measures.shells + finer.measures.handles) * kFacesPerPart <= target.faces;
-  }
-
-  /// The level before with fewer faces, measured.
-  LodLevel coarser(const LodTarget& target) {
-    LodLevel level;
-    level.scale_world = finer.scale_world;
-    level.reductions = reductions;
-    level.attempts = 1;
-    MeshParams params = mesh_params(target, first_scale(ground(), target, last_scale));
-    params.start = &finer.mesh;
-    context.report("meshing", "levels", 0, 1);
-    ShelfSource source(header, *solid, nullptr, Keep::solid);
-    level.mesh = std::move(mesh_stream(source, context, std::move(params), level.counts).front());
-    level.reached = level.mesh.triangles.size() <= target.faces;
-    measure(level);
-    return level;
-  }
-
-  /// Whether nothing but a number of faces decides the scale.
-  [[nodiscard]] static bool is_by_budget(const LodTarget& target) {
-    return target.faces > 0 && target.error_world == 0 && !target.scale_world;
-  }
-
-  /// Whether the faces of the target suffice to show the shape of the parts and holes of a closing.
-  [[nodiscard]] bool has_faces_for_parts(const Closed& closing, const LodTarget& target) const {
-    repair_contacts(*closing.voxels);  // as meshing would: it closes the tiniest holes
-    check_memory_for_topology(*closing.voxels);
-    const SolidTopology topology = topology_of(*closing.voxels);
-    return (topology.parts + topology.handles) * kFacesPerPart <= target.faces;
-  }
-
-  /// Whether several ways lead to the level, which is measured then, and the nearest one is taken.
-  [[nodiscard]] bool has_ways(const LodTarget& target) const {
-    return options.mode == MeshMode::bounding && is_of_few_faces(target);
-  }
-
-  LodLevel nearest(const LodTarget& target, double scale, const Closed& closing) {
-    LodLevel level = mesh(mesh_params(target, scale), scale, closing, Keep::all);
-    measure(level);
-    if (!may_have_faces(level, target.faces)) return level;
-    MeshParams params = mesh_params(target, {});  // anew: they hold the scene's triangles
-    params.convex = false;                        // convex_or() chooses by distance
-    LodLevel by_volume = mesh(std::move(params), scale, closing);
-    measure(by_volume);
-    return is_better(by_volume, level, target.faces) ? by_volume : level;
-  }
-
-  [[nodiscard]] bool may_be_convex(const LodTarget& target) const {
-    return !options.cage && options.mode == MeshMode::bounding && options.enclose != Enclose::closing &&
-           target.faces > 0 && target.error_world == 0;
-  }
-
-  /// A scene that is a box, flat or convex as its box, prism or hull. Nothing has to be closed or meshed then.
-  std::optional<LodLevel> exact(const LodTarget& target) {
-    if (!may_be_convex(target) || options.enclose != Enclose::scene) return {};
-    LodLevel place;
-    place.mesh.frame = header.frame;
-    place.mesh.provenance = header.provenance;
-    place.scale_world = first_scale(ground(), target, last_scale);
-    place.reductions = reductions;
-    place.attempts = 1;
-    place.counts.levels.resize(1);
-    const std::vector<Vec3d> corners = scene_corners(place.mesh.frame, options.scene);
-    if (corners.empty()) return {};
-    const double near = kExactVox * outside->voxel();
-    std::optional<LodLevel> found;
-    const auto take = [&](std::optional<LodLevel> level) {
-      if (!level || !may_be_near(*level, corners, near / header.frame.voxel * kLatticePerVoxel)) return false;
-      measure(*level);
-      if (level->error_world <= near) found = std::move(level);
-      return found.has_value();
-    };
-    if (take(box_for(target, place)) || take(prism_level(place, corners, target.faces)) ||
-        take(hull_level(place, corners, target.faces)))
-      last_scale = place.scale_world;
-    return found;
-  }
-
-  /// A box, a prism or a hull around all that is enclosed. Boxes and hulls are measured only where they may be better.
-  LodLevel convex_or(LodLevel level, const LodTarget& target) {
-    const auto take = [&](LodLevel other) {
-      measure(other);
-      if (is_better_box(other, level, target.faces)) level = std::move(other);
-    };
-    if (auto box = box_for(target, level)) {
-      if (has_ways(target) || has_few_faces(level) || holds_no_more(*box, level)) take(std::move(*box));
+    const std::vector<ConvexLevel> convex = convex_ways(target);
+    const bool is_convex = has_triangles() && std::any_of(convex.begin(), convex.end(), [&](const ConvexLevel& c) {
+                             return best.propose_exact(c.way, c.level);
+                           });
+    if (is_convex) {
+      last_scale = best.level().scale_world;
+      return best.take();
     }
-    if (options.enclose != Enclose::scene) return level;
-    const std::vector<Vec3d> corners = scene_corners(level.mesh.frame, options.scene);
-    if (auto prism = prism_level(level, corners, target.faces)) take(std::move(*prism));
-    auto hull = hull_level(level, corners, target.faces);
-    if (hull && holds_no_more(*hull, level, kNearlyConvex)) take(std::move(*hull));
-    return level;
-  }
-
-  [[nodiscard]] std::optional<LodLevel> box_for(const LodTarget& target, const LodLevel& level) const {
-    if (target.faces < kFacesOfBox) return {};
-    return box_level(level, options.enclose == Enclose::scene ? header.bounds : outside->bounds());
+    propose_meshes(target, best);
+    for (const ConvexLevel& c : convex) best.propose(c.way, c.level);
+    return best.take();
   }
 
   [[nodiscard]] std::int64_t longest_side() const {
-    const VoxelCoord size = outside->box.size();
+    const VoxelCoord size = ruler->box.size();
     return std::max({size.x, size.y, size.z});
   }
 
   LodOptions options;
   PassContext& context;  // its memory shrinks by what is held here
-  Backends& backends;
-  StreamHeader header;  // of `solid`
-  std::unique_ptr<BrickShelf> solid;
-  double diagonal;
-  std::unique_ptr<Outside> outside;
-  int reductions = 0;
+  Bounds3d scene_bounds;
+  LevelVoxels voxels;
+  std::optional<Ruler> ruler;
+  const std::vector<TriangleD> no_triangles;
   double last_scale = 0;
   struct {
     LatticeMesh mesh;
     MeshMeasures measures;
     double scale_world = 0;
-  } finer;                   // the bounding level made last, or the scene's own surface
-  bool asked_scene = false;  // whether it has such a surface
+  } finer;                   // the bounding level that was meshed last, or the scene's own surface
+  bool asked_scene = false;  // whether the scene has such a surface
+  struct {
+    std::unique_ptr<Enclosed> scene;
+    int reductions = -1;
+  } enclosed;  // the scene in the frame of these voxels, if it is small enough to be kept
 
  private:
-  void take_off(std::uint64_t bytes) {
-    context.memory.bytes -= std::min(context.memory.bytes, bytes);
-    context.pieces = context.pieces.without(bytes);
+  /// That a level lies around, or follows.
+  [[nodiscard]] bool has_triangles() const {
+    return (options.mode == MeshMode::fit || options.enclose == Enclose::scene) && !options.scene.empty();
   }
 
-  [[nodiscard]] LodGround ground() const { return {outside->voxel(), diagonal, outside->dense_faces, longest_side()}; }
+  [[nodiscard]] bool is_bounding() const { return options.mode == MeshMode::bounding; }
 
-  void reduce_to(int n) {
-    for (; reductions < n; ++reductions) {
-      auto coarse = context.make_shelf();
-      reduce(*solid, header.frame, *coarse);
-      header = reduced(header);
-      solid = std::move(coarse);
+  [[nodiscard]] static bool is_of_few_faces(const LodTarget& target) {
+    return target.faces > 0 && target.faces < kFewFaces && target.error_world == 0;
+  }
+
+  /// Whether nothing is asked but a number of faces, of a scene of few triangles: these tell quickly what is near.
+  [[nodiscard]] bool is_simple(const LodTarget& target) const {
+    return is_bounding() && has_triangles() && !options.field && is_by_budget(target) &&
+           options.scene.size() <= MeshParams::kSimpleScene;
+  }
+
+  [[nodiscard]] LodGround ground() const {
+    return {ruler->voxel(), scene_bounds.diagonal(), ruler->dense_faces, longest_side()};
+  }
+
+  // --- What is proposed ---
+
+  [[nodiscard]] std::vector<ConvexLevel> convex_ways(const LodTarget& target) const {
+    const bool may_be = is_bounding() && options.enclose != Enclose::closing && target.faces > 0;
+    if (!may_be || target.error_world > 0) return {};
+    LodLevel place;
+    place.mesh.frame = voxels.frame();
+    place.mesh.provenance = voxels.header().provenance;
+    place.scale_world = first_scale(ground(), target, last_scale);
+    place.reductions = voxels.reductions();
+    place.attempts = 1;
+    if (!has_triangles()) return convex_levels(place, ruler->bounds(), {}, target.faces);
+    return convex_levels(place, scene_bounds, scene_corners(voxels.frame(), options.scene), target.faces);
+  }
+
+  void propose_meshes(const LodTarget& target, BestLevel& best) {
+    if (continues(target)) {
+      best.propose("finer", coarser(target));
+    } else {
+      propose_closings(target, best);
+    }
+    if (is_bounding()) {
+      const LodLevel& level = best.level();
+      finer = {level.mesh, level.counts.levels.front().measures, level.scale_world};
     }
   }
 
-  [[nodiscard]] StreamHeader closed_header(const ScaleField& field) const {
-    StreamHeader closed = header;
-    closed.bricks = closing_bricks(header, field);
-    closed.has_closing = true;
-    closed.scale = field;
-    closed.element = options.closing.element;
-    return closed;
+  /// One closing, but of simple scenes, which take little time, each up to twice the scale of the budget. What a
+  /// closing joins, few faces need not show; what it leaves apart, they follow.
+  void propose_closings(const LodTarget& target, BestLevel& best) {
+    const double whole = first_scale(ground(), target, last_scale);
+    std::optional<Closing> closing_of_best;
+    int attempts = 1;
+    for (double scale = is_by_budget(target) ? std::max(whole / finest(), last_scale) : whole;; scale *= 2) {
+      voxels.reduce_to(
+          reductions_for(ground(), target, finest_scale(options.field, std::max(scale, whole)), voxels.reductions()));
+      const bool last = 2 * scale > scene_bounds.diagonal() / 2;
+      Closing closing = voxels.closed_at(scale);
+      if (scale < whole && voxels.parts_and_holes(closing) * kFacesPerPart > target.faces) continue;
+      const bool few = is_bounding() && is_of_few_faces(target);
+      LodLevel level = mesh(mesh_params(target, scale), closing, few ? Keep::all : Keep::solid);
+      const bool by_volume = few && may_reach_by_volume(level, target.faces);
+      const auto has_reached = [&] { return target.faces == 0 || level.mesh.triangles.size() <= target.faces; };
+      if (by_volume && !has_reached()) level = mesh(least_volume(target), closing, Keep::all);
+      if (!has_reached() && !last) {
+        attempts += scale >= whole;
+        continue;
+      }
+      level.attempts = attempts;
+      if (best.propose("closing", std::move(level)) && by_volume) closing_of_best = std::move(closing);
+      if (!is_simple(target) || best.is_exact() || last || scale >= 2 * whole) break;
+    }
+    if (closing_of_best && !best.is_exact()) {
+      LodLevel level = mesh(least_volume(target), *closing_of_best, Keep::solid);
+      level.attempts = best.level().attempts;
+      best.propose("least volume", std::move(level));
+    }
+    last_scale = best.level().scale_world;
   }
 
-  [[nodiscard]] ScaleField field_at(double scale) const {
-    ScaleField constant;
-    constant.base = scale;
-    if (!options.field) return constant;
-    ScalePlan plan = *options.field;
-    plan.field = plan.field.scaled(scale / plan.field.base);
-    return measured(plan, header, *solid, {0, context}).field;
+  [[nodiscard]] double finest() const { return is_bounding() ? kFinest : kFinestOfFit; }
+
+  /// Whether the target follows from the level before: parts and holes of that have faces enough for their shape.
+  [[nodiscard]] bool continues(const LodTarget& target) {
+    if (!is_by_budget(target) || !is_bounding() || is_of_few_faces(target)) return false;
+    begin_with_scene();
+    if (finer.mesh.triangles.empty() || !(finer.mesh.frame == voxels.frame())) return false;
+    return finer.mesh.triangles.size() <= target.faces ||
+           (finer.measures.shells + finer.measures.handles) * kFacesPerPart <= target.faces;
   }
 
-  Closed closing_at(double scale) {
-    CloseOptions o;
-    o.context = context;
-    ScaleField field = field_at(scale);
-    auto voxels = close_shelf(header, *solid, backends, field, options.closing, o);
-    return {std::move(field), std::move(voxels)};
+  /// Where the scene is a surface that bounds a solid, the levels follow from it, as from a finer level.
+  void begin_with_scene() {
+    if (std::exchange(asked_scene, true) || !finer.mesh.triangles.empty()) return;
+    if (!has_triangles() || options.field || options.scene.size() > ruler->dense_faces)
+      return;  // then the voxels' surface is the shorter way
+    std::optional<LatticeMesh> surface = outward_scene(options.scene, voxels.frame());
+    if (!surface) return;
+    surface->provenance = voxels.header().provenance;
+    const MeshMeasures measures = bp::measure(*surface);
+    finer = {std::move(*surface), measures, 0};
   }
 
-  /// Against what the surface is to be meshed in, of which nothing is taken yet.
-  void check_memory_for_topology(const BrickShelf& closing) const {
-    const std::uint64_t bytes = topology_bytes(closing), most = context.pieces.bytes();
-    if (bytes > most)
-      throw NeedsMemory("counting the parts and holes of a level", bytes, most,
-                        context.pieces.limit_with(bytes - most));
+  // --- Meshes ---
+
+  /// The level before with fewer faces.
+  LodLevel coarser(const LodTarget& target) {
+    MeshParams params = mesh_params(target, first_scale(ground(), target, last_scale));
+    params.start = &finer.mesh;
+    LodLevel level = mesh(std::move(params), voxels.as_it_is(finer.scale_world), Keep::solid);
+    level.attempts = 1;
+    return level;
+  }
+
+  /// Around the voxels as they are.
+  LodLevel cage(const LodTarget& target) {
+    MeshParams params;
+    params.faces = {target.faces};
+    params.enclose = Enclose::closing;
+    params.cage = options.cage;
+    return mesh(std::move(params), voxels.as_it_is(0), Keep::solid);
   }
 
   /// keep: whether the closing is wanted again.
-  LodLevel mesh(MeshParams params, double scale, const Closed& closing, Keep keep = Keep::solid) {
+  LodLevel mesh(MeshParams params, const Closing& closing, Keep keep) {
     LodLevel level;
-    level.scale_world = scale;
-    level.reductions = reductions;
+    level.scale_world = closing.scale_world;
+    level.reductions = voxels.reductions();
     context.report("meshing", "levels", 0, 1);
-    ShelfSource source(closed_header(closing.field), *solid, closing.voxels.get(), keep);
+    std::unique_ptr<Enclosed> once;
+    if (is_bounding() && options.enclose == Enclose::scene && !options.cage) params.enclosed = &enclosed_scene(once);
+    ShelfSource source(closing.header, voxels.solid(), closing.voxels.get(), keep);
     level.mesh = std::move(mesh_stream(source, context, std::move(params), level.counts).front());
     return level;
+  }
+
+  [[nodiscard]] MeshParams least_volume(const LodTarget& target) const {
+    MeshParams params = mesh_params(target, {});
+    params.convex = false;  // hulls and boxes are proposals of their own
+    return params;
   }
 
   /// near_world: as MeshParams has it.
@@ -341,22 +256,34 @@ struct LodChain::State {
     if (target.faces > 0) params.faces = {target.faces};
     // What is enclosed is within a diagonal of a voxel of the scene.
     if (target.error_world > 0)
-      params.error_world = std::max(target.error_world - std::sqrt(3.0) * (header.frame.voxel + outside->voxel()),
+      params.error_world = std::max(target.error_world - std::sqrt(3.0) * (voxels.frame().voxel + ruler->voxel()),
                                     target.error_world / 4);
     params.near_world = near_world;
     params.mode = options.mode;
     params.enclose = options.enclose;
-    if (options.enclose == Enclose::scene) {  // distances are to its voxels, as without
-      params.scene = options.scene;
-      params.known_within = true;
-      params.distances_to = Enclose::input;
-    }
+    if (options.enclose == Enclose::scene) params.distances_to = Enclose::input;  // its voxels, as without
     if (options.mode == MeshMode::fit) {
       params.distances_to.reset();
       params.enclose = options.scene.empty() ? Enclose::closing : Enclose::scene;
       params.scene = options.scene;
     }
     return params;
+  }
+
+  /// The triangles in the frame of the voxels; in `once`, if they are too many to be kept beside closings.
+  const Enclosed& enclosed_scene(std::unique_ptr<Enclosed>& once) {
+    constexpr std::uint64_t kSmallShare = 16;  // of the memory
+    if (enclosed.scene && enclosed.reductions == voxels.reductions()) return *enclosed.scene;
+    enclosed.scene.reset();
+    once = bp::enclosed_scene(options.scene, voxels.header(), voxels.solid());
+    if (once->bytes() > context.memory.bytes / kSmallShare) return *once;
+    enclosed = {std::move(once), voxels.reductions()};
+    return *enclosed.scene;
+  }
+
+  void take_off(std::uint64_t bytes) {
+    context.memory.bytes -= std::min(context.memory.bytes, bytes);
+    context.pieces = context.pieces.without(bytes);
   }
 };
 
@@ -367,7 +294,7 @@ LodChain::LodChain(const StreamHeader& header, std::unique_ptr<BrickShelf> solid
 LodChain::~LodChain() = default;
 
 std::uint64_t LodChain::dense_faces() const {
-  return state_->outside->dense_faces;
+  return state_->ruler->dense_faces;
 }
 
 std::int64_t LodChain::longest_side_vox() const {

@@ -1,6 +1,8 @@
 #pragma once
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "lib/closing/closing.h"
 #include "lib/device/backend.h"
@@ -66,6 +68,15 @@ struct LodOptions {
   PassContext context;
 };
 
+/// A mesh that was proposed for a level.
+struct TriedWay {
+  std::string way;  ///< box, prism, hull; finer: from the level before, or the scene's surface; closing; least volume
+  double scale_world = 0;  ///< of its closing
+  std::uint64_t faces = 0;
+  double volume = 0;       ///< scene units cubed
+  double error_world = 0;  ///< NaN: so large that it was not measured to the end
+};
+
 struct LodLevel {
   LatticeMesh mesh;        ///< in the frame of its voxels
   double scale_world = 0;  ///< that it was closed at
@@ -81,6 +92,7 @@ struct LodLevel {
   /// is large where a level closes a cavity. Where parts of the scene overlap or touch, what they hide is no surface.
   double distance_world = 0;
   MeshCounts counts;
+  std::vector<TriedWay> tried;  ///< in this order; the level is one of them
 };
 
 /// What a level holds, scene units cubed.
@@ -102,13 +114,17 @@ class LodChain {
   /// Length of the longest side of the solid, in voxels.
   [[nodiscard]] std::int64_t longest_side_vox() const;
 
-  /// The next level; targets come finest first. A bounding level of a face budget is the one before, coarsened, where
-  /// that has 50 faces for each of its parts and holes; else it is made from voxels, closed at the least scale, from an
-  /// eighth of first_scale() on (a half in a fit), that leaves so many, or at first_scale(). A budget that cannot be
-  /// met, because parts stay apart or keep holes, is tried again at twice the scale, on coarser voxels where the budget
-  /// allows, until it is met or the scale is half the scene. LodLevel says at what. Levels of simple scenes are the
-  /// nearest of all these scales up to twice first_scale(). Levels of few faces are the nearest of several, too
-  /// (detail/few_faces_level.h). Throws as close_stream() and mesh_stream().
+  /// The next level; targets come finest first. It is the best (detail/best_level.h) of what is proposed:
+  ///   - of a bounding level, the scene's box, prism or hull (detail/convex_levels.h); nothing else is proposed where
+  ///     one of these is exact;
+  ///   - the bounding level before, or the surface of a scene that is a closed one, with fewer faces, where that leaves
+  ///     each of its parts and holes 50;
+  ///   - else closings: at the least scale, from an eighth of first_scale() on (a half in a fit), that leaves each part
+  ///     and hole so many faces, or at first_scale(). Where parts and holes take more faces than there are, twice the
+  ///     scale is tried, on coarser voxels where the budget allows, until there are enough or the scale is half the
+  ///     scene. Of simple scenes all scales up to twice first_scale() are proposed;
+  ///   - of fewer than 32 faces, the mesh of least volume around the best closing.
+  /// Throws as close_stream() and mesh_stream().
   [[nodiscard]] LodLevel make(const LodTarget& target);
 
  private:

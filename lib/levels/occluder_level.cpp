@@ -20,14 +20,6 @@ constexpr double kMostScale = 1.0 / 16, kMostOpening = 1.0 / 8;  // of the scene
 constexpr double kLeastPart = 1e-3, kMostLeastPart = 0.3;        // of the largest one, by volume
 constexpr std::uint64_t kFewFacesPerPart = kFacesOfBox;          // with fewer, parts are left out
 
-/// What a scene hides at a scale.
-struct Hidden {
-  double scale = 0;
-  bool ground = false;
-  HiddenVoxels voxels;
-  std::vector<MadeOccluder::Tried> tried;
-};
-
 HiddenOptions at_scale(HiddenOptions options, double scale_world) {
   options.scale_world = scale_world;
   return options;
@@ -57,22 +49,23 @@ class ShownSteps {
 /// What a scene hides at the scale that is asked for, or at the best one.
 class HiddenSearch {
  public:
-  HiddenSearch(const OccluderSource& source, VoxelizedScene& scene, Backends& backends, const char* pass)
-      : scene_(scene),
+  HiddenSearch(const StreamHeader& header, BrickShelf& touched, Backends& backends, const OccluderRequest& request,
+               const char* pass)
+      : header_(header),
+        touched_(touched),
         backends_(backends),
-        asked_(source.request(scene.header).scale_world),
-        scales_(asked_ ? std::vector<double>{*asked_} : occluder_scales(scene.header)),
-        steps_(source.hidden.context, pass, "scales", scales_.size()),
-        options_(steps_.within(source.hidden)),
-        enclosed_(enclosed_voxels(scene.header, *scene.solid, backends, options_)) {}
+        scales_(request.scale_world ? std::vector<double>{*request.scale_world} : occluder_scales(header)),
+        steps_(request.hidden.context, pass, "scales", scales_.size()),
+        options_(steps_.within(request.hidden)),
+        enclosed_(enclosed_voxels(header, touched, backends, options_)) {}
 
-  Hidden run() {
+  HiddenScene run() {
     for (const double scale : scales_) {
       attempt(scale);
       steps_.step();
     }
-    Hidden best = std::move(promising_.front());
-    if (!asked_) best.tried = std::move(tried_);
+    HiddenScene best = std::move(promising_.front());
+    if (scales_.size() > 1) best.tried = std::move(tried_);
     return best;
   }
 
@@ -80,55 +73,43 @@ class HiddenSearch {
   /// Scales that hide less than one before them are never the least that hides enough: their voxels are not kept.
   void attempt(double scale) {
     const bool first = tried_.empty();
-    const auto unreached = unreached_voxels(scene_.header, *enclosed_, backends_, at_scale(options_, scale));
+    const auto unreached = unreached_voxels(header_, *enclosed_, backends_, at_scale(options_, scale));
     tried_.push_back({scale, first ? 0 : tried_.front().hidden_voxels});
     if (!unreached && !first) return;  // as much as without a scale
-    Hidden hidden;
-    hidden.scale = scale;
-    hidden.voxels = unseen_voxels(unreached ? *unreached : *enclosed_, *scene_.solid, options_);
+    HiddenScene hidden;
+    hidden.scale_world = scale;
+    hidden.voxels = unseen_voxels(unreached ? *unreached : *enclosed_, touched_, options_);
     const std::uint64_t count = tried_.back().hidden_voxels = hidden.voxels.count;
     if (count <= most_ && !first) return;
     most_ = count;
-    std::erase_if(promising_, [&](const Hidden& h) { return double(h.voxels.count) < kAsMuch * double(most_); });
+    std::erase_if(promising_, [&](const HiddenScene& h) { return double(h.voxels.count) < kAsMuch * double(most_); });
     promising_.push_back(std::move(hidden));
   }
 
-  VoxelizedScene& scene_;
+  const StreamHeader& header_;
+  BrickShelf& touched_;
   Backends& backends_;
-  const std::optional<double> asked_;
   const std::vector<double> scales_;
   ShownSteps steps_;
   const HiddenOptions options_;
   const std::unique_ptr<BrickShelf> enclosed_;
-  std::vector<MadeOccluder::Tried> tried_;
-  std::vector<Hidden> promising_;  // each with more voxels than the one before
+  std::vector<HiddenScene::Tried> tried_;
+  std::vector<HiddenScene> promising_;  // each with more voxels than the one before
   std::uint64_t most_ = 0;
 };
-
-/// Whether a scene on the ground hides enough more.
-bool gains(double on_ground, double without) {
-  return on_ground > kGroundGains * without;
-}
-
-/// False if no more can be hidden on the ground than is without: at most all voxels of the scene's bounds.
-bool may_gain(const StreamHeader& header, double hidden) {
-  const VoxelCoord size = voxel_bounds(header.frame, header.bounds).size();
-  return gains(double(size.x) * size.y * size.z, hidden);
-}
 
 /// The mesh within hidden voxels.
 class OccluderMesh {
  public:
-  OccluderMesh(const OccluderSource& source, const VoxelizedScene& scene, const Hidden& hidden, Backends& backends)
-      : source_(source),
-        scene_(scene),
+  OccluderMesh(const StreamHeader& header, const HiddenScene& hidden, Backends& backends,
+               const OccluderRequest& request)
+      : header_(header),
         hidden_(hidden),
         backends_(backends),
-        openings_(occluder_openings(scene.header)),
-        steps_(source.hidden.context, "meshing", "openings", openings_.size()) {
-    const LevelRequest request = source.request(scene.header);
-    if (!request.faces.empty()) faces_ = request.faces.front();
-  }
+        options_(request.hidden),
+        openings_(occluder_openings(header)),
+        steps_(options_.context, "meshing", "openings", openings_.size()),
+        faces_(request.faces) {}
 
   LodLevel run() {
     steps_.show();
@@ -178,7 +159,7 @@ class OccluderMesh {
   }
 
   [[nodiscard]] StreamHeader header_at(double scale) const {
-    StreamHeader header = scene_.header;
+    StreamHeader header = header_;
     header.bricks = bricks_around(*hidden_.voxels.voxels);
     header.fill = FillMode::inside;
     header.has_closing = scale > 0;
@@ -190,8 +171,7 @@ class OccluderMesh {
   bool open_by(double scale) {
     opened_.reset();
     if (scale == 0) return true;
-    opened_ =
-        opening(header_at(scale), *hidden_.voxels.voxels, backends_, at_scale(steps_.within(source_.hidden), scale));
+    opened_ = opening(header_at(scale), *hidden_.voxels.voxels, backends_, at_scale(steps_.within(options_), scale));
     return opened_ != nullptr;
   }
 
@@ -204,7 +184,7 @@ class OccluderMesh {
     params.enclose = Enclose::input;
     params.least_part = least_part;
     try {
-      level.mesh = std::move(mesh_stream(shelf, source_.hidden.context, std::move(params), level.counts).front());
+      level.mesh = std::move(mesh_stream(shelf, options_.context, std::move(params), level.counts).front());
     } catch (const Error& e) {
       if (scale == 0 || e.code() != ErrorCode::bad_input) throw;
       return false;
@@ -212,14 +192,14 @@ class OccluderMesh {
     return true;
   }
 
-  const OccluderSource& source_;
-  const VoxelizedScene& scene_;
-  const Hidden& hidden_;
+  const StreamHeader& header_;
+  const HiddenScene& hidden_;
   Backends& backends_;
+  const HiddenOptions& options_;
   const std::vector<double> openings_;
   ShownSteps steps_;
   std::unique_ptr<BrickShelf> opened_;  // of what is hidden; null: all of it
-  std::uint64_t faces_ = 0;             // 0: not known
+  std::uint64_t faces_;                 // 0: not known
   LodLevel best_;
   double opening_ = 0;
   int attempts_ = 0;
@@ -242,27 +222,26 @@ std::vector<double> occluder_openings(const StreamHeader& header) {
   return scales;
 }
 
-MadeOccluder make_occluder(const OccluderSource& source, Backends& backends, const LevelSteps& steps) {
+HiddenScene hidden_scene(const StreamHeader& header, BrickShelf& touched, Backends& backends,
+                         const OccluderRequest& request, const char* pass) {
+  return HiddenSearch(header, touched, backends, request, pass).run();
+}
+
+bool gains_on_ground(std::uint64_t on_ground, std::uint64_t without) {
+  return double(on_ground) > kGroundGains * double(without);
+}
+
+bool may_gain_on_ground(const StreamHeader& header, std::uint64_t without) {
+  const VoxelCoord size = voxel_bounds(header.frame, header.bounds).size();
+  return gains_on_ground(std::uint64_t(size.x) * std::uint64_t(size.y) * std::uint64_t(size.z), without);
+}
+
+MadeOccluder make_occluder(const StreamHeader& header, const HiddenScene& hidden, Backends& backends,
+                           const OccluderRequest& request) {
+  OccluderMesh mesh(header, hidden, backends, request);
   MadeOccluder made;
-  made.scene = source.voxelize(false);
-  steps.begin("close openings");
-  Hidden hidden = HiddenSearch(source, made.scene, backends, "closing openings").run();
-  if (source.may_ground && may_gain(made.scene.header, double(hidden.voxels.count))) {
-    VoxelizedScene grounded = source.voxelize(true);
-    steps.begin("close openings");
-    Hidden with = HiddenSearch(source, grounded, backends, "closing openings above the ground").run();
-    with.ground = true;
-    if (gains(double(with.voxels.count), double(hidden.voxels.count))) hidden = std::move(with);
-  }
-  made.scale_world = hidden.scale;
-  made.ground = hidden.ground;
-  made.hidden_voxels = hidden.voxels.count;
-  made.tried = hidden.tried;
-  if (made.hidden_voxels == 0) return made;
-  steps.begin("mesh");
-  OccluderMesh mesh(source, made.scene, hidden, backends);
   made.level = mesh.run();
-  made.level.scale_world = hidden.scale;
+  made.level.scale_world = hidden.scale_world;
   made.level.error_world = made.level.distance_world = std::nan("");
   made.opening_world = mesh.opening_world();
   made.faces_asked = mesh.faces();

@@ -1,17 +1,18 @@
 #pragma once
-#include "lib/levels/level_chain.h"
+#include <optional>
+#include <vector>
+
+#include "lib/levels/lod_chain.h"
 #include "lib/pass/hide/hidden_pass.h"
 
 /// One mesh that lies strictly within what a scene hides from every eye outside (lib/pass/hide/hidden_pass.h).
 namespace bp {
 
-/// What an occluder is made from.
-struct OccluderSource {
-  /// `ground`: as if the scene stood on the ground.
-  std::function<VoxelizedScene(bool ground)> voxelize;
-  std::function<LevelRequest(const StreamHeader&)> request;  ///< faces and scale count; after voxelize()
-  bool may_ground = false;                                   ///< the scene can be voxelized again, on the ground
-  HiddenOptions hidden;                                      ///< all but the scale
+/// What an occluder is asked to be.
+struct OccluderRequest {
+  std::uint64_t faces = 0;            ///< 0: chosen by the parts that the scene hides
+  std::optional<double> scale_world;  ///< at which openings are closed, scene units; none: the best of several
+  HiddenOptions hidden;               ///< all but the scale
 };
 
 /// Faces where none are asked for: these, or so many for each part where that is more, up to the most.
@@ -22,24 +23,38 @@ constexpr std::uint64_t kOccluderFaces = 100, kOccluderFacesOfPart = 24, kMostOc
 /// The scales of openings that may be tried of what is hidden, from 0: the search ends where a larger one holds less.
 [[nodiscard]] std::vector<double> occluder_openings(const StreamHeader& header);
 
-struct MadeOccluder {
-  VoxelizedScene scene;             ///< without its voxels
-  LodLevel level;                   ///< error_world: NaN, not measured; no triangle if the scene hides nothing
-  double scale_world = 0;           ///< openings narrower than twice this are closed
-  bool ground = false;              ///< the scene stands on the ground
-  std::uint64_t hidden_voxels = 0;  ///< 0: the scene hides nothing
-  double opening_world = 0;         ///< of what is hidden, parts narrower than twice this are left out
-  std::uint64_t faces_asked = 0;    ///< or chosen
+/// What a scene hides at a scale.
+struct HiddenScene {
+  double scale_world = 0;  ///< openings narrower than twice this are closed
+  HiddenVoxels voxels;     ///< count 0: the scene hides nothing
   struct Tried {
     double scale_world = 0;
     std::uint64_t hidden_voxels = 0;
   };
-  std::vector<Tried> tried;  ///< scales
+  std::vector<Tried> tried;  ///< scales; none if one was asked for
 };
 
-/// Without a scale, openings are closed at the least scale, up to a sixteenth of the scene's diagonal, that hides 0.95
-/// of what the best one does. A scene that hides a quarter more if it stands on the ground does so: many buildings have
-/// no floor. Where the faces show more without small and narrow parts, these are left out.
-[[nodiscard]] MadeOccluder make_occluder(const OccluderSource& source, Backends& backends, const LevelSteps& steps);
+/// At the scale that is asked for; else at the least one, up to a sixteenth of the scene's diagonal, that hides 0.95 of
+/// what the best one does. `touched` holds the bricks of `header`. `pass`: the name of the work for whoever is told of
+/// the progress. Throws as close_stream().
+[[nodiscard]] HiddenScene hidden_scene(const StreamHeader& header, BrickShelf& touched, Backends& backends,
+                                       const OccluderRequest& request, const char* pass);
+
+/// Whether a scene that stands on the ground hides a quarter more than without, as many buildings do that have no
+/// floor.
+[[nodiscard]] bool gains_on_ground(std::uint64_t on_ground, std::uint64_t without);
+/// False if a scene of such voxels cannot hide a quarter more, wherever it stands: it would fill its bounds.
+[[nodiscard]] bool may_gain_on_ground(const StreamHeader& header, std::uint64_t without);
+
+struct MadeOccluder {
+  LodLevel level;                 ///< error_world: NaN, not measured
+  double opening_world = 0;       ///< of what is hidden, parts narrower than twice this are left out
+  std::uint64_t faces_asked = 0;  ///< or chosen
+};
+
+/// The mesh inside of what a scene of `header` hides, which is something. Where its faces show more without small and
+/// narrow parts, these are left out.
+[[nodiscard]] MadeOccluder make_occluder(const StreamHeader& header, const HiddenScene& hidden, Backends& backends,
+                                         const OccluderRequest& request);
 
 }  // namespace bp

@@ -18,7 +18,6 @@ struct WholeLevels {
   Vec3d origin{};  ///< that all contents are relative to
   std::vector<WholeLevel> levels;
   std::vector<LeftOut> left_out;
-  bool kept = false;  ///< found in the store
 };
 
 /// What they are made from.
@@ -33,15 +32,15 @@ struct WholeInput {
   std::string encoding;
 };
 
-/// The file of level `number`. Vertices are relative to `origin`.
-using WholeEncoder = std::function<std::string(std::size_t number, const LatticeMesh& mesh, const Vec3d& origin)>;
+/// Of everything that the levels depend on.
+[[nodiscard]] ResultKey key_of(const WholeInput& input);
+/// What was kept under a key; nothing if it is not there.
+[[nodiscard]] std::optional<WholeLevels> kept_levels(const ResultKey& key, ResultStore& store);
+void keep_levels(const ResultKey& key, const WholeLevels& levels, ResultStore& store);
 
-/// Whether `store` has them.
-[[nodiscard]] bool are_kept(const WholeInput& input, ResultStore& store);
-
-/// From `store`, if it is not null and has them; else made, and put there. steps.complete() sets provenance; colours
-/// are there.
-[[nodiscard]] WholeLevels make_whole_levels(WholeInput input, Backends& backends, const LevelSteps& steps,
-                                            const WholeEncoder& encode, ResultStore* store);
+/// A point that is a lattice point of every level, near the middle of all. Levels are not empty.
+[[nodiscard]] Vec3d common_origin(const std::vector<LodLevel>& levels);
+/// Around the vertices of a mesh.
+[[nodiscard]] Bounds3d bounds_of(const LatticeMesh& mesh);
 
 }  // namespace bp

@@ -31,7 +31,7 @@ Shared shared_corners(const std::array<VertexId, 3>& a, const std::array<VertexI
 /// Returns whether two faces meet beyond the corners that they share. Exact.
 bool meet(const NewFace& a, const NewFace& b, Shared s) {
   const LatticeCoord *ta = a.corners.data(), *tb = b.corners.data();
-  // the lowest bit that is set; below, the lowest bit that is not set
+  // The lowest bit that is set; below, the lowest bit that is not set.
   constexpr int kFirst[8] = {0, 0, 1, 0, 2, 0, 1, 0};
   if (s.a == 0) return triangles_intersect(ta, tb);
   if (s.a == 1 || s.a == 2 || s.a == 4) return triangles_meet_beyond_shared_vertex(ta, kFirst[s.a], tb, kFirst[s.b]);

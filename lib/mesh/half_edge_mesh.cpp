@@ -46,7 +46,7 @@ void HalfEdgeMesh::connect() {
     HalfEdgeId h;
   };
   const auto edges = HalfEdgeId(from_.size());
-  // one more than needed: each entry is the cursor while its bucket fills
+  // One more than needed: each entry is the cursor while its bucket fills.
   std::vector<std::uint32_t> start(position_.size() + 2, 0);
   for (HalfEdgeId h = 0; h < edges; ++h) {
     ++start[std::min(from(h), to(h)) + 2];

@@ -36,7 +36,7 @@ class HalfEdgeMesh {
   /// above.
   HalfEdgeMesh(std::vector<LatticeCoord> vertices, std::span<const Triangle> triangles, const LatticeBox& cell);
 
-  /// ids are below it; dead vertices count
+  /// Ids are below it; dead vertices count.
   [[nodiscard]] std::size_t vertex_capacity() const { return position_.size(); }
   [[nodiscard]] std::size_t face_capacity() const { return from_.size() / 3; }
   [[nodiscard]] std::size_t face_count() const { return face_count_; }

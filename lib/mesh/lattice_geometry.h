@@ -45,7 +45,7 @@ constexpr double kSkin = 0.3 * kLatticePerVoxel;
 /// from a corner to a point, it is the point's side of the face.
 [[nodiscard]] inline int side_along(const LatticeCoord& n, const LatticeCoord& d) {
   constexpr std::int64_t n_max = std::int64_t(1) << 40, d_max = std::int64_t(1) << 20;  // 3 * 2^60 < 2^63
-  // the limit is a power of two: one comparison for three components
+  // The limit is a power of two: one comparison for three components.
   const auto within = [](const LatticeCoord& v, std::int64_t max) {
     return (std::uint64_t(v.x + max) | std::uint64_t(v.y + max) | std::uint64_t(v.z + max)) < std::uint64_t(2 * max);
   };

@@ -38,7 +38,7 @@ struct LatticeMesh {
   GridFrame frame;
   std::vector<LatticeCoord> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  /// triangles that a file joins to quads (lib/quads/quads.h); mostly empty
+  /// Triangles that a file joins to quads (lib/quads/quads.h); mostly empty.
   std::vector<std::array<std::uint32_t, 2>> quads;
   std::vector<TriangleColors> colors;  ///< at each triangle's corners; empty: none
   std::vector<Provenance> provenance;

@@ -17,7 +17,7 @@ struct ShadedMesh {
   std::vector<std::array<float, 3>> normals;  ///< of each copy: a unit vector; (0, 0, 1) if the faces' normals cancel
   std::vector<std::array<float, 2>> uv;       ///< of each copy; empty if the mesh has no texture
   std::vector<LinearColor> colors;            ///< of each copy; empty if the mesh has none
-  /// the triangles of the mesh in its order, as numbers of copies
+  /// The triangles of the mesh in its order, as numbers of copies.
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 

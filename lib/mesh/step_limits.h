@@ -25,7 +25,7 @@ class StepLimits {
   [[nodiscard]] virtual bool has_parts() const { return false; }
   /// Returns the same bounds for steps on a part of the surface, on another thread.
   [[nodiscard]] virtual std::unique_ptr<StepLimits> for_part() const { return nullptr; }
-  /// adds what a part of for_part() has seen
+  /// Adds what a part of for_part() has seen.
   virtual void add_part(const StepLimits& part) { static_cast<void>(part); }
   [[nodiscard]] virtual std::uint64_t bytes_of_part() const { return 0; }
   /// Returns the largest distance that the bounds allow, lattice units; 0 if they do not limit distances.

@@ -26,7 +26,7 @@ class CheckBudget {
   [[nodiscard]] MemoryShare of_scene() const;  ///< for distances, and for the voxels that hide a proxy
 
  private:
-  /// of so many parts of the memory that the proxy leaves, one is for a description
+  /// The memory that the proxy leaves is cut into so many parts; one is for a description.
   [[nodiscard]] std::uint64_t parts_of_document() const;
 
   std::uint64_t memory_, usable_;

@@ -68,7 +68,7 @@ std::string other_scene_hint(const std::vector<std::string>& scenes, const std::
   const std::string told = hash_of_scene(extras);
   if (told.empty() || !std::all_of(scenes.begin(), scenes.end(), is_file)) return "";
   for (const std::string& scene : scenes) {
-    // the scene is itself a level, and the proxy is within or around it
+    // The scene is itself a level, and the proxy is within or around it.
     if (hash_of_scene(extras_of(scene)) == told) return "";
   }
   const std::string found = hash_of(scenes, options, hiding_recipe(extras));

@@ -137,7 +137,7 @@ std::shared_ptr<const MeshTexture> level_texture(const Build& build, const Latti
   return std::make_shared<const MeshTexture>(std::move(texture));
 }
 
-void bake_levels(Build& build, MadeLevels& made) {
+void bake_levels(Build& build, CompleteLevels& made) {
   if (!build.textured()) return;
   build.report.begin("textures");
   const std::unique_ptr<SceneLooks> looks = read_looks(build, part_of(build.budget.work, 0.6));

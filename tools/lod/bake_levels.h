@@ -33,6 +33,6 @@ struct LevelLengths {
                                                                const MemoryShare& memory);
 
 /// Gives each level its texture, if the scene has any (Build::textured()). Notes tell of images that cannot be used.
-void bake_levels(Build& build, MadeLevels& made);
+void bake_levels(Build& build, CompleteLevels& made);
 
 }  // namespace bp

@@ -275,11 +275,21 @@ void Build::complete(LodLevel& level, std::size_t i, const LodTarget& target, co
   level.mesh.provenance = {make_provenance("bplod", text, input_hash)};
 }
 
-LevelSteps Build::level_steps(std::function<std::string()> input_hash) {
-  return {[this](const std::string& name) { report.begin(name); },
-          [this, hash = std::move(input_hash)](LodLevel& level, std::size_t number, const LodTarget& target) {
-            complete(level, number, target, hash());
-          }};
+CompleteLevels Build::make_levels(LodChain& chain, const ChainRange& range, const std::string& input_hash) {
+  LevelSequence sequence(chain, range);
+  while (const std::optional<std::size_t> number = sequence.next()) {
+    report.begin("level " + std::to_string(*number));
+    sequence.make_next();
+  }
+  auto [made, left_out] = sequence.take();
+  CompleteLevels out;
+  out.left_out = std::move(left_out);
+  for (auto& [level, target] : made) {
+    complete(level, range.first + out.levels.size(), target, input_hash);
+    out.facts.push_back(facts_of(level, target));
+    out.levels.push_back(std::move(level));
+  }
+  return out;
 }
 
 void Build::note(const std::string& text) {
@@ -358,25 +368,8 @@ MadeChain make_chain(Build& build) {
   LodChain chain(header, std::move(scene.solid), build.backends, build.lod_options());
   const LevelRequest request = request_for(o, scene.counts.scene.triangles, diagonal, header.frame.voxel);
   const ChainRange range{request, 0, level_count(request), diagonal, is_named(voxel_request(o, diagonal))};
-  MadeLevels made = make_levels(chain, range, build.level_steps([&] { return scene.counts.input_hash; }));
+  CompleteLevels made = build.make_levels(chain, range, scene.counts.input_hash);
   return {std::move(scene), std::move(made)};
-}
-
-MadeOccluder make_occluder(Build& build) {
-  const BuildOptions& o = build.options;
-  OccluderSource source;
-  source.voxelize = [&](bool ground) { return build.voxelize(0, nullptr, ground); };
-  source.request = [&](const StreamHeader& header) {
-    return request_of(o, header.bounds.diagonal(), header.frame.voxel);
-  };
-  source.may_ground = can_read_again(o);
-  source.hidden = {0, o.closing.element, build.context()};
-  MadeOccluder made = make_occluder(source, build.backends, build.level_steps({}));
-  if (made.hidden_voxels > 0) return made;
-  fail(ErrorCode::bad_input,
-       "the scene hides nothing: it is open, also at a scale of {:.4g}, or thinner than its voxels of {:.4g}; try "
-       "another --scale, or smaller voxels",
-       made.scale_world, made.scene.header.frame.voxel);
 }
 
 }  // namespace bp

@@ -1,5 +1,4 @@
 #pragma once
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -7,7 +6,6 @@
 #include "io/scene/scene_reader.h"
 #include "io/scene/texture_table.h"
 #include "lib/levels/level_chain.h"
-#include "lib/levels/occluder_level.h"
 #include "lib/pass/bake/scene_looks.h"
 #include "lib/pass/color/scene_colors.h"
 #include "tools/lod/level_list.h"
@@ -17,6 +15,13 @@
 
 /// What all profiles of bplod have in common: how the options become voxels and levels, the list and the report.
 namespace bp {
+
+/// Levels that lack nothing but to be written.
+struct CompleteLevels {
+  std::vector<LodLevel> levels;   ///< finest first
+  std::vector<LevelFacts> facts;  ///< of each
+  std::vector<LeftOut> left_out;
+};
 
 class Build {
  public:
@@ -62,8 +67,9 @@ class Build {
   [[nodiscard]] const SceneLooks* looks() const { return textured_ ? looks_.get() : nullptr; }  ///< null: not held
   [[nodiscard]] const SceneLooks* scene_looks() const { return looks_.get(); }  ///< also where only leaves need them
   [[nodiscard]] MemoryShare texture_memory() const;  ///< for each image that is baked meanwhile
-  /// Stages go to the report; levels get colours and provenance. `input_hash`: of the scene, for the latter.
-  [[nodiscard]] LevelSteps level_steps(std::function<std::string()> input_hash);
+  /// Makes the levels of a range; each is a stage of the report. They get colours, textures where looks are held, and
+  /// provenance with the hash of the scene, `input_hash`.
+  [[nodiscard]] CompleteLevels make_levels(LodChain& chain, const ChainRange& range, const std::string& input_hash);
 
   void note(const std::string& text);
   void note_levels(const std::vector<LevelFacts>& levels, std::size_t first, const std::vector<LeftOut>& left_out);
@@ -102,12 +108,9 @@ class Build {
 
 struct MadeChain {
   VoxelizedScene scene;  ///< without its voxels
-  MadeLevels made;
+  CompleteLevels made;
 };
 /// All levels of a scene, in one mesh each.
 [[nodiscard]] MadeChain make_chain(Build& build);
-
-/// The occluder of a scene. Throws bad_input if the scene hides nothing.
-[[nodiscard]] MadeOccluder make_occluder(Build& build);
 
 }  // namespace bp

@@ -4,7 +4,10 @@
 
 #include <cmath>
 
+#include "lib/core/error.h"
+#include "lib/levels/occluder_level.h"
 #include "tools/cli/names.h"
+#include "tools/lod/build.h"
 #include "tools/lod/choices.h"
 #include "tools/lod/lod_outputs.h"
 #include "tools/run/hiding_recipe.h"
@@ -16,37 +19,47 @@ namespace {
 constexpr double kLittle = 5e-3;  // of the volume of the bounds
 constexpr double kHalf = 0.5;     ///< of what is hidden
 
-double hidden_volume(const MadeOccluder& made) {
-  return double(made.hidden_voxels) * std::pow(made.scene.header.frame.voxel, 3);
+/// An occluder, and what it was made from.
+struct BuiltOccluder {
+  VoxelizedScene scene;
+  HiddenScene hidden;
+  bool ground = false;  ///< the scene stands on the ground
+  MadeOccluder made;
+};
+
+double hidden_volume(const BuiltOccluder& built) {
+  return double(built.hidden.voxels.count) * std::pow(built.scene.header.frame.voxel, 3);
 }
 
 double volume_of(const Bounds3d& b) {
   return (b.max[0] - b.min[0]) * (b.max[1] - b.min[1]) * (b.max[2] - b.min[2]);
 }
 
-OptionText option_text(const BuildOptions& o, const MadeOccluder& made) {
-  const GridFrame& frame = made.scene.header.frame;
+OptionText option_text(const BuildOptions& o, const BuiltOccluder& built) {
+  const GridFrame& frame = built.scene.header.frame;
   OptionText text;
-  text.add("mode", "inside").add("faces", made.faces_asked);
-  add_recipe({{frame, made.scale_world, o.closing.element}, true, made.ground, frame.up}, text);
-  return text.add("opening", made.opening_world).add("tighten", true);
+  text.add("mode", "inside").add("faces", built.made.faces_asked);
+  add_recipe({{frame, built.hidden.scale_world, o.closing.element}, true, built.ground, frame.up}, text);
+  return text.add("opening", built.made.opening_world).add("tighten", true);
 }
 
-Json json_of(const MadeOccluder& made) {
+Json json_of(const BuiltOccluder& built) {
   Json tried = Json::array();
-  const double voxel_volume = std::pow(made.scene.header.frame.voxel, 3);
-  for (const MadeOccluder::Tried& t : made.tried)
+  const double voxel_volume = std::pow(built.scene.header.frame.voxel, 3);
+  for (const HiddenScene::Tried& t : built.hidden.tried)
     tried.push_back({{"scale", t.scale_world}, {"hidden", double(t.hidden_voxels) * voxel_volume}});
+  const MeshCounts& counts = built.made.level.counts;
   return {{"scales", tried},
-          {"ground", made.ground},
-          {"hidden", hidden_volume(made)},
-          {"opening", made.opening_world},
-          {"parts", made.level.counts.levels.front().measures.shells},
-          {"parts_dropped", made.level.counts.dropped_parts}};
+          {"ground", built.ground},
+          {"hidden", hidden_volume(built)},
+          {"opening", built.made.opening_world},
+          {"parts", counts.levels.front().measures.shells},
+          {"parts_dropped", counts.dropped_parts}};
 }
 
-void note(Build& build, const MadeOccluder& made, double volume) {
-  const double hidden = hidden_volume(made), share = hidden / volume_of(made.scene.header.bounds);
+void note(Build& build, const BuiltOccluder& built, double volume) {
+  const MadeOccluder& made = built.made;
+  const double hidden = hidden_volume(built), share = hidden / volume_of(built.scene.header.bounds);
   if (share < kLittle)
     build.note(fmt::format(
         "the scene hides {:.2g} % of its bounding box only: walls are missing, or wider open than {}", 100 * share,
@@ -55,12 +68,12 @@ void note(Build& build, const MadeOccluder& made, double volume) {
   if (volume < kHalf * hidden)
     build.note(fmt::format("{} faces hold {:.2g} % of the volume that the scene hides; more --faces hold more",
                            made.level.mesh.triangles.size(), 100 * volume / hidden));
-  if (made.ground) build.note("the scene is open below: it is taken to stand on the ground, and eyes to be above it");
-  if (made.scale_world > 0)
+  if (built.ground) build.note("the scene is open below: it is taken to stand on the ground, and eyes to be above it");
+  if (built.hidden.scale_world > 0)
     build.note(
         fmt::format("openings narrower than {:.4g} are taken for closed, and the rooms behind them are filled, as are "
                     "valleys as narrow; --scale 0 keeps free what one enters",
-                    2 * made.scale_world));
+                    2 * built.hidden.scale_world));
   else if (!build.options.closing.scale)
     build.note("openings stay open: closing them would hide little more");
   if (!made.level.reached)
@@ -68,28 +81,58 @@ void note(Build& build, const MadeOccluder& made, double volume) {
                            made.faces_asked));
 }
 
+BuiltOccluder make(Build& build) {
+  const BuildOptions& o = build.options;
+  BuiltOccluder built;
+  built.scene = build.voxelize(0);
+  const StreamHeader& header = built.scene.header;
+  const LevelRequest levels = request_of(o, header.bounds.diagonal(), header.frame.voxel);
+  const OccluderRequest request{
+      levels.faces.empty() ? 0 : levels.faces.front(), levels.scale_world, {0, o.closing.element, build.context()}};
+  const auto hidden_of = [&](const VoxelizedScene& scene, const char* pass) {
+    build.report.begin("close openings");
+    return hidden_scene(scene.header, *scene.solid, build.backends, request, pass);
+  };
+  built.hidden = hidden_of(built.scene, "closing openings");
+  const std::uint64_t without = built.hidden.voxels.count;
+  if (can_read_again(o) && may_gain_on_ground(header, without)) {
+    HiddenScene grounded = hidden_of(build.voxelize(0, nullptr, true), "closing openings above the ground");
+    built.ground = gains_on_ground(grounded.voxels.count, without);
+    if (built.ground) built.hidden = std::move(grounded);
+  }
+  if (built.hidden.voxels.count == 0)
+    fail(ErrorCode::bad_input,
+         "the scene hides nothing: it is open, also at a scale of {:.4g}, or thinner than its voxels of {:.4g}; try "
+         "another --scale, or smaller voxels",
+         built.hidden.scale_world, header.frame.voxel);
+  build.report.begin("mesh");
+  built.made = make_occluder(header, built.hidden, build.backends, request);
+  return built;
+}
+
 }  // namespace
 
 void build_occluder(const BuildOptions& o) {
   OutputFolder out(o.out, profile_files(o.profile, o.name, 1), o.common.overwrite);
   Build build(o);
-  MadeOccluder made = make_occluder(build);
-  made.level.mesh.provenance = {make_provenance("bplod", option_text(o, made), made.scene.counts.input_hash)};
-  const LevelFacts facts = facts_of(made.level, {});
-  note(build, made, facts.volume);
+  BuiltOccluder built = make(build);
+  LodLevel& level = built.made.level;
+  level.mesh.provenance = {make_provenance("bplod", option_text(o, built), built.scene.counts.input_hash)};
+  const LevelFacts facts = facts_of(level, {});
+  note(build, built, facts.volume);
   build.progress.end();
   build.report.begin("write");
-  const Json more = json_of(made);
+  const Json more = json_of(built);
   std::vector<LodLevel> levels;
-  levels.push_back(std::move(made.level));
-  const StreamHeader& header = made.scene.header;
+  levels.push_back(std::move(level));
+  const StreamHeader& header = built.scene.header;
   const Vec3d origin = origin_of(o.proxy.origin, header.frame, header.bounds);
   const WrittenFile file = write_profile(o, levels, 0, origin, out).front();
   out.commit();
   LevelRow row = row_of(facts, file.name, out.bytes(file.name));
   row.more.update(more);
   if (origin != Vec3d{}) build.report.counts["origin"] = origin;
-  build.finish(made.scene, {row}, out.bytes());
+  build.finish(built.scene, {row}, out.bytes());
 }
 
 }  // namespace bp

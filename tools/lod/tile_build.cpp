@@ -220,6 +220,30 @@ std::string whole_encoding(const Build& build, const std::string& input_hash, co
   return text;
 }
 
+/// The files of levels in one mesh.
+WholeLevels encoded(const Build& build, const CompleteLevels& made, std::size_t first) {
+  WholeLevels whole;
+  whole.origin = common_origin(made.levels);
+  whole.left_out = made.left_out;
+  for (std::size_t i = 0; i < made.levels.size(); ++i) {
+    const LatticeMesh& mesh = made.levels[i].mesh;
+    std::string content = tile_glb({level_name(build.options.name, first + i), &mesh},
+                                   lattice_point(mesh.frame, whole.origin), build.options.compression);
+    whole.levels.push_back({std::move(content), bounds_of(mesh), made.facts[i], mesh.provenance});
+  }
+  return whole;
+}
+
+/// The levels in one mesh, as they are kept, or made and kept.
+WholeLevels whole_levels(const Shop& shop, WholeInput input, const std::string& input_hash, const ResultKey& key) {
+  const StreamHeader& header = input.header;
+  const ChainRange range{input.request, input.first, input.count, header.bounds.diagonal()};
+  LodChain chain(header, std::move(input.solid), shop.build.backends, std::move(input.lod));
+  WholeLevels whole = encoded(shop.build, shop.build.make_levels(chain, range, input_hash), input.first);
+  if (shop.results != nullptr) keep_levels(key, whole, *shop.results);
+  return whole;
+}
+
 /// The levels in one mesh.
 void make_whole(const Shop& shop, TilePyramid& pyramid, LodOptions lod, const LevelRequest& request,
                 MadeTileset& made) {
@@ -237,19 +261,13 @@ void make_whole(const Shop& shop, TilePyramid& pyramid, LodOptions lod, const Le
                    std::move(lod),
                    build.colors(),
                    whole_encoding(build, input_hash, pyramid.header().frame)};
-  FoundJobs& found = made.found.emplace_back(FoundJobs{"levels in one mesh", 1, 0});
-  if (shop.task == Task::look_up) {
-    found.kept = are_kept(input, *shop.results) ? 1 : 0;
-    return;
-  }
-  if (cut == 0 && !build.tells_time && !are_kept(input, *shop.results)) tell_time(shop, made.scene, 1);
-  const auto encode = [&](std::size_t number, const LatticeMesh& mesh, const Vec3d& origin) {
-    return tile_glb({level_name(build.options.name, number), &mesh}, lattice_point(mesh.frame, origin),
-                    build.options.compression);
-  };
-  const WholeLevels whole = make_whole_levels(std::move(input), build.backends,
-                                              build.level_steps([&] { return input_hash; }), encode, shop.results);
-  found.kept = whole.kept ? 1 : 0;
+  const ResultKey key = shop.results != nullptr ? key_of(input) : ResultKey{};
+  std::optional<WholeLevels> kept;
+  if (shop.results != nullptr) kept = kept_levels(key, *shop.results);
+  made.found.push_back({"levels in one mesh", 1, kept ? 1U : 0U});
+  if (shop.task == Task::look_up) return;
+  if (cut == 0 && !build.tells_time && !kept) tell_time(shop, made.scene, 1);
+  const WholeLevels whole = kept ? std::move(*kept) : whole_levels(shop, std::move(input), input_hash, key);
   std::vector<LevelFacts> facts;
   for (const WholeLevel& level : whole.levels) facts.push_back(level.facts);
   build.note_levels(facts, cut, whole.left_out);

@@ -87,7 +87,7 @@ OrientationField make_orientation(const std::string& json, const std::string& fi
 }
 
 std::string orientation_text(const FixedQuaternion& q) {
-  // the rows of a matrix are the turned axes, so the matrix is the inverse
+  // The rows of a matrix are the turned axes, so the matrix is the inverse.
   const Vec3d axis{double(-q.x), double(-q.y), double(-q.z)};
   const double sine = length(axis);
   if (!(sine > 0)) return "not turned";

@@ -219,7 +219,7 @@ void Session::save(const std::string& json) {
 }
 
 std::string Session::surface(std::uint64_t after) const {
-  // read first: pieces that change in between are sent twice
+  // Read first: pieces that change in between are sent twice.
   const std::uint64_t generation = closing_->status().generation;
   return surface_bytes(closing_->since(after), generation);
 }
@@ -236,7 +236,7 @@ Json Session::design_json() const {
   for (std::size_t i = 0; i < design_->rules(); ++i) {
     Json rule = Json::parse(design_->rule(i));
     if (const auto at = rule.find("at"); at != rule.end() && at->is_array() && at->size() > 4)
-      // only the first and the last point: the page lists rules and does not draw them
+      // Only the first and the last point: the page lists rules and does not draw them.
       *at = Json::array({at->front(), at->back()});
     rules.push_back(std::move(rule));
   }

@@ -17,7 +17,7 @@ class Session {
 
   [[nodiscard]] Events& events() { return events_; }
   [[nodiscard]] std::string state() const;  ///< JSON of everything but geometry; events tell when it changes
-  /// as wire.h says; empty: the scene has too many triangles
+  /// As wire.h says; empty: the scene has too many triangles.
   [[nodiscard]] std::string scene() const { return scene_bytes_; }
   [[nodiscard]] std::string surface(std::uint64_t after) const;  ///< as wire.h says: the pieces after a generation
   [[nodiscard]] std::string proxy() const;                       ///< as wire.h says; empty: there is no proxy

@@ -34,7 +34,7 @@ class FaceRegions {
 
   std::vector<Vec3d> normals_;
   std::vector<double> areas_;
-  // across the edge from corner k to the next; kNone if there is none
+  // Across the edge from corner k to the next; kNone if there is none.
   std::vector<std::array<std::uint32_t, 3>> neighbours_;
 };
 

@@ -62,7 +62,7 @@ struct BallTransform::Columns {
   T* rows = nullptr;
   Value* field = nullptr;         ///< [row of the block][slice][64]
   std::uint16_t* need = nullptr;  ///< [slice][row]: 1 + slices to the farthest end of a target's reach; 0: not needed
-  /// slices of field and need: targets, and the seeds that they can meet
+  /// Slices of field and need: targets, and the seeds that they can meet.
   std::int32_t z0 = 0, slices = 0, block_rows = 0;
   std::size_t row_step = 0;  ///< values from one row of the field to the next
   SeedWords words;

@@ -106,7 +106,7 @@ struct VaryingCubeDilation::Sweep {
   BitBox& out;
   VaryingCubeDilation& scratch;
   const T far;
-  /// the region grown by the reach, without parts beyond both solid and region: no shortest path leads there
+  /// The region grown by the reach, without parts beyond both solid and region: no shortest path leads there.
   VoxelBox work{};
   VoxelBox seeds{};  ///< the part of the solid inside `work`
   std::size_t stride = 0, slice = 0;

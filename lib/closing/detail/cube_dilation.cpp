@@ -12,7 +12,7 @@ namespace bp::detail {
 
 namespace {
 
-// words handled together along z, so that a window of them stays in the second-level cache
+// Words handled together along z, so that a window of them stays in the second-level cache.
 constexpr std::size_t kChunk = 256;
 
 /// Ors into `to` the row `from`, moved by `shift` voxels towards +x. Reads from[-shift / 64 - 1] on.

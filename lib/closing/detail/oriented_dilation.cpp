@@ -21,7 +21,7 @@ namespace bp::detail {
 
 namespace {
 
-/// scales that differ in a cell are rounded to this step, so that cells share cubes
+/// Scales that differ in a cell are rounded to this step, so that cells share cubes.
 constexpr std::int32_t kStep = kScaleOne / 2;
 constexpr std::int32_t kMostScale = std::numeric_limits<Scale>::max();
 /// voxels; the least radius of a cube of large voxels, because smaller ones decide too little
@@ -284,7 +284,7 @@ void OrientedDilation::sweep(const BitBox& solid, const ScaleLattice& scale) {
   solid_ = &solid;
   scale_ = &scale;
   const std::int32_t before =
-      // slices before a block where its first block of slices may begin
+      // Slices before a block where its first block of slices may begin.
       ceil_div(reach_, CubeRows::kEdge) * CubeRows::kEdge;
   std::size_t first = 0, last = 0;  // blocks in reach of the slice
   for (std::int32_t z = group_.front().first.z - before; z < group_.back().first.z + kSlices + reach_; ++z) {

@@ -39,7 +39,7 @@ class OrientedDilation {
   struct Part {
     Word mask[kAcross];
     std::uint16_t rotation;
-    /// least and largest scale, in 1/16 of the level's voxels; min < 0: no voxel is in for sure
+    /// Least and largest scale, in 1/16 of the level's voxels; min < 0: no voxel is in for sure.
     std::int32_t min, max;
     const CubeRows *least = nullptr, *most = nullptr;  ///< set while the group is swept
     std::uint64_t near[kSlices] = {};  ///< by slice: blocks of the cubes' next slices that may meet something

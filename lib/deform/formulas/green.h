@@ -39,7 +39,7 @@ BP_FORMULA void take_green_vertices(const CageView& cage, const Vec<Real>& point
 /// the ends. That sum loses its digits near the edge; the squared cross product, over a b - inner, does not.
 template <class Real>
 BP_FORMULA void take_green_edges(const CageView& cage, auto& s, auto& near) {
-  // one plus the cosine between the ends of an edge: below it the number is unreliable
+  // One plus the cosine between the ends of an edge: below it the number is unreliable.
   constexpr double kInLine = 1e-14;
   constexpr double kTiny = 1e-300;
   for (std::uint32_t i = 0; i < cage.edge_count; ++i) {

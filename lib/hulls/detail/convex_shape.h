@@ -20,7 +20,7 @@ void draw_diagonals(ConvexHull& hull);
 /// beyond the planes around them, the cheapest first. A sliver stays if no step removes it, or only one that holds more
 /// than twice as much. Cost: milliseconds a sliver.
 [[nodiscard]] ConvexHull without_slivers(ConvexHull hull);
-/// within the room, as far as the hull was
+/// Within the room, as far as the hull was.
 [[nodiscard]] ConvexHull without_slivers(ConvexHull hull, const LatticeBox& room);
 
 /// Returns the box along the axes around a hull, with 8 corners. For fewer corners it is a tetrahedron around that, of

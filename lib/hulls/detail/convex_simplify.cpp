@@ -65,7 +65,7 @@ ConvexHull with_fewer_corners(ConvexHull hull, std::size_t most, double growth) 
     std::vector<char> taken(hull.vertices.size(), 0);
     const std::size_t before = hull.vertices.size();
     const std::vector<HullStep> sorted = steps.all();
-    // steps that are taken in any case, a few at a time
+    // Steps that are taken in any case, a few at a time.
     const std::size_t cheap = before > most ? 1 + sorted.size() / 16 : 0;
     for (std::size_t i = 0; i < sorted.size(); ++i) {
       const HullStep& step = sorted[i];

@@ -219,7 +219,7 @@ void SolidCell::add_side_points(Rounding rounding, std::vector<LatticeCoord>& ou
         around[std::size_t(line.u_axis())] = u, around[std::size_t(line.v_axis())] = v;
         add_corners(around, out);
       };
-      // numbers of faces at which the line leaves the solid, less those at which it enters
+      // Numbers of faces at which the line leaves the solid, less those at which it enters.
       int above_low = 0, above_high = 0;
       for (const std::uint32_t f : tubes_[std::size_t(axis)]) {
         const LatticeBox box = surface_->boxes[f];

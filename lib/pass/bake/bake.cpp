@@ -53,7 +53,7 @@ struct SurfaceSum {
     for (std::size_t i = 0; i < 3; ++i) emission[i] += look.alpha * look.emission[i];
   }
   void write(const Canvas& to, int x, int y, float alpha) const {
-    // least component along the mesh's normal of a normal that looks away, since viewers know no others
+    // Least component along the mesh's normal of a normal that looks away, since viewers know no others.
     constexpr double kLeast = 0.05;
     Vec3d n = normal;
     n[2] = std::max(n[2], kLeast * length(n));
@@ -69,7 +69,7 @@ struct SurfaceSum {
 
 /// A chart's texels in a square of the image. No other chart has any of them.
 struct Plot {
-  // place along a curve through the scene's space: neighbours need the same blocks of the scene
+  // Place along a curve through the scene's space: neighbours need the same blocks of the scene.
   std::uint64_t place = 0;
   std::array<int, 2> begin{}, end{};
   std::vector<std::uint32_t> faces;
@@ -177,7 +177,7 @@ class PlotBaker {
   /// Returns what a sample sees. Nothing if the scene is out of reach.
   std::optional<Look> seen(const Vec3d& p, const Vec3d& n, float threshold) {
     bool through = false;  // the line has gone through a hole
-    // lines begin a little before the surface, since both surfaces may touch
+    // Lines begin a little before the surface, since both surfaces may touch.
     const Vec3d out = params_.reach_world * n, in = -1.0 * out;
     auto found = eye_.first_along(p + kBefore * out, in, size_, threshold, through);
     if (params_.both_ways) {

@@ -151,7 +151,7 @@ class StreamCloser {
   std::vector<TileCoord> queue_;  ///< tiles of the slab that is closed now, last first
   std::int32_t next_slab_ = 0;
   std::mutex slabs_mutex_;
-  /// slabs that are not yet emitted: their tiles with a solid brick in reach
+  /// Slabs that are not yet emitted: their tiles with a solid brick in reach.
   std::map<std::int32_t, SlabTiles> slabs_;
 };
 

@@ -121,7 +121,7 @@ class Palette {
 
   std::vector<Frame> frames_;
   std::vector<FixedQuaternion> rotations_;
-  /// rotations by place: each is listed for whichever of the 24 turns comes near
+  /// Rotations by place: each is listed for whichever of the 24 turns comes near.
   std::map<Place, std::vector<std::uint16_t>> places_;
 };
 

@@ -173,9 +173,9 @@ class LevelMaker {
     const bool by_faces = !inside() && ground_.enclosed && faces[0] >= kFewFaces && params_.error_world == 0 &&
                           params_.volume_ratio == 0 && params_.edge_factor == 0;
     const CoarseStarts starts{*shelves.meshed, header_, make_shelf_};
-    std::vector<LatticeMesh> levels{
-        finish(*start.surface, ground_.enclosed.get(), faces[0], by_faces ? &starts : nullptr)};
-    ground_.enclosed.reset();
+    std::vector<LatticeMesh> levels{finish(*start.surface, ground_.enclosed, faces[0], by_faces ? &starts : nullptr)};
+    ground_.made.reset();
+    ground_.enclosed = nullptr;
     start = {};
     for (std::size_t i = 1; i < faces.size(); ++i) {
       bounds_.error_world = error_share * double(i + 1);
@@ -350,7 +350,8 @@ std::vector<LatticeMesh> mesh_stream(BrickSource& source, const PassContext& con
   check_fill(params, header);
   const bool distances = params.error_world > 0 || params.distances;
   const bool near_scene = params.mode == MeshMode::bounding && params.near_world && params.enclose == Enclose::scene;
-  const bool want_input = (params.tighten && (params.enclose == Enclose::input || near_scene)) ||
+  const bool makes_enclosed = params.tighten && params.enclosed == nullptr;
+  const bool want_input = (makes_enclosed && (params.enclose == Enclose::input || near_scene)) ||
                           (distances && params.distances_to.value_or(params.enclose) == Enclose::input);
   const Shelves shelves = read_layers(source, context.make_shelf, want_input, counts);
   counts.solid_volume_world = double(counts.voxels) * std::pow(header.frame.voxel, 3);

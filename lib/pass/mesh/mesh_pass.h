@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <memory>
 #include <optional>
 
 #include "lib/enclosed/enclosed_scene.h"
@@ -52,7 +53,9 @@ struct MeshParams {
   bool edges_yield = false;  ///< where so few faces are not to be had otherwise, the factor grows
   Enclose enclose = Enclose::closing;
   std::vector<TriangleD> scene;  ///< for Enclose::scene; scene units, as read
-  bool known_within = false;     ///< the scene was found to lie in the voxels that the stream's were reduced from
+  /// What stays inside, in place of `scene`, as enclosed_scene() makes it in the frame of the stream: it lies in the
+  /// stream's voxels. Not owned; null: `scene`.
+  const Enclosed* enclosed = nullptr;
   /// A bounding proxy of more faces, in the frame of the stream, of the same scene: the first level begins from it in
   /// place of the voxels' surface. Not owned; null: none.
   const LatticeMesh* start = nullptr;
@@ -86,6 +89,11 @@ struct MeshCounts {
   double solid_volume_world = 0;  ///< of the meshed voxels, repaired, without those dropped; scene units cubed
   std::vector<LevelCounts> levels;
 };
+
+/// The triangles of a scene as what stays inside proxies, for MeshParams::enclosed. `solid`: their voxels, of `header`.
+/// Many proxies may share it.
+[[nodiscard]] std::unique_ptr<Enclosed> enclosed_scene(std::vector<TriangleD> triangles, const StreamHeader& header,
+                                                       const BrickShelf& solid);
 
 /// The proxies, finest first: one per number in params.faces, or one. `params` by value: the scene's triangles are
 /// moved out of it. Meshes the closing layer if the stream has one, else the solid layer. Throws bad_input if that

@@ -1,3 +1,4 @@
+#include "lib/levels/level_chain.h"
 #include "lib/levels/occluder_level.h"
 #include "tests/catch.h"
 #include "tests/support/memory_scene.h"
@@ -21,10 +22,10 @@ VoxelizedScene voxels(const Solid& touched) {
   return scene;
 }
 
-/// An occluder, how often the scene was put on the ground for it, and what was shown meanwhile.
+/// What a scene hides, its occluder, and what was shown meanwhile.
 struct Run {
+  HiddenScene hidden;
   MadeOccluder made;
-  int grounded = 0;
   struct Step {
     std::string pass;
     std::uint64_t done = 0, total = 0;
@@ -32,21 +33,17 @@ struct Run {
   std::vector<Step> steps;
 };
 
-Run run(const Solid& touched, bool may_ground = true) {
+Run run(const Solid& touched) {
   Run out;
-  OccluderSource source;
-  source.voxelize = [&](bool ground) {
-    out.grounded += ground ? 1 : 0;
-    return voxels([&](VoxelCoord p) { return touched(p) || (ground && p.y == 0); });
-  };
-  source.request = [](const StreamHeader&) { return LevelRequest{}; };
-  source.may_ground = may_ground;
-  source.hidden.context = memory_context();
-  source.hidden.context.progress = [&](const char* pass, const char*, std::uint64_t done, std::uint64_t total) {
+  OccluderRequest request;
+  request.hidden.context = memory_context();
+  request.hidden.context.progress = [&](const char* pass, const char*, std::uint64_t done, std::uint64_t total) {
     out.steps.push_back({pass, done, total});
   };
   Backends backends = plain_backends(2);
-  out.made = make_occluder(source, backends, {[](const std::string&) {}, {}});
+  const VoxelizedScene scene = voxels(touched);
+  out.hidden = hidden_scene(scene.header, *scene.solid, backends, request, "closing openings");
+  out.made = make_occluder(scene.header, out.hidden, backends, request);
   return out;
 }
 
@@ -85,7 +82,7 @@ std::uint64_t hidden_at(const Solid& touched, double scale) {
 
 TEST_CASE("each scale of an occluder is tried, and the least that hides enough is taken", "[quick][levels][occluder]") {
   const Solid scene = GENERATE(Solid(plate), Solid(hut));
-  const MadeOccluder made = run(scene, false).made;
+  const HiddenScene made = run(scene).hidden;
   std::uint64_t most = 0;
   for (const auto& [scale, count] : made.tried) {
     CAPTURE(scale);
@@ -96,40 +93,40 @@ TEST_CASE("each scale of an occluder is tried, and the least that hides enough i
                                    [&](const auto& t) { return double(t.hidden_voxels) >= 0.95 * double(most); });
   REQUIRE(enough != made.tried.end());
   CHECK(made.scale_world == enough->scale_world);
-  CHECK(made.hidden_voxels == enough->hidden_voxels);
+  CHECK(made.voxels.count == enough->hidden_voxels);
 }
 
 TEST_CASE("a plate does not hide the hut on it, and a closing does", "[quick][levels][occluder]") {
-  CHECK(run(plate, false).made.scale_world == 0);
-  const MadeOccluder made = run(hut, false).made;
+  CHECK(run(plate).hidden.scale_world == 0);
+  const HiddenScene made = run(hut).hidden;
   CHECK(made.scale_world > 0);
-  CHECK(made.hidden_voxels > made.tried.front().hidden_voxels);
+  CHECK(made.voxels.count > made.tried.front().hidden_voxels);
 }
 
-TEST_CASE("a scene that fills its bounds is not put on the ground, one that is open below is",
+TEST_CASE("a scene that fills its bounds gains nothing on the ground, one that is open below does",
           "[quick][levels][occluder]") {
-  const Run full = run([](VoxelCoord p) { return wall(kBox, p); });
-  CHECK(full.grounded == 0);
-  CHECK_FALSE(full.made.ground);
-  const Run open = run([](VoxelCoord p) { return (wall(kBox, p) && p.y >= 3) || (kBox.contains(p) && p.y >= 100); });
-  CHECK(open.grounded == 1);
-  CHECK(open.made.ground);
+  const auto count = [](const Solid& touched) { return run(touched).hidden.voxels.count; };
+  const StreamHeader header = voxels(plate).header;
+  CHECK_FALSE(may_gain_on_ground(header, count([](VoxelCoord p) { return wall(kBox, p); })));
+  const Solid open = [](VoxelCoord p) { return (wall(kBox, p) && p.y >= 3) || (kBox.contains(p) && p.y >= 100); };
+  const std::uint64_t without = count(open);
+  CHECK(may_gain_on_ground(header, without));
+  CHECK(gains_on_ground(count([&](VoxelCoord p) { return open(p) || p.y == 0; }), without));
 }
 
 TEST_CASE("openings of what an occluder hides are tried until a mesh holds all of it", "[quick][levels][occluder]") {
-  const MadeOccluder all = run([](VoxelCoord p) { return wall(kBox, p); }).made;
-  CHECK(all.level.attempts == 1);
-  CHECK(all.level.counts.levels.front().measures.volume == double(all.hidden_voxels));
-  const MadeOccluder less = run(cut_box).made;
-  const double volume = less.level.counts.levels.front().measures.volume;
-  CHECK(volume < double(less.hidden_voxels));
-  CHECK(volume > 0.999 * double(less.hidden_voxels));
-  CHECK(less.level.attempts == 2);  // the first holds 0.999 of it, and the next might hold more
+  const Run all = run([](VoxelCoord p) { return wall(kBox, p); });
+  CHECK(all.made.level.attempts == 1);
+  CHECK(volume_of(all.made.level) == double(all.hidden.voxels.count));
+  const Run less = run(cut_box);
+  CHECK(volume_of(less.made.level) < double(less.hidden.voxels.count));
+  CHECK(volume_of(less.made.level) > 0.999 * double(less.hidden.voxels.count));
+  CHECK(less.made.level.attempts == 2);  // the first holds 0.999 of it, and the next might hold more
 }
 
 TEST_CASE("an occluder shows the scales and openings that are done, of those that may come",
           "[quick][levels][occluder]") {
-  const Run open = run([](VoxelCoord p) { return wall(kBox, p) && p.y >= 3; });
+  const Run open = run(cut_box);
   std::vector<std::string> passes;
   std::uint64_t done = 0;
   for (const Run::Step& step : open.steps) {
@@ -139,7 +136,7 @@ TEST_CASE("an occluder shows the scales and openings that are done, of those tha
     CHECK(step.done <= step.total);
     done = step.done;
   }
-  CHECK(passes == std::vector<std::string>{"closing openings", "closing openings above the ground", "meshing"});
+  CHECK(passes == std::vector<std::string>{"closing openings", "meshing"});
   CHECK(open.steps.back().done == std::uint64_t(open.made.level.attempts));
   CHECK(open.steps.back().total == 5);  // 0, 2, 4, 8 and 16 voxels of 209
 }

@@ -15,7 +15,7 @@ constexpr int kLeastRows = 2;
 constexpr double kMostSamples = 1 << 14;  // of a face, about: they are in memory together
 constexpr int kFitRounds = 3;
 constexpr std::size_t kColorsTried = 16;
-// shares of a face: from here on it may be a pattern; it is no outlier
+// Shares of a face: from here on it may be a pattern; it is no outlier.
 constexpr double kPatternFar = 0.25, kMostFar = 0.5;
 constexpr double kOneSide = 0.3;                 // largest share of a pattern's variance that a slope may explain
 constexpr double kNear = 0.05 * 65535;           // distance of a colour from the fit at which it counts half

@@ -42,21 +42,20 @@ std::vector<TriangleD> rect_triangles(const BrickShelf& shelf, const GridFrame& 
   return triangles;
 }
 
-/// Of a scene of few triangles, unless its voxels are filled where none are near, or it is cut.
-std::unique_ptr<NearTriangles> near_triangles(const MeshParams& params, const GridFrame& frame, FillMode fill) {
-  if (params.part || fill == FillMode::winding || params.scene.empty()) return nullptr;
-  if (params.scene.size() > MeshParams::kSimpleScene) return nullptr;
-  return std::make_unique<NearTriangles>(params.scene, frame);
+/// Of a scene of few triangles, unless its voxels are filled where none are near.
+std::unique_ptr<NearTriangles> near_triangles(const std::vector<TriangleD>& scene, const GridFrame& frame,
+                                              FillMode fill) {
+  if (fill == FillMode::winding || scene.empty() || scene.size() > MeshParams::kSimpleScene) return nullptr;
+  return std::make_unique<NearTriangles>(scene, frame);
 }
 
 std::unique_ptr<Enclosed> make_enclosed(const Shelves& shelves, MeshParams& params, const Start& start, FillMode fill,
                                         const ShelfFactory& make_shelf) {
   if (params.enclose == Enclose::scene) {
     const GridFrame& frame = start.surface->frame();
-    if (params.mode == MeshMode::bounding && !params.part && !params.known_within)
-      require_within(params.scene, frame, *shelves.meshed);
+    if (params.mode == MeshMode::bounding && !params.part) require_within(params.scene, frame, *shelves.meshed);
     if (params.near_world && params.mode == MeshMode::bounding) {
-      auto near = near_triangles(params, frame, fill);
+      auto near = params.part ? nullptr : near_triangles(params.scene, frame, fill);
       return std::make_unique<EnclosedScene>(std::move(params.scene), frame, *shelves.input, params.part,
                                              std::move(near));
     }
@@ -72,6 +71,12 @@ std::unique_ptr<Enclosed> make_enclosed(const Shelves& shelves, MeshParams& para
 
 }  // namespace
 
+std::unique_ptr<Enclosed> enclosed_scene(std::vector<TriangleD> triangles, const StreamHeader& header,
+                                         const BrickShelf& solid) {
+  auto near = near_triangles(triangles, header.frame, header.fill);
+  return std::make_unique<EnclosedScene>(std::move(triangles), header.frame, solid, std::nullopt, std::move(near));
+}
+
 Ground make_ground(const Shelves& shelves, MeshParams& params, const Start& start, FillMode fill,
                    const PassContext& context) {
   Ground ground;
@@ -83,8 +88,11 @@ Ground make_ground(const Shelves& shelves, MeshParams& params, const Start& star
                                             : merged_triangles(*start.surface, context.pieces);
     ground.tree = std::make_unique<TriangleBvh>(ground.surface);
   }
-  if (params.tighten && params.mode != MeshMode::fit)
-    ground.enclosed = make_enclosed(shelves, params, start, fill, context.make_shelf);
+  ground.enclosed = params.tighten && params.mode != MeshMode::fit ? params.enclosed : nullptr;
+  if (params.tighten && params.mode != MeshMode::fit && ground.enclosed == nullptr) {
+    ground.made = make_enclosed(shelves, params, start, fill, context.make_shelf);
+    ground.enclosed = ground.made.get();
+  }
   return ground;
 }
 

@@ -23,12 +23,14 @@ struct Start {
 
 /// What must stay inside, and its surface where distances to it are asked for.
 struct Ground {
-  std::unique_ptr<Enclosed> enclosed;  // null: nothing is tightened
+  std::unique_ptr<Enclosed> made;      // for this ground
+  const Enclosed* enclosed = nullptr;  // that, or what many grounds share; null: nothing is tightened
   std::vector<TriangleD> surface;
   std::unique_ptr<TriangleBvh> tree;
 
   [[nodiscard]] std::uint64_t bytes() const {
-    return (enclosed ? enclosed->bytes() : 0) + surface.capacity() * sizeof(TriangleD) + (tree ? tree->bytes() : 0);
+    return (enclosed != nullptr ? enclosed->bytes() : 0) + surface.capacity() * sizeof(TriangleD) +
+           (tree ? tree->bytes() : 0);
   }
 };
 

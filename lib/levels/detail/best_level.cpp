@@ -1,0 +1,72 @@
+#include "lib/levels/detail/best_level.h"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "lib/mesh/lattice_geometry.h"
+
+namespace bp {
+
+namespace {
+
+constexpr double kUnseenVox = 0.125;
+constexpr double kPriceOfFaces = 4;  // the power of how many times too many they are
+
+double area_world(const LatticeMesh& mesh) {
+  double sum = 0;
+  for (const auto& [a, b, c] : mesh.triangles) sum += area_of(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]);
+  return sum * std::pow(mesh.frame.voxel / kLatticePerVoxel, 2);
+}
+
+}  // namespace
+
+double BestLevel::unseen() const {
+  return kUnseenVox * ruler_.voxel();
+}
+
+/// What the error is multiplied by in the price.
+double BestLevel::weight(const LodLevel& level) const {
+  const double faces = double(level.mesh.triangles.size());
+  const double excess = level.reached ? 1 : std::pow(faces / double(faces_), kPriceOfFaces);
+  return mode_ == MeshMode::fit ? excess : excess * (volume_of(level) + unseen() * area_world(level.mesh));
+}
+
+/// With a larger error the level would not be better than the best one so far.
+double BestLevel::most_error(const LodLevel& level) const {
+  if (!level_) return std::numeric_limits<double>::infinity();
+  return (level_->error_world + unseen()) * weight(*level_) / weight(level) - unseen();
+}
+
+bool BestLevel::propose(const char* way, LodLevel level) {
+  level.reached = faces_ == 0 || level.mesh.triangles.size() <= faces_;
+  const double most = most_error(level);
+  std::optional<double> error;
+  if (most >= 0) error = ruler_.error(level.mesh, most);
+  const bool is_better = error && (!level_ || *error < most);
+  tried_.push_back(
+      {way, level.scale_world, level.mesh.triangles.size(), volume_of(level), error.value_or(std::nan(""))});
+  if (is_better) keep(std::move(level), *error);
+  return is_better;
+}
+
+bool BestLevel::propose_exact(const char* way, const LodLevel& level) {
+  const std::optional<double> error = ruler_.error(level.mesh, unseen());
+  if (!error || *error > unseen()) return false;
+  tried_.push_back({way, level.scale_world, level.mesh.triangles.size(), volume_of(level), *error});
+  keep(level, *error);
+  return true;
+}
+
+void BestLevel::keep(LodLevel level, double error) {
+  level_ = std::move(level);
+  level_->error_world = error;
+}
+
+LodLevel BestLevel::take() {
+  level_->distance_world = ruler_.distance(level_->mesh, level_->error_world);
+  level_->tried = std::move(tried_);
+  return std::move(*level_);
+}
+
+}  // namespace bp

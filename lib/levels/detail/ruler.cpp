@@ -1,0 +1,122 @@
+// Where the triangles of the scene are known, and lie inside a level, the distance to all of them is the distance to
+// those that are shown: what lies between a point of the level and the nearest triangle is empty, and the level lets
+// the outside up to its surface. So nothing need be known of what is shown, and the voxels add no error of theirs.
+#include "lib/levels/detail/ruler.h"
+
+#include <algorithm>
+
+#include "lib/core/error.h"
+#include "lib/geometry/surface_distance.h"
+#include "lib/levels/detail/shown_scene.h"
+#include "lib/levels/detail/voxel_distance.h"
+#include "lib/pass/mesh/surface_around.h"
+
+namespace bp {
+
+namespace {
+
+constexpr std::uint64_t kSmallShare = 16;  // a tree is kept if it takes at most a so-manieth of the memory
+
+/// What segments of runs, and a tree over them, take for a moment.
+std::uint64_t segment_bytes(std::uint64_t runs) {
+  return runs * sizeof(TriangleD) + TriangleBvh::bytes_needed(runs);
+}
+
+/// The same of distances to triangles, and the faces that are kept for it.
+std::uint64_t shown_bytes(std::uint64_t faces) {
+  return faces * sizeof(FaceRect) +
+         std::min(faces, kMostShownPoints) * (2 * sizeof(TriangleD) + TriangleBvh::bytes_needed(1));
+}
+
+bool is_small(std::uint64_t bytes, const MemoryShare& memory) {
+  return bytes <= memory.bytes / kSmallShare;
+}
+
+}  // namespace
+
+Ruler::Ruler(const RulerScene& scene, const MemoryShare& memory) : Ruler(scene, boundary_size(scene.solid), memory) {}
+
+Ruler::Ruler(const RulerScene& scene, const BoundarySize& size, const MemoryShare& memory)
+    : dense_faces(2 * size.faces),
+      box(size.box),
+      frame_(scene.frame),
+      mode_(scene.mode),
+      triangles_(scene.triangles.empty() ? nullptr : &scene.triangles) {
+  const bool shows_triangles = mode_ == MeshMode::fit && triangles_ != nullptr && scene.surface == nullptr;
+  const std::uint64_t runs = scene.surface != nullptr ? count_runs(*scene.surface, box) : size.runs;
+  const std::uint64_t bytes =
+      runs * sizeof(VoxelRun) + segment_bytes(runs) + (shows_triangles ? shown_bytes(size.faces) : 0);
+  if (bytes > memory.bytes)
+    throw NeedsMemory("measuring distances to the outside of the scene", bytes, memory.bytes,
+                      memory.limit_with(bytes - memory.bytes), {Remedy::larger_voxels});
+  runs_ = scene.surface != nullptr ? runs_of(*scene.surface, box) : boundary_of(scene.solid).runs;
+  runs_.shrink_to_fit();
+  if (shows_triangles) faces_ = boundary_rects(scene.solid);
+  if (is_small(segment_bytes(runs), memory)) segments_ = segments_of(runs_, frame_);
+  if (triangles_ != nullptr)
+    scene_ = Surface(triangles_, is_small(TriangleBvh::bytes_needed(triangles_->size()), memory));
+}
+
+Bounds3d Ruler::bounds() const {
+  Bounds3d bounds;
+  for (const VoxelCoord& v : {box.min, box.max})
+    bounds.add(frame_.world(LatticeCoord{v.x, v.y, v.z} * kLatticePerVoxel));
+  return bounds;
+}
+
+std::uint64_t Ruler::bytes() const {
+  return runs_.capacity() * sizeof(VoxelRun) + faces_.capacity() * sizeof(FaceRect) +
+         segments_.capacity() * sizeof(TriangleD) + scene_.bytes();
+}
+
+template <class Use>
+decltype(auto) Ruler::with_segments(Use&& use) const {
+  return segments_.empty() ? use(segments_of(runs_, frame_)) : use(segments_);
+}
+
+std::optional<double> Ruler::error(const LatticeMesh& mesh, double limit) const {
+  const std::vector<TriangleD> triangles = world_triangles(mesh);
+  if (mode_ == MeshMode::fit) {
+    std::optional<double> error;
+    if (triangles_ != nullptr) error = error_of_fit(triangles);
+    return error ? *error : error_of_fit_to_voxels(triangles);
+  }
+  if (triangles_ == nullptr) return error_around_voxels(triangles);
+  SearchEffort effort;
+  effort.enough = limit;
+  const SurfaceDistance found = scene_.with_tree(
+      [&](const TriangleBvh& tree) { return largest_distance(triangles, tree, kTriangleTolerance * voxel(), effort); });
+  if (found.at_least > limit) return std::nullopt;
+  return found.at_most;
+}
+
+double Ruler::error_around_voxels(const std::vector<TriangleD>& mesh) const {
+  return with_segments(
+      [&](const std::vector<TriangleD>& segments) { return distance_from_mesh(mesh, TriangleBvh(segments), voxel()); });
+}
+
+double Ruler::error_of_fit_to_voxels(const std::vector<TriangleD>& mesh) const {
+  return with_segments([&](const std::vector<TriangleD>& segments) {
+    const double there = distance_from_mesh(mesh, TriangleBvh(segments), voxel());
+    return distance_beyond_mesh(segments, TriangleBvh(mesh), voxel(), there);
+  });
+}
+
+std::optional<double> Ruler::error_of_fit(const std::vector<TriangleD>& mesh) const {
+  return scene_.with_tree([&](const TriangleBvh& scene) -> std::optional<double> {
+    const std::vector<TriangleD> shown = shown_points(faces_, scene, frame_);
+    if (shown.empty()) return std::nullopt;
+    const double there = distance_from_mesh_to_shown(mesh, shown, voxel());
+    return with_segments([&](const std::vector<TriangleD>& segments) {
+      return distance_beyond_mesh(runs_, segments, scene, frame_, TriangleBvh(mesh), there);
+    });
+  });
+}
+
+double Ruler::distance(const LatticeMesh& mesh, double error) const {
+  return with_segments([&](const std::vector<TriangleD>& segments) {
+    return std::max(error, distance_to_mesh(segments, TriangleBvh(world_triangles(mesh)), voxel()));
+  });
+}
+
+}  // namespace bp
