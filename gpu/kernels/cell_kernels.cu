@@ -53,7 +53,7 @@ struct alignas(16) Quad {
   __device__ static Quad far_away() { return {{P::far_away(), P::far_away(), P::far_away(), P::far_away()}}; }
 };
 
-/// Passes the first axis, from the seeds' flags.
+/// Runs the pass along the first axis, from the seeds' flags.
 template <class P>
 __global__ void __launch_bounds__(kPassThreads)
     cells_x_kernel(const std::uint8_t* __restrict__ seeds, const uint2* __restrict__ w_of_cells,
@@ -79,7 +79,7 @@ __global__ void __launch_bounds__(kPassThreads)
   out[i] = v;
 }
 
-/// Passes one more axis: `at` of `n` cells, `stride` quads apart.
+/// Runs the pass along one more axis: `at` of `n` cells, `stride` quads apart.
 template <class P>
 __device__ Quad<P> cells_along(const Quad<P>* __restrict__ in, unsigned i, int at, int n, int stride, int m) {
   Quad<P> v = Quad<P>::far_away();

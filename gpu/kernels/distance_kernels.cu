@@ -113,7 +113,7 @@ __global__ void __launch_bounds__(kPassThreads, sizeof(P) == 4 ? 3 : 2)
   }
 }
 
-/// Passes the slices of a z unit in rows `row` and `row` + 1, and decides.
+/// Runs the z pass of a z unit in rows `row` and `row` + 1, and decides.
 template <class P, bool kBoundAtVoxel>
 __device__ void z_unit(const TransformArgs& a, const DecideArgs& decide, const uint4* table, const UnitCoord& u,
                        int row) {

@@ -13,9 +13,10 @@ namespace bp {
 
 namespace {
 
-constexpr int kPlaces = 12;      // places that are tried along each axis at first
-constexpr double kOpen = 0.05;   // extra cost of a hull that must be cut again, and of halves of different size
-constexpr double kGains = 0.25;  // of what a hull has above the solid: a cut that takes less is compared by two cuts
+constexpr int kPlaces = 12;     // places that are tried along each axis at first
+constexpr double kOpen = 0.05;  // extra cost of a hull that must be cut again, and of halves of different size
+constexpr double kGains =
+    0.25;  // of the volume between hull and solid: a cut that takes less away is judged by two cuts
 
 double hull_volume6(const SolidCell& solid) {
   const std::optional<ConvexHull> hull = hull_of(solid.points(SolidCell::Rounding::nearest));
