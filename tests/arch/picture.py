@@ -46,12 +46,18 @@ def above(rooms):
     return rows
 
 
-def needed(rooms, room):
+def below(rooms):
+    """All that each room may include, directly or by way of another one."""
+    found = {}
+    for room in sorted(rooms, key=above(rooms).get):
+        found[room] = rooms[room].union(*(found[m] for m in rooms[room]))
+    return found
+
+
+def needed(rooms, room, under):
     """What it may include, without what follows from another of these. Tools may include nearly all: only tools are shown."""
-    def below(r):
-        return set().union(*({m} | below(m) for m in rooms[r]))
     may = {m for m in rooms[room] if m.startswith("tools") or not room.startswith(("tools", "samples")) or room == "tools/cli"}
-    return {m for m in may if not any(m in below(o) for o in rooms[room])}
+    return {m for m in may if not any(m in under[o] for o in rooms[room])}
 
 
 def places(rooms, rows):
@@ -69,13 +75,13 @@ def places(rooms, rows):
 
 
 def picture(rooms):
-    rows = above(rooms)
+    rows, under = above(rooms), below(rooms)
     at = places(rooms, rows)
     right, bottom = max(x for x, _ in at.values()) + WIDTH + LEFT, max(y for _, y in at.values()) + HEIGHT + 10
     out = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{right}" height="{bottom}" font-family="sans-serif" text-anchor="middle">',
            f'<rect width="{right}" height="{bottom}" fill="white"/>']
     for r in sorted(rooms):
-        for m in sorted(needed(rooms, r)):
+        for m in sorted(needed(rooms, r, under)):
             (x, y), (u, v) = at[r], at[m]
             x, u = x + WIDTH // 2, u + WIDTH // 2
             out.append(f'<path d="M{x} {y + HEIGHT} C{x} {y + HEIGHT + 40} {u} {v - 40} {u} {v}" fill="none" stroke="#b8b8b8"/>')
