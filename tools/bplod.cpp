@@ -3,13 +3,13 @@
 
 #include "tools/cli/run_tool.h"
 #include "tools/lod/bake_levels.h"
-#include "tools/lod/build.h"
 #include "tools/lod/choices.h"
 #include "tools/lod/collision/collision_files.h"
 #include "tools/lod/collision/nearer_hulls.h"
 #include "tools/lod/explain.h"
 #include "tools/lod/lod_outputs.h"
 #include "tools/lod/occluder.h"
+#include "tools/lod/scene/complete_levels.h"
 #include "tools/lod/tile_build.h"
 
 namespace {
@@ -45,7 +45,7 @@ std::vector<bp::WrittenFile> write_files(bp::Build& build, const bp::MadeChain& 
   }
   build.report.begin("write");
   if (o.obj) return bp::write_obj_levels(o, levels, origin, out);
-  return bp::write_profile(o, levels, chain.scene.header.bounds.diagonal(), origin, out);
+  return bp::write_profile(o, levels, chain.scene.voxels.header.bounds.diagonal(), origin, out);
 }
 
 /// Builds levels of one mesh each.
@@ -54,18 +54,18 @@ void build_chain(const bp::BuildOptions& o) {
   bp::OutputFolder out(o.out, files_of(o, most), o.common.overwrite);
   bp::Build build(o);
   bp::MadeChain chain = bp::make_chain(build);
-  auto& [scene, made] = chain;
-  bp::bake_levels(build, made);
-  build.note_levels(made.facts, 0, made.left_out);
-  const bp::Vec3d origin = bp::origin_of(o.proxy.origin, scene.header.frame, scene.header.bounds);
+  auto& [scene, room, parts, made] = chain;
+  bp::bake_levels(build, scene, made);
+  bp::note_levels(build, made.facts, 0, made.left_out, scene.size);
+  const bp::StreamHeader& header = scene.voxels.header;
+  const bp::Vec3d origin = bp::origin_of(o.proxy.origin, header.frame, header.bounds);
   for (std::size_t i = made.levels.size(); i < most; ++i)  // there may be as many
     out.leave_out(bp::level_name(o.name, i) + ".glb");
   build.progress.end();
   const bp::LevelFacts& finest = made.facts.front();
   const bool asked = asks_for_faces(request_of(o));
-  build.note(bp::heavier_note(finest, asked, scene.counts.scene.triangles));
-  const std::string joined =
-      bp::joined_note(finest, made.levels.front().counts.levels.front().measures.shells, build.scene_parts);
+  build.note(bp::heavier_note(finest, asked, scene.size.triangles));
+  const std::string joined = bp::joined_note(finest, made.levels.front().counts.levels.front().measures.shells, parts);
   build.note(joined.empty() && !asked ? bp::closed_note(finest) : joined);
   const std::vector<bp::WrittenFile> files = write_files(build, chain, origin, out);
   out.commit();
@@ -75,7 +75,7 @@ void build_chain(const bp::BuildOptions& o) {
     build.note(file.note);
   }
   if (origin != bp::Vec3d{}) build.report.counts["origin"] = origin;
-  build.finish(scene, rows, out.bytes());
+  bp::finish(build, scene.told(room.margin_world), rows, out.bytes());
 }
 
 void run(const bp::BuildOptions& o) {

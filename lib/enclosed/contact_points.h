@@ -19,6 +19,7 @@ class ContactPoints {
   [[nodiscard]] const std::vector<std::uint32_t>& of(FaceId f) const { return of_face_[f]; }
   [[nodiscard]] const Vec3d& operator[](std::uint32_t i) const { return points_[i]; }  ///< relative to origin()
   [[nodiscard]] const LatticeCoord& origin() const { return origin_; }
+  [[nodiscard]] std::span<const Vec3d> points() const { return points_; }  ///< all that are listed, and no others
 
   /// What handing over needs meanwhile.
   struct Scratch {

@@ -66,7 +66,6 @@ LevelFacts facts_of(const LodLevel& level, const LodTarget& target) {
   facts.target = target;
   facts.faces = level.mesh.triangles.size();
   facts.error_world = level.error_world;
-  facts.distance_world = level.distance_world;
   facts.scale_world = level.scale_world;
   facts.voxel = level.mesh.frame.voxel;
   facts.volume = counts.measures.volume;

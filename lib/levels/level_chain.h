@@ -23,7 +23,7 @@ void put_solid(VoxelizedScene& scene, std::unique_ptr<BrickShelf> solid);
 struct LevelFacts {
   LodTarget target;
   std::uint64_t faces = 0;
-  double error_world = 0, distance_world = 0;  ///< as in LodLevel; NaN: not measured
+  double error_world = 0;  ///< as in LodLevel; NaN: not measured
   double scale_world = 0, voxel = 0;
   double volume = 0;              ///< scene units cubed
   std::uint64_t voxels = 0;       ///< of its closing

@@ -88,9 +88,6 @@ struct LodLevel {
   /// triangles (Enclose::scene) the bound is too large by a 16th of a voxel of the solid or 0.1 % at most, of a fit to
   /// triangles as a rule by a voxel, else by three voxels and 4 %.
   double error_world = 0;
-  /// Upper bound of the symmetric Hausdorff distance to the surface of the scene's solid, what nobody sees included. It
-  /// is large where a level closes a cavity. Where parts of the scene overlap or touch, what they hide is no surface.
-  double distance_world = 0;
   MeshCounts counts;
   std::vector<TriedWay> tried;  ///< in this order; the level is one of them
 };

@@ -242,7 +242,7 @@ MadeOccluder make_occluder(const StreamHeader& header, const HiddenScene& hidden
   MadeOccluder made;
   made.level = mesh.run();
   made.level.scale_world = hidden.scale_world;
-  made.level.error_world = made.level.distance_world = std::nan("");
+  made.level.error_world = std::nan("");
   made.opening_world = mesh.opening_world();
   made.faces_asked = mesh.faces();
   return made;

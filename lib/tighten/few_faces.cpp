@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "lib/enclosed/few_contacts.h"
 #include "lib/hulls/convex_budget.h"
 #include "lib/hulls/convex_parts.h"
 
@@ -37,6 +38,8 @@ class HullsWay {
     SimplifyParams growing = growing_part_of(params_for(kFewFaces));
     growing.room = room_around(box_, growing.faces);
     grown_.mesh = simplify(dense, growing, grown_.simplified);
+    if (grown_.mesh.triangles.empty()) return;
+    outer_.emplace(enclosed, HalfEdgeMesh(grown_.mesh));
     params_.dense = false;
     at_ = tight(grown_, kFewFaces);
     if (!is_there() || components_of(at_.mesh).size() > 1) return;
@@ -93,7 +96,7 @@ class HullsWay {
   /// A proxy of n faces from another one of more.
   [[nodiscard]] Stop tight(const Stop& from, std::uint64_t n) const {
     Stop stop = from;
-    stop.mesh = tight_proxy(from.mesh, enclosed_, params_for(n), stop.simplified, stop.tightened);
+    stop.mesh = tight_proxy(from.mesh, *outer_, params_for(n), stop.simplified, stop.tightened);
     return stop;
   }
 
@@ -117,6 +120,7 @@ class HullsWay {
 
   const SurfaceSource& dense_;
   const Enclosed& enclosed_;
+  std::optional<FewContacts> outer_;  // of these, for all that follows from the first surface
   SimplifyParams params_;
   LatticeBox box_;
   std::vector<ConvexHull> hull_;  // one, if the scene is in one piece

@@ -104,19 +104,20 @@ double texture_reach(double error_world, double scale_world, double voxel) {
   return kReach * std::max(error_or(error_world, scale_world, voxel), scale_world);
 }
 
-std::unique_ptr<SceneLooks> read_looks(const Build& build, const MemoryShare& memory) {
-  SceneOptions scene = build.scene_options(true);
-  scene.colors = build.options.colors();
-  scene.textures = build.textures();
-  scene.keep_degenerate = false;  // they show nothing
-  const auto source = open_scenes(build.options.voxels.scenes, scene);
-  const SceneLooks::Scene read{*source, build.scene_size().bounds,
-                               build.scene_size().triangles - build.scene_size().without_area, build.textures()};
+std::unique_ptr<SceneLooks> read_looks(const Build& build, const LodScene& scene, const MemoryShare& memory) {
+  SceneOptions how = build.scene_options(true);
+  how.colors = build.options.colors();
+  how.textures = scene.textures;
+  how.keep_degenerate = false;  // they show nothing
+  const auto source = open_scenes(build.options.voxels.scenes, how);
+  const SceneSize& size = scene.size;
+  const SceneLooks::Scene read{*source, size.bounds, size.triangles - size.without_area, scene.textures};
   return std::make_unique<SceneLooks>(read, make_scratch(build.budget.tiles, build.options.common.temp), memory);
 }
 
-std::shared_ptr<const MeshTexture> level_texture(const Build& build, const LatticeMesh& mesh, const LevelLengths& level,
-                                                 const SceneLooks& looks, const MemoryShare& memory) {
+std::shared_ptr<const MeshTexture> level_texture(const Build& build, const LodScene& scene, const LatticeMesh& mesh,
+                                                 const LevelLengths& level, const SceneLooks& looks,
+                                                 const MemoryShare& memory) {
   const double voxel = mesh.frame.voxel;
   AtlasParams atlas_params;
   const double error = std::max({error_or(level.error, level.scale, voxel), level.asked_error, voxel});
@@ -129,7 +130,7 @@ std::shared_ptr<const MeshTexture> level_texture(const Build& build, const Latti
   MeshTexture texture = with_places(atlas);
   if (build.options.full()) {
     const BakedSurface baked = bake_surface(mesh, atlas, looks, params);
-    if (build.has_colors()) add_color(baked.color, texture);
+    if (scene.has_colors()) add_color(baked.color, texture);
     add_surface(baked, texture);
   } else {
     add_color(bake(mesh, atlas, looks, params), texture);
@@ -137,14 +138,14 @@ std::shared_ptr<const MeshTexture> level_texture(const Build& build, const Latti
   return std::make_shared<const MeshTexture>(std::move(texture));
 }
 
-void bake_levels(Build& build, CompleteLevels& made) {
-  if (!build.textured()) return;
+void bake_levels(Build& build, const LodScene& scene, CompleteLevels& made) {
+  if (!scene.textured) return;
   build.report.begin("textures");
-  const std::unique_ptr<SceneLooks> looks = read_looks(build, part_of(build.budget.work, 0.6));
+  const std::unique_ptr<SceneLooks> looks = read_looks(build, scene, part_of(build.budget.work, 0.6));
   for (std::size_t i = 0; i < made.levels.size(); ++i) {
     LodLevel& level = made.levels[i];
     const LevelLengths lengths{level.error_world, made.facts[i].target.error_world, level.scale_world};
-    level.mesh.texture = level_texture(build, level.mesh, lengths, *looks, part_of(build.budget.work, 0.4));
+    level.mesh.texture = level_texture(build, scene, level.mesh, lengths, *looks, part_of(build.budget.work, 0.4));
   }
   for (const std::string& fault : looks->faults()) build.note(fault + "; its material's colour is used");
 }

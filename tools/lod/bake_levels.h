@@ -3,13 +3,14 @@
 #include <vector>
 
 #include "lib/pass/bake/scene_looks.h"
-#include "tools/lod/build.h"
+#include "tools/lod/scene/lod_scene.h"
 
 /// Textures of levels, from those of the scene.
 namespace bp {
 
 /// Reads the scene once more. `memory`: for what is at work of its triangles and images.
-[[nodiscard]] std::unique_ptr<SceneLooks> read_looks(const Build& build, const MemoryShare& memory);
+[[nodiscard]] std::unique_ptr<SceneLooks> read_looks(const Build& build, const LodScene& scene,
+                                                     const MemoryShare& memory);
 
 /// What decides how fine the texture of a level is: its error, or what stands for it if that is 0: not known.
 [[nodiscard]] double error_or(double error_world, double scale_world, double voxel);
@@ -28,11 +29,11 @@ struct LevelLengths {
 };
 /// The texture of a level. Of its error, its voxels and the error that was asked for, the largest decides how fine it
 /// is: a level whose faces happen to lie on the scene is not meant for nearer views. `memory`: for the image.
-[[nodiscard]] std::shared_ptr<const MeshTexture> level_texture(const Build& build, const LatticeMesh& mesh,
-                                                               const LevelLengths& level, const SceneLooks& looks,
-                                                               const MemoryShare& memory);
+[[nodiscard]] std::shared_ptr<const MeshTexture> level_texture(const Build& build, const LodScene& scene,
+                                                               const LatticeMesh& mesh, const LevelLengths& level,
+                                                               const SceneLooks& looks, const MemoryShare& memory);
 
-/// Gives each level its texture, if the scene has any (Build::textured()). Notes tell of images that cannot be used.
-void bake_levels(Build& build, CompleteLevels& made);
+/// Gives each level its texture, if the scene has any (LodScene::textured). Notes tell of images that cannot be used.
+void bake_levels(Build& build, const LodScene& scene, CompleteLevels& made);
 
 }  // namespace bp

@@ -78,7 +78,7 @@ class LeafMaker {
   LeafMaker(const Build& build, const LeafTask& task)
       : build_(build),
         task_(task),
-        looks_(*build.scene_looks()),
+        looks_(task.looks),
         cells_{build.options.tile_vox},
         unit_(leaf_unit(task.frame.voxel, build.options.tile_vox)),
         names_(looks_.images()) {
@@ -131,7 +131,7 @@ class LeafMaker {
   [[nodiscard]] int at_once() const {
     std::uint64_t triangles = 1;
     for (const Leaf& leaf : leaves_) triangles = std::max(triangles, leaf.box.triangles);
-    const MemoryShare memory = build_.context().memory;
+    const MemoryShare memory = build_.context(nullptr, kBesideLooks).memory;
     const std::uint64_t needed = triangles * kLeafBytesPerTriangle;
     if (needed > memory.bytes)
       throw NeedsMemory(fmt::format("cutting a leaf of {} triangles", triangles), needed, memory.bytes,

@@ -5,14 +5,15 @@
 
 #include "lib/store/result_store.h"
 #include "lib/tileset/tile_tree.h"
-#include "tools/lod/build.h"
+#include "tools/lod/scene/lod_scene.h"
 
 /// The scene's own triangles as leaves of a tileset (--leaves scene).
 namespace bp {
 
 /// What the leaves of a tileset are, and go to.
 struct LeafTask {
-  GridFrame frame;               ///< of the finest level
+  GridFrame frame;  ///< of the finest level
+  const SceneLooks& looks;
   std::vector<CellCoord> cells;  ///< that may have leaves
   ResultStore* results = nullptr;
   Scratch* files = nullptr;  ///< where contents wait
@@ -32,7 +33,7 @@ struct MadeLeaves {
 
 /// Folder of the leaves and their images.
 [[nodiscard]] std::string leaf_folder(const BuildOptions& options);
-/// In parallel; each leaf is a job of its own, whose result is kept. After Build::hold_looks().
+/// In parallel; each leaf is a job of its own, whose result is kept. Held looks are in memory meanwhile.
 [[nodiscard]] MadeLeaves make_leaves(const Build& build, const LeafTask& task);
 
 }  // namespace bp

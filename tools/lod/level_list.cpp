@@ -18,8 +18,11 @@ Json json_of(const TriedWay& tried) {
 
 LevelRow row_of(const LevelFacts& level, const std::string& file, std::uint64_t bytes) {
   LevelRow row{file, 1, level.faces, bytes, level.error_world, level.scale_world, level.voxel};
-  row.more = {{"attempts", level.attempts}, {"distance", level.distance_world}, {"volume", level.volume},
-              {"voxels", level.voxels},     {"faces_dense", level.faces_dense}, {"stopped_by", level.stopped_by}};
+  row.more = {{"attempts", level.attempts},
+              {"volume", level.volume},
+              {"voxels", level.voxels},
+              {"faces_dense", level.faces_dense},
+              {"stopped_by", level.stopped_by}};
   row.more["tried"] = Json::array();
   for (const TriedWay& tried : level.tried) row.more["tried"].push_back(json_of(tried));
   return row;

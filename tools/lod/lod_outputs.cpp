@@ -137,4 +137,17 @@ std::vector<WrittenFile> write_profile(const BuildOptions& options, const std::v
   return {};
 }
 
+WholeLevels encoded(const BuildOptions& options, const CompleteLevels& made, std::size_t first) {
+  WholeLevels whole;
+  whole.origin = common_origin(made.levels);
+  whole.left_out = made.left_out;
+  for (std::size_t i = 0; i < made.levels.size(); ++i) {
+    const LatticeMesh& mesh = made.levels[i].mesh;
+    std::string content = tile_glb({level_name(options.name, first + i), &mesh},
+                                   lattice_point(mesh.frame, whole.origin), options.compression);
+    whole.levels.push_back({std::move(content), bounds_of(mesh), made.facts[i], mesh.provenance});
+  }
+  return whole;
+}
+
 }  // namespace bp

@@ -6,7 +6,8 @@
 #include "io/files/file.h"
 #include "io/files/made_folders.h"
 #include "io/mesh/contract.h"
-#include "tools/lod/build_options.h"
+#include "lib/levels/whole_levels.h"
+#include "tools/lod/build.h"
 
 /// What bplod writes of a chain: the files of a profile other than tiles, in one folder.
 namespace bp {
@@ -60,6 +61,9 @@ struct WrittenFile {
 /// The options that decide are profile, name and mode.
 std::vector<WrittenFile> write_profile(const BuildOptions& options, const std::vector<LodLevel>& levels,
                                        double diameter, const Vec3d& origin, OutputFolder& out);
+
+/// The contents of a tileset's levels in one mesh; `first` is the number of the first.
+[[nodiscard]] WholeLevels encoded(const BuildOptions& options, const CompleteLevels& made, std::size_t first);
 
 /// Levels as OBJ (BuildOptions::obj), each with a material and images beside it. Files that there may be: an image is
 /// JPEG, or PNG where it has holes.

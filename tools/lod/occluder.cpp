@@ -7,9 +7,9 @@
 #include "lib/core/error.h"
 #include "lib/levels/occluder_level.h"
 #include "tools/cli/names.h"
-#include "tools/lod/build.h"
 #include "tools/lod/choices.h"
 #include "tools/lod/lod_outputs.h"
+#include "tools/lod/scene/lod_scene.h"
 #include "tools/run/hiding_recipe.h"
 
 namespace bp {
@@ -21,14 +21,14 @@ constexpr double kHalf = 0.5;     ///< of what is hidden
 
 /// An occluder, and what it was made from.
 struct BuiltOccluder {
-  VoxelizedScene scene;
+  LodScene scene;
   HiddenScene hidden;
   bool ground = false;  ///< the scene stands on the ground
   MadeOccluder made;
 };
 
 double hidden_volume(const BuiltOccluder& built) {
-  return double(built.hidden.voxels.count) * std::pow(built.scene.header.frame.voxel, 3);
+  return double(built.hidden.voxels.count) * std::pow(built.scene.voxels.header.frame.voxel, 3);
 }
 
 double volume_of(const Bounds3d& b) {
@@ -36,7 +36,7 @@ double volume_of(const Bounds3d& b) {
 }
 
 OptionText option_text(const BuildOptions& o, const BuiltOccluder& built) {
-  const GridFrame& frame = built.scene.header.frame;
+  const GridFrame& frame = built.scene.voxels.header.frame;
   OptionText text;
   text.add("mode", "inside").add("faces", built.made.faces_asked);
   add_recipe({{frame, built.hidden.scale_world, o.closing.element}, true, built.ground, frame.up}, text);
@@ -45,7 +45,7 @@ OptionText option_text(const BuildOptions& o, const BuiltOccluder& built) {
 
 Json json_of(const BuiltOccluder& built) {
   Json tried = Json::array();
-  const double voxel_volume = std::pow(built.scene.header.frame.voxel, 3);
+  const double voxel_volume = std::pow(built.scene.voxels.header.frame.voxel, 3);
   for (const HiddenScene::Tried& t : built.hidden.tried)
     tried.push_back({{"scale", t.scale_world}, {"hidden", double(t.hidden_voxels) * voxel_volume}});
   const MeshCounts& counts = built.made.level.counts;
@@ -59,7 +59,7 @@ Json json_of(const BuiltOccluder& built) {
 
 void note(Build& build, const BuiltOccluder& built, double volume) {
   const MadeOccluder& made = built.made;
-  const double hidden = hidden_volume(built), share = hidden / volume_of(built.scene.header.bounds);
+  const double hidden = hidden_volume(built), share = hidden / volume_of(built.scene.voxels.header.bounds);
   if (share < kLittle)
     build.note(fmt::format(
         "the scene hides {:.2g} % of its bounding box only: walls are missing, or wider open than {}", 100 * share,
@@ -84,8 +84,8 @@ void note(Build& build, const BuiltOccluder& built, double volume) {
 BuiltOccluder make(Build& build) {
   const BuildOptions& o = build.options;
   BuiltOccluder built;
-  built.scene = build.voxelize(0);
-  const StreamHeader& header = built.scene.header;
+  built.scene = read_scene(build, {});
+  const StreamHeader& header = built.scene.voxels.header;
   const LevelRequest levels = request_of(o, header.bounds.diagonal(), header.frame.voxel);
   const OccluderRequest request{
       levels.faces.empty() ? 0 : levels.faces.front(), levels.scale_world, {0, o.closing.element, build.context()}};
@@ -93,10 +93,11 @@ BuiltOccluder make(Build& build) {
     build.report.begin("close openings");
     return hidden_scene(scene.header, *scene.solid, build.backends, request, pass);
   };
-  built.hidden = hidden_of(built.scene, "closing openings");
+  built.hidden = hidden_of(built.scene.voxels, "closing openings");
   const std::uint64_t without = built.hidden.voxels.count;
   if (can_read_again(o) && may_gain_on_ground(header, without)) {
-    HiddenScene grounded = hidden_of(build.voxelize(0, nullptr, true), "closing openings above the ground");
+    HiddenScene grounded =
+        hidden_of(read_scene(build, {0, nullptr, true, false}).voxels, "closing openings above the ground");
     built.ground = gains_on_ground(grounded.voxels.count, without);
     if (built.ground) built.hidden = std::move(grounded);
   }
@@ -117,7 +118,7 @@ void build_occluder(const BuildOptions& o) {
   Build build(o);
   BuiltOccluder built = make(build);
   LodLevel& level = built.made.level;
-  level.mesh.provenance = {make_provenance("bplod", option_text(o, built), built.scene.counts.input_hash)};
+  level.mesh.provenance = {make_provenance("bplod", option_text(o, built), built.scene.voxels.counts.input_hash)};
   const LevelFacts facts = facts_of(level, {});
   note(build, built, facts.volume);
   build.progress.end();
@@ -125,14 +126,14 @@ void build_occluder(const BuildOptions& o) {
   const Json more = json_of(built);
   std::vector<LodLevel> levels;
   levels.push_back(std::move(level));
-  const StreamHeader& header = built.scene.header;
+  const StreamHeader& header = built.scene.voxels.header;
   const Vec3d origin = origin_of(o.proxy.origin, header.frame, header.bounds);
   const WrittenFile file = write_profile(o, levels, 0, origin, out).front();
   out.commit();
   LevelRow row = row_of(facts, file.name, out.bytes(file.name));
   row.more.update(more);
   if (origin != Vec3d{}) build.report.counts["origin"] = origin;
-  build.finish(built.scene, {row}, out.bytes());
+  finish(build, built.scene.told(), {row}, out.bytes());
 }
 
 }  // namespace bp

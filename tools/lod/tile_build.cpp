@@ -16,12 +16,12 @@
 #include "lib/pass/leaf/scene_leaf.h"
 #include "lib/store/hex.h"
 #include "tools/lod/bake_levels.h"
-#include "tools/lod/build.h"
 #include "tools/lod/choices.h"
 #include "tools/lod/kept_results.h"
 #include "tools/lod/leaves.h"
 #include "tools/lod/lod_outputs.h"
 #include "tools/lod/proportions.h"
+#include "tools/lod/scene/complete_levels.h"
 #include "tools/notes/estimate.h"
 
 namespace bp {
@@ -37,6 +37,7 @@ struct Shop {
   Task task;
   ResultStore* results;  ///< may be null
   Scratch* files;        ///< where files wait until all are there
+  bool tells_time;       ///< before the work; false: it is not known how much of it was done before
   [[nodiscard]] const BuildOptions& options() const { return build.options; }
   [[nodiscard]] Cells cells() const { return {build.options.tile_vox}; }
   [[nodiscard]] bool wants(std::uint64_t number, std::uint64_t count) const {
@@ -59,7 +60,8 @@ struct LevelAtWork {
 };
 
 struct MadeTileset {
-  VoxelizedScene scene;
+  LodScene scene;
+  std::unique_ptr<SceneLooks> held_looks;  ///< null: nothing needs them
   TilesetPlan plan;
   std::vector<FoundJobs> found;
   // Of a whole tileset only:
@@ -69,6 +71,9 @@ struct MadeTileset {
   std::map<std::string, std::uint32_t> images;  ///< that leaves show: numbers in the scene's TextureSet
   std::optional<TileTree> tree;
   std::vector<Provenance> provenance;  ///< empty: each tile has its own
+
+  /// Of textures; null: levels get none.
+  [[nodiscard]] const SceneLooks* looks() const { return scene.textured ? held_looks.get() : nullptr; }
 };
 
 std::string name_of(CellCoord c) {
@@ -91,25 +96,26 @@ Bounds3d around(const VoxelBox& box, const GridFrame& frame, double scale_world)
 }
 
 /// Names and provenance of the tiles of a level.
-CutFiles cut_files(const Build& build, const CutLevel& cut, std::size_t level) {
+CutFiles cut_files(const Build& build, const MadeTileset& made, const CutLevel& cut, std::size_t level) {
   const std::string folder = level_name(build.options.name, level);
-  OptionText text = option_text(build.options, build.enclosed(), cut.target, level, cut.scale_world, cut.frame);
-  if (build.colors() != nullptr) text.add("colors", "auto");
-  if (build.textured()) text.add("appearance", build.options.full() ? "full" : "texture");
+  OptionText text = option_text(build.options, made.scene.enclosed, cut.target, level, cut.scale_world, cut.frame);
+  if (made.scene.colors != nullptr) text.add("colors", "auto");
+  if (made.scene.textured) text.add("appearance", build.options.full() ? "full" : "texture");
   const Provenance provenance = make_provenance("bplod", text);
   CutFiles files;
   files.encoding = folder + " " + provenance.options;
-  files.encode = [&build, scale = cut.scale_world, folder, provenance](CellCoord cell, LatticeMesh&& mesh,
-                                                                       LatticeCoord at) {
+  const SceneLooks* const looks = made.looks();
+  files.encode = [&build, &scene = made.scene, looks, scale = cut.scale_world, folder, provenance](
+                     CellCoord cell, LatticeMesh&& mesh, LatticeCoord at) {
     mesh.provenance = {provenance};
-    if (build.looks() != nullptr)
-      mesh.texture = level_texture(build, mesh, {0, 0, scale}, *build.looks(), build.texture_memory());
+    if (looks != nullptr)
+      mesh.texture = level_texture(build, scene, mesh, {0, 0, scale}, *looks, texture_memory(build));
     return tile_glb({folder + "_" + name_of(cell), &mesh}, at, build.options.compression);
   };
-  if (build.looks() != nullptr) {
-    files.add_to_key = [&build, cells = Cells{build.options.tile_vox}, frame = cut.frame, scale = cut.scale_world](
+  if (looks != nullptr) {
+    files.add_to_key = [looks, cells = Cells{build.options.tile_vox}, frame = cut.frame, scale = cut.scale_world](
                            CellCoord cell, KeyHash& hash) {
-      build.looks()->add_to(hash, around(cells.box(cell), frame, scale));
+      looks->add_to(hash, around(cells.box(cell), frame, scale));
     };
   }
   return files;
@@ -152,7 +158,7 @@ void finish(const Shop& shop, std::size_t number, const CutLevel& cut, LevelAtWo
 void add_leaves(const Shop& shop, const std::vector<CellCoord>& cells, const GridFrame& frame, MadeTileset& made) {
   if (!shop.options().leaves || shop.task != Task::tileset) return;
   shop.build.report.begin("leaves");
-  MadeLeaves leaves = make_leaves(shop.build, {frame, cells, shop.results, shop.files});
+  MadeLeaves leaves = make_leaves(shop.build, {frame, *made.held_looks, cells, shop.results, shop.files});
   for (auto& [cell, leaf] : leaves.places) made.tree->add_leaf(frame, cell, std::move(leaf));
   for (LeafFile& file : leaves.files) made.files.push_back({std::move(file.name), file.content});
   made.images = std::move(leaves.images);
@@ -164,7 +170,7 @@ void add_leaves(const Shop& shop, const std::vector<CellCoord>& cells, const Gri
 
 /// Of what is left to be made of a whole tileset, if nothing was told at the begin: a share of all.
 void tell_time(const Shop& shop, const VoxelizedScene& scene, double share) {
-  if (shop.build.tells_time || shop.task != Task::tileset) return;
+  if (shop.tells_time || shop.task != Task::tileset) return;
   Estimate work = estimate_build(shop.options(), scene.header.bounds, scene.counts, scene.header.frame.voxel);
   work.core_seconds *= share;
   work.serial_seconds *= share;
@@ -185,17 +191,18 @@ void make_cut(const Shop& shop, TilePyramid& pyramid, const std::vector<Triangle
   CutOptions cut;
   cut.cells = shop.cells();
   cut.mode = o.proxy.mode;
-  cut.enclose = shop.build.enclosed();
-  cut.colors = shop.build.colors();
+  cut.enclose = made.scene.enclosed;
+  cut.colors = made.scene.colors.get();
   cut.scene = tree.get();
   if (shop.task == Task::some_jobs) cut.jobs = o.tiles;
   cut.make = shop.task != Task::look_up;
-  const CutSteps steps{[&](const std::string& name) { shop.build.report.begin(name); },
-                       [&](std::size_t i, const GridFrame&) { return cut_files(shop.build, made.plan.cut[i], i); },
-                       [&](std::size_t i, LevelTile&& tile) {
-                         take(shop, std::move(tile), made.plan.cut[i], level_name(o.name, i), levels[i], made.files);
-                       },
-                       [&](double share) { tell_time(shop, made.scene, share); }};
+  const CutSteps steps{
+      [&](const std::string& name) { shop.build.report.begin(name); },
+      [&](std::size_t i, const GridFrame&) { return cut_files(shop.build, made, made.plan.cut[i], i); },
+      [&](std::size_t i, LevelTile&& tile) {
+        take(shop, std::move(tile), made.plan.cut[i], level_name(o.name, i), levels[i], made.files);
+      },
+      [&](double share) { tell_time(shop, made.scene.voxels, share); }};
   make_cut_levels(pyramid, made.plan, cut, steps);
   for (std::size_t i = 0; i < levels.size(); ++i) {
     finish(shop, i, made.plan.cut[i], levels[i], made);
@@ -206,40 +213,29 @@ void make_cut(const Shop& shop, TilePyramid& pyramid, const std::vector<Triangle
 }
 
 /// Everything that files of levels in one mesh depend on, beside what WholeInput says: names and provenance.
-std::string whole_encoding(const Build& build, const std::string& input_hash, const GridFrame& frame) {
-  std::string text = fmt::format("{} {} {}", build.options.name, input_hash,
-                                 option_text(build.options, build.enclosed(), {}, 0, 0, frame).text());
-  if (build.looks() != nullptr) {
+std::string whole_encoding(const BuildOptions& o, const MadeTileset& made, const std::string& input_hash,
+                           const GridFrame& frame) {
+  std::string text =
+      fmt::format("{} {} {}", o.name, input_hash, option_text(o, made.scene.enclosed, {}, 0, 0, frame).text());
+  if (made.looks() != nullptr) {
     KeyHash hash("looks");
     Bounds3d everything;
     everything.add({-HUGE_VAL, -HUGE_VAL, -HUGE_VAL});
     everything.add({HUGE_VAL, HUGE_VAL, HUGE_VAL});
-    build.looks()->add_to(hash, everything);
+    made.looks()->add_to(hash, everything);
     text += " " + hex_of(hash.key().words[0], hash.key().words[1]);
   }
   return text;
 }
 
-/// The files of levels in one mesh.
-WholeLevels encoded(const Build& build, const CompleteLevels& made, std::size_t first) {
-  WholeLevels whole;
-  whole.origin = common_origin(made.levels);
-  whole.left_out = made.left_out;
-  for (std::size_t i = 0; i < made.levels.size(); ++i) {
-    const LatticeMesh& mesh = made.levels[i].mesh;
-    std::string content = tile_glb({level_name(build.options.name, first + i), &mesh},
-                                   lattice_point(mesh.frame, whole.origin), build.options.compression);
-    whole.levels.push_back({std::move(content), bounds_of(mesh), made.facts[i], mesh.provenance});
-  }
-  return whole;
-}
-
 /// The levels in one mesh, as they are kept, or made and kept.
-WholeLevels whole_levels(const Shop& shop, WholeInput input, const std::string& input_hash, const ResultKey& key) {
+WholeLevels whole_levels(const Shop& shop, const MadeTileset& made, WholeInput input, const std::string& input_hash,
+                         const ResultKey& key) {
   const StreamHeader& header = input.header;
   const ChainRange range{input.request, input.first, input.count, header.bounds.diagonal()};
   LodChain chain(header, std::move(input.solid), shop.build.backends, std::move(input.lod));
-  WholeLevels whole = encoded(shop.build, shop.build.make_levels(chain, range, input_hash), input.first);
+  const Completion completion{made.scene, {}, made.looks(), input_hash};
+  WholeLevels whole = encoded(shop.options(), make_levels(shop.build, chain, range, completion), input.first);
   if (shop.results != nullptr) keep_levels(key, whole, *shop.results);
   return whole;
 }
@@ -252,25 +248,26 @@ void make_whole(const Shop& shop, TilePyramid& pyramid, LodOptions lod, const Le
   build.report.begin("levels in one mesh");
   if (cut > 0) lod.least_scale_world = TilesetPlan::kScaleVox * pyramid.header().frame.voxel;
   lod.surface = pyramid.take_surface();
-  const std::string input_hash = cut > 0 ? "" : made.scene.counts.input_hash;  // tiles do not depend on all of it
+  const std::string input_hash =
+      cut > 0 ? "" : made.scene.voxels.counts.input_hash;  // tiles do not depend on all of it
   WholeInput input{pyramid.header(),
                    pyramid.take_solid(),
                    cut,
                    made.plan.whole,
                    request,
                    std::move(lod),
-                   build.colors(),
-                   whole_encoding(build, input_hash, pyramid.header().frame)};
+                   made.scene.colors.get(),
+                   whole_encoding(build.options, made, input_hash, pyramid.header().frame)};
   const ResultKey key = shop.results != nullptr ? key_of(input) : ResultKey{};
   std::optional<WholeLevels> kept;
   if (shop.results != nullptr) kept = kept_levels(key, *shop.results);
   made.found.push_back({"levels in one mesh", 1, kept ? 1U : 0U});
   if (shop.task == Task::look_up) return;
-  if (cut == 0 && !build.tells_time && !kept) tell_time(shop, made.scene, 1);
-  const WholeLevels whole = kept ? std::move(*kept) : whole_levels(shop, std::move(input), input_hash, key);
+  if (cut == 0 && !kept) tell_time(shop, made.scene.voxels, 1);
+  const WholeLevels whole = kept ? std::move(*kept) : whole_levels(shop, made, std::move(input), input_hash, key);
   std::vector<LevelFacts> facts;
   for (const WholeLevel& level : whole.levels) facts.push_back(level.facts);
-  build.note_levels(facts, cut, whole.left_out);
+  note_levels(build, facts, cut, whole.left_out, made.scene.size);
   if (shop.task == Task::some_jobs) return;
   for (const WholeLevel& level : whole.levels) {
     const std::string file = level_name(build.options.name, made.rows.size()) + ".glb";
@@ -281,12 +278,12 @@ void make_whole(const Shop& shop, TilePyramid& pyramid, LodOptions lod, const Le
   if (cut == 0) made.provenance = whole.levels.front().provenance;
 }
 
-/// `held`: bytes that the scene takes meanwhile.
-PyramidOptions pyramid_options(const Shop& shop, std::uint64_t held) {
+/// `held`: bytes that the scene takes meanwhile. share: of the memory for work.
+PyramidOptions pyramid_options(const Shop& shop, std::uint64_t held, double share) {
   PyramidOptions options;
   options.cells = shop.cells();
   options.closing.element = shop.options().closing.element;
-  options.context = shop.build.context(shop.results);
+  options.context = shop.build.context(shop.results, share);
   options.context.memory.bytes -= std::min(options.context.memory.bytes, held);
   options.context.pieces = options.context.pieces.without(held);
   return options;
@@ -295,21 +292,22 @@ PyramidOptions pyramid_options(const Shop& shop, std::uint64_t held) {
 MadeTileset make_tileset(const Shop& shop) {
   const BuildOptions& o = shop.options();
   MadeTileset made;
-  made.scene = shop.build.voxelize(o.tile_vox, shop.results);
-  shop.build.hold_looks();
-  const StreamHeader& header = made.scene.header;
-  const LevelRequest request =
-      request_for(o, made.scene.counts.scene.triangles, header.bounds.diagonal(), header.frame.voxel);
+  made.scene = read_scene(shop.build, {o.tile_vox, shop.results, false, shop.tells_time});
+  made.held_looks = hold_looks(shop.build, made.scene);
+  const double share = made.held_looks ? kBesideLooks : 1;
+  const StreamHeader& header = made.scene.voxels.header;
+  const LevelRequest request = request_for(o, made.scene.size.triangles, header.bounds.diagonal(), header.frame.voxel);
   made.plan = plan_tileset(request, shop.cells(), header);
   made.tree.emplace(header.frame.up, shop.cells());
   if (shop.task == Task::some_jobs && o.tiles->begin >= made.plan.jobs())
     shop.build.note(fmt::format("--tiles {}..{}: there are {} jobs, numbered from 0: nothing is done", o.tiles->begin,
                                 o.tiles->end, made.plan.jobs()));
   shop.build.report.begin("measure the scene");
-  LodOptions lod = shop.build.lod_options();
+  LodOptions lod = lod_options(shop.build, made.scene, {}, share);
   const std::uint64_t triangles = lod.scene.size();
-  TilePyramid pyramid(header, std::move(made.scene.solid), shop.build.backends,
-                      pyramid_options(shop, triangles * sizeof(TriangleD) + TriangleBvh::bytes_needed(triangles)));
+  TilePyramid pyramid(
+      header, std::move(made.scene.voxels.solid), shop.build.backends,
+      pyramid_options(shop, triangles * sizeof(TriangleD) + TriangleBvh::bytes_needed(triangles), share));
   make_cut(shop, pyramid, lod.scene, made);
   if (made.plan.whole == 0 && shop.task == Task::tileset)
     shop.build.note(
@@ -325,17 +323,17 @@ MadeTileset make_tileset(const Shop& shop) {
 /// Of a tileset whose levels are cut: each tile has its own.
 OptionText tileset_options(const MadeTileset& made, std::int32_t tile_vox) {
   OptionText text;
-  text.add("levels", made.rows.size()).add("tile", tile_vox).add("voxel", made.scene.header.frame.voxel);
+  text.add("levels", made.rows.size()).add("tile", tile_vox).add("voxel", made.scene.voxels.header.frame.voxel);
   return text;
 }
 
 void write_tileset(const Shop& shop, MadeTileset& made, TilesetFolder& folder) {
   shop.build.report.begin("write");
-  Tileset tileset = made.tree->finish(made.scene.header.bounds.diagonal());
+  Tileset tileset = made.tree->finish(made.scene.voxels.header.bounds.diagonal());
   for (std::size_t i = 0; i < made.rows.size(); ++i) made.rows[i].error_world = made.tree->error_of(i);
   if (made.provenance.empty())
     made.provenance = {
-        make_provenance("bplod", tileset_options(made, shop.options().tile_vox), made.scene.counts.input_hash)};
+        make_provenance("bplod", tileset_options(made, shop.options().tile_vox), made.scene.voxels.counts.input_hash)};
   if (made.leaves) made.provenance.back().options += " leaves=scene";
   parallel_for(std::int64_t(made.files.size()), [&](std::int64_t i) {  // each waits for the disk
     const Waiting& file = made.files[std::size_t(i)];
@@ -345,7 +343,7 @@ void write_tileset(const Shop& shop, MadeTileset& made, TilesetFolder& folder) {
     shop.files->drop(file.content);
   });
   for (const auto& [name, number] : made.images) {
-    const std::vector<std::byte> bytes = shop.build.textures()->file(number);
+    const std::vector<std::byte> bytes = made.scene.textures->file(number);
     tileset.images.push_back(leaf_folder(shop.options()) + "/" + name);
     folder.write(tileset.images.back(), std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
     if (made.leaves) made.leaves->bytes += bytes.size();
@@ -355,7 +353,7 @@ void write_tileset(const Shop& shop, MadeTileset& made, TilesetFolder& folder) {
   folder.commit();
   if (!folder.complaint().empty())
     shop.build.note(folder.complaint() + "; tiles of the tileset that was there before are not known, and stay");
-  shop.build.finish(made.scene, made.rows, folder.bytes());
+  finish(shop.build, made.scene.told(), made.rows, folder.bytes());
 }
 
 /// Of the levels that were asked for: each is one mesh, or a folder of tiles.
@@ -377,23 +375,22 @@ void build_tileset(const BuildOptions& o) {
   if (task == Task::tileset) folder.emplace(o.out, certain_names(o), o.common.overwrite);
   Build build(o);
   const std::unique_ptr<Scratch> files = make_scratch(build.budget.store, o.common.temp);
+  const bool tells_time = !has_own_results(o);  // before this run fills the cache
   build.note(cache_note(o));
-  build.tells_time = !has_own_results(o);
   std::string fault;  // why the cache keeps nothing: known once the levels are made
   const std::unique_ptr<ResultStore> results = open_kept_results(o, fault);
-  const Shop shop{build, task, results.get(), files.get()};
+  const Shop shop{build, task, results.get(), files.get(), tells_time};
   MadeTileset made = make_tileset(shop);
   build.progress.end();
   if (!fault.empty()) build.note(fault + "; what is not in the cache was made, and is not kept");
   if (folder) return write_tileset(shop, made, *folder);
-  build.finish_jobs(made.scene, *o.tiles, made.plan.jobs(), made.found);
+  finish_jobs(build, made.scene.told(), *o.tiles, made.plan.jobs(), made.found);
 }
 
 std::vector<FoundJobs> look_up_tileset(const BuildOptions& o) {
   Build build(o);
-  build.tells_time = false;
   const std::unique_ptr<ResultStore> results = look_up_kept_results(o.cache);
-  return make_tileset({build, Task::look_up, results.get(), nullptr}).found;
+  return make_tileset({build, Task::look_up, results.get(), nullptr, false}).found;
 }
 
 }  // namespace bp

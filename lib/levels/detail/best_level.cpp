@@ -64,7 +64,6 @@ void BestLevel::keep(LodLevel level, double error) {
 }
 
 LodLevel BestLevel::take() {
-  level_->distance_world = ruler_.distance(level_->mesh, level_->error_world);
   level_->tried = std::move(tried_);
   return std::move(*level_);
 }

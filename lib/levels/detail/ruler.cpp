@@ -113,10 +113,4 @@ std::optional<double> Ruler::error_of_fit(const std::vector<TriangleD>& mesh) co
   });
 }
 
-double Ruler::distance(const LatticeMesh& mesh, double error) const {
-  return with_segments([&](const std::vector<TriangleD>& segments) {
-    return std::max(error, distance_to_mesh(segments, TriangleBvh(world_triangles(mesh)), voxel()));
-  });
-}
-
 }  // namespace bp

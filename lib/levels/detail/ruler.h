@@ -37,8 +37,6 @@ class Ruler {
 
   /// LodLevel::error_world of a mesh; nothing if it surely exceeds `limit`, which is found early.
   [[nodiscard]] std::optional<double> error(const LatticeMesh& mesh, double limit) const;
-  /// LodLevel::distance_world of a mesh with that error.
-  [[nodiscard]] double distance(const LatticeMesh& mesh, double error) const;
 
  private:
   /// Triangles with a tree over them, which is kept, or made for each use.

@@ -135,11 +135,6 @@ double distance_from_mesh(const std::vector<TriangleD>& mesh, const TriangleBvh&
   return upper_bound(pieces, segments, kSearchTolerance * voxel) + kSegmentToPoint * voxel;
 }
 
-double distance_to_mesh(const std::vector<TriangleD>& segments, const TriangleBvh& mesh, double voxel) {
-  if (segments.empty()) return 0;
-  return upper_bound(segments, mesh, kSearchTolerance * voxel) + kPointToSegment * voxel;
-}
-
 // A point outside is within kPointToCentre of the centre of its voxel; if that is not outside, the mesh is as near.
 double distance_beyond_mesh(const std::vector<TriangleD>& segments, const TriangleBvh& mesh, double voxel,
                             double at_least) {

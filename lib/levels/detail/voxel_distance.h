@@ -17,12 +17,9 @@ constexpr double kTriangleTolerance = 1.0 / 16;  ///< of distances to triangles 
 /// a point of it. Neither may be empty.
 [[nodiscard]] double distance_from_mesh(const std::vector<TriangleD>& mesh, const TriangleBvh& segments, double voxel);
 
-/// No point of the surface is farther from the mesh that `mesh` is over, if every one lies in a voxel of the runs
-/// behind `segments`. 0 without segments. Not empty.
-[[nodiscard]] double distance_to_mesh(const std::vector<TriangleD>& segments, const TriangleBvh& mesh, double voxel);
-
-/// The same of those points of the surface that lie outside the mesh, which is closed: of voxels whose centre has a
-/// winding number below 1. Never below `at_least`, which must exceed a voxel: what is nearer costs one look.
+/// No point of the surface that lies outside of a closed mesh is farther from it. `mesh` is over it; every point of the
+/// surface lies in a voxel of the runs behind `segments`, and is outside if the centre of that voxel has a winding
+/// number below 1. Never below `at_least`, which must exceed a voxel: what is nearer costs one look.
 [[nodiscard]] double distance_beyond_mesh(const std::vector<TriangleD>& segments, const TriangleBvh& mesh, double voxel,
                                           double at_least);
 

@@ -95,10 +95,6 @@ TEST_CASE("the error of a level that encloses the scene's triangles is the dista
     CAPTURE(target.faces, level.mesh.triangles.size(), there);
     CHECK(level.error_world >= there);
     CHECK(level.error_world <= 1.05 * there + 0.07 * voxel);  // sampling misses the farthest point
-    const double back = sampled_distance(scene, world_triangles(level.mesh));
-    CHECK(level.distance_world >= level.error_world);
-    CHECK(level.distance_world >= back);
-    CHECK(level.distance_world <= 1.04 * std::max(level.error_world, back) + 3 * voxel);
   }
 }
 
@@ -111,7 +107,7 @@ TEST_CASE("errors do not depend on the number of threads", "[quick][pass][lod]")
     for (const Enclose enclose : {Enclose::input, Enclose::scene}) {
       const LodLevel level = level_of(scene, 2, {3000, 0, {}}, enclose);
       CHECK(level.mesh.triangles.size() > 1000);  // some pieces of work
-      all.insert(all.end(), {level.error_world, level.distance_world});
+      all.push_back(level.error_world);
     }
     return all;
   };

@@ -256,12 +256,10 @@ TEST_CASE("the measured distance bounds that both ways, the error what can be se
   for (const LodTarget& target : {LodTarget{0, 5, {}}, LodTarget{300, 0, 1.5}, LodTarget{60, 0, 4.0}}) {
     const LodLevel level = chain.make(target);
     const std::vector<TriangleD> proxy = world_triangles(level.mesh);
-    const double there = sampled_distance(proxy, scene, 200), back = sampled_distance(scene, proxy, 40);
-    CAPTURE(target.faces, there, back);
+    const double there = sampled_distance(proxy, scene, 200);
+    CAPTURE(target.faces, there);
     CHECK(level.error_world >= there);
     CHECK(level.error_world <= 1.04 * there + 3 * voxel);
-    CHECK(level.distance_world >= std::max(there, back));
-    CHECK(level.distance_world <= 1.3 * std::max(there, back) + 2.5 * voxel);
     if (target.error_world > 0) CHECK(there <= target.error_world);
   }
 }
@@ -275,7 +273,6 @@ TEST_CASE("a room that a level closes is no error of it", "[quick][pass][lod]") 
   Voxelized solid = voxelized(scene, 1);
   LodChain chain(solid.header, std::move(solid.shelf), backends, options);
   const LodLevel level = chain.make({60, 0, 3.0});  // the hole is at most 4 wide
-  CHECK(level.distance_world > 18);                 // of the post
   CHECK(level.error_world < 8);
 }
 
@@ -293,7 +290,7 @@ TEST_CASE("what sticks out of a fitted level is an error of it, what lies inside
     const LodLevel level = chain.make({faces, 0, 3.0});
     const std::vector<TriangleD> fit = world_triangles(level.mesh);
     const double there = sampled_distance(fit, scene, 500), beyond = sampled_distance_beyond(scene, fit, 200);
-    CAPTURE(faces, level.mesh.triangles.size(), there, beyond, level.distance_world);
+    CAPTURE(faces, level.mesh.triangles.size(), there, beyond);
     CHECK(level.error_world >= std::max(there, beyond));
     CHECK(level.error_world <= 1.01 * std::max(there, beyond) + 1);  // 3 without the triangles
     if (beyond > there) largest = std::max(largest, beyond);

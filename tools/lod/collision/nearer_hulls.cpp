@@ -52,12 +52,12 @@ LatticeMesh body_of_rest(Build& build, const MadeChain& chain, std::vector<Trian
   RestSource source(rest);
   VoxelizeOptions v;
   v.fill = build.options.voxels.fill;
-  v.up = chain.scene.header.frame.up;
+  v.up = chain.scene.voxels.header.frame.up;
   v.context = build.context();
   v.context.memory.bytes = build.budget.waiting;
   v.context.make_scratch = [&] { return make_scratch(build.budget.store, build.options.common.temp); };
   v.tile_memory_bytes = build.budget.tiles;
-  v.voxel_size = [&](const Bounds3d&) { return chain.scene.header.frame.voxel; };
+  v.voxel_size = [&](const Bounds3d&) { return chain.scene.voxels.header.frame.voxel; };
   std::unique_ptr<BrickShelf> solid = build.make_shelf();
   ShelfSink sink(solid.get());
   StreamHeader header;
@@ -77,7 +77,7 @@ LatticeMesh body_of_rest(Build& build, const MadeChain& chain, std::vector<Trian
 /// The scene's convex parts as they are, and the hulls of the rest.
 ConvexParts hulls_of_parts(Build& build, const MadeChain& chain, ConvexScene scene, HullLimits limits, LodOptions lod) {
   LatticeMesh rest;
-  rest.frame = chain.scene.header.frame;
+  rest.frame = chain.scene.voxels.header.frame;
   if (!scene.rest.empty()) rest = body_of_rest(build, chain, std::move(scene.rest), std::move(lod));
   rest.provenance = chain.made.levels.front().mesh.provenance;
   const std::vector<ConvexHull> given = hulls_around(scene, rest.frame, limits.corners);
@@ -94,8 +94,8 @@ ConvexParts nearer_hulls(Build& build, const MadeChain& chain) {
   limits.faces = faces_of_hulls(build.options, body);
   if (!asks_for_faces(request_of(build.options))) limits.loose_faces = kMostCollisionFaces;
   ConvexParts of_body = convex_parts(body, limits);
-  if (build.enclosed() != Enclose::scene) return of_body;
-  LodOptions lod = build.lod_options();
+  if (chain.scene.enclosed != Enclose::scene) return of_body;
+  LodOptions lod = lod_options(build, chain.scene, chain.room);
   ConvexScene scene = convex_scene(lod.scene);
   const std::size_t most = most_hulls(limits, of_body.solids);
   const bool counts = scene.rest.empty() || scene.volume > kCounts * chain.made.facts.front().volume;

@@ -1,6 +1,6 @@
 #pragma once
 #include "lib/hulls/convex_parts.h"
-#include "tools/lod/build.h"
+#include "tools/lod/scene/complete_levels.h"
 
 namespace bp {
 

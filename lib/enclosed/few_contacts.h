@@ -1,0 +1,47 @@
+#pragma once
+#include <vector>
+
+#include "lib/core/vec3.h"
+#include "lib/enclosed/contact_points.h"
+
+namespace bp {
+
+/// What must stay inside, with fewer contact points than it has: those that the faces of a proxy around it meet first,
+/// as ContactPoints lists them. They guide all coarser proxies that follow from this one, at a fraction of the cost:
+/// what lies under other points of a face lies under them for a larger face, too.
+class FewContacts final : public Enclosed {
+ public:
+  /// Keeps a reference to `all`.
+  FewContacts(const Enclosed& all, const HalfEdgeMesh& proxy) : all_(all) {
+    const FaceTree tree(proxy);
+    const ContactPoints contacts(all, proxy, tree);
+    const Vec3d shift = to_double(contacts.origin());
+    for (const Vec3d& p : contacts.points()) points_.push_back(p + shift);
+  }
+
+  [[nodiscard]] bool allows(std::span<const NewFace> star, std::span<const Tetrahedron> swept,
+                            Blocker* blocker) const override {
+    return all_.allows(star, swept, blocker);
+  }
+  [[nodiscard]] std::vector<Vec3d> contact_points(const LatticeCoord& origin, const LatticeBox& within) const override {
+    const Vec3d shift = to_double(origin);
+    std::vector<Vec3d> points;
+    for (const Vec3d& p : points_) {
+      const LatticeCoord at = rounded(p);
+      if (within.holds({at, at})) points.push_back(p - shift);
+    }
+    return points;
+  }
+  [[nodiscard]] bool is_near(std::span<const NewFace> faces, double distance) const override {
+    return all_.is_near(faces, distance);
+  }
+  [[nodiscard]] bool is_exact() const override { return all_.is_exact(); }
+  void outer_boxes(const UseBoxes& use) const override { all_.outer_boxes(use); }
+  [[nodiscard]] std::uint64_t bytes() const override { return points_.capacity() * sizeof(Vec3d); }
+
+ private:
+  const Enclosed& all_;
+  std::vector<Vec3d> points_;  // lattice units
+};
+
+}  // namespace bp

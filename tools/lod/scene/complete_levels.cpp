@@ -1,0 +1,83 @@
+#include "tools/lod/scene/complete_levels.h"
+
+#include <utility>
+
+#include "lib/levels/margin.h"
+#include "lib/pass/color/vertex_colors.h"
+#include "tools/cli/names.h"
+#include "tools/lod/bake_levels.h"
+#include "tools/lod/choices.h"
+#include "tools/run/scale_rules.h"
+
+namespace bp {
+
+namespace {
+
+void complete(const Build& build, const Completion& with, LodLevel& level, std::size_t number,
+              const LodTarget& target) {
+  const auto& [scene, room, looks, input_hash] = with;
+  if (room.margin_world > 0) level.error_world += farthest_of_margin(room.margin_world, room.voxel);
+  if (scene.colors != nullptr) {
+    scene.colors->prepare(level.mesh.frame);
+    color_vertices(level.mesh, scene.colors->all(level.mesh.frame));
+  }
+  if (looks != nullptr)
+    level.mesh.texture =
+        level_texture(build, scene, level.mesh, {level.error_world, target.error_world, level.scale_world}, *looks,
+                      texture_memory(build));
+  const BuildOptions& o = build.options;
+  OptionText text = option_text(o, scene.enclosed, target, number, level.scale_world, level.mesh.frame);
+  if (scene.colors != nullptr) text.add("colors", "auto");
+  if (room.margin_world > 0) text.add("margin", room.margin_world);
+  if (room.plane) text.add("symmetry", name_of(Symmetry(room.plane->axis)));
+  if (scene.field) text.add("field", provenance_text(*scene.field));
+  if (scene.textured) text.add("appearance", o.full() ? "full" : "texture");
+  level.mesh.provenance = {make_provenance("bplod", text, input_hash)};
+}
+
+}  // namespace
+
+CompleteLevels make_levels(Build& build, LodChain& chain, const ChainRange& range, const Completion& completion) {
+  LevelSequence sequence(chain, range);
+  while (const std::optional<std::size_t> number = sequence.next()) {
+    build.report.begin("level " + std::to_string(*number));
+    sequence.make_next();
+  }
+  auto [made, left_out] = sequence.take();
+  CompleteLevels out;
+  out.left_out = std::move(left_out);
+  for (auto& [level, target] : made) {
+    complete(build, completion, level, range.first + out.levels.size(), target);
+    out.facts.push_back(facts_of(level, target));
+    out.levels.push_back(std::move(level));
+  }
+  return out;
+}
+
+std::unique_ptr<SceneLooks> hold_looks(Build& build, const LodScene& scene) {
+  if (!scene.textured && !build.options.leaves) return nullptr;
+  build.report.begin("textures");
+  return read_looks(build, scene, part_of(build.budget.work, 0.4));
+}
+
+MemoryShare texture_memory(const Build& build) {
+  return part_of(build.budget.work, 0.1);
+}
+
+MadeChain make_chain(Build& build) {
+  const BuildOptions& o = build.options;
+  MadeChain chain{read_scene(build, {0, nullptr, false, true}), {}, {}, {}};
+  VoxelizedScene& voxels = chain.scene.voxels;
+  chain.parts = parts_of(voxels, o, build.budget.work.bytes);
+  if (o.is_cage()) chain.room = make_room(build, chain.scene);
+  build.report.begin("measure the scene");
+  const StreamHeader& header = voxels.header;
+  const double diagonal = header.bounds.diagonal();
+  LodChain levels(header, std::move(voxels.solid), build.backends, lod_options(build, chain.scene, chain.room));
+  const LevelRequest request = request_for(o, chain.scene.size.triangles, diagonal, header.frame.voxel);
+  const ChainRange range{request, 0, level_count(request), diagonal, is_named(voxel_request(o, diagonal))};
+  chain.made = make_levels(build, levels, range, {chain.scene, chain.room, nullptr, voxels.counts.input_hash});
+  return chain;
+}
+
+}  // namespace bp
