@@ -52,7 +52,7 @@ class CudaBackend final : public Backend {
         voxelize_part(triangles, part, std::size_t(plane) * std::size_t(part.max.z - part.min.z),
                       out.row(box.min.y, part.min.z));
         z = part.max.z;
-      } catch (const OutOfDeviceMemory&) {  // the device is fuller than expected: go in smaller steps
+      } catch (const OutOfDeviceMemory&) {  // the device is fuller than expected, so smaller steps are taken
         slices = (part.max.z - part.min.z) / 2;
         if (slices == 0) throw;
         make_room();
@@ -64,7 +64,7 @@ class CudaBackend final : public Backend {
                       std::vector<Crossing>& out) override {
     stream_.select();
     if (tile.empty()) return;
-    // A triangle crosses each column once at most: in a batch of this size, crossings are counted in 32 bits.
+    // A triangle crosses each column once at most, so crossings of a batch of this size are counted in 32 bits.
     const std::uint64_t columns = std::uint64_t(tile.size().x) * std::uint64_t(tile.size().y);
     const std::size_t most = std::size_t(std::clamp<std::uint64_t>(kCountedCrossings / columns, 1, kTriangleBatch));
     if (columns > kCountedCrossings) fail(ErrorCode::bad_argument, "a tile of {} columns is too wide", columns);
@@ -79,7 +79,7 @@ class CudaBackend final : public Backend {
     if (crossings.size() <= kMostCrossings) {
       try {
         return fill_on_device(crossings, skip, numbers, bits);
-      } catch (const OutOfDeviceMemory&) {  // before anything came back
+      } catch (const OutOfDeviceMemory&) {  // nothing has come back yet
         make_room();
       }
     }
@@ -130,7 +130,7 @@ class CudaBackend final : public Backend {
         name_, properties_.major, properties_.minor, cudaGetErrorName(error), properties_.major, properties_.minor));
   }
 
-  /// `bits`: the words of `part` on the host, contiguous.
+  /// Voxelizes one part of a tile. `bits`: the words of `part` on the host, contiguous.
   void voxelize_part(std::span<const FixedTriangle> triangles, const VoxelBox& part, std::size_t words,
                      std::uint64_t* bits) {
     out_.grow(2 * words);
@@ -144,7 +144,7 @@ class CudaBackend final : public Backend {
     staging_.download_bits(bits, out_.data(), words);
   }
 
-  /// In halves where the crossings are too many for the device, or for one batch.
+  /// Finds the crossings of a batch. If they are too many for the device, or for one batch, the batch is halved.
   void find_in_batch(std::span<const FixedTriangle> triangles, const VoxelBox& tile, std::vector<Crossing>& out) {
     try {
       if (find_at_once(triangles, tile, out)) return;
@@ -157,8 +157,8 @@ class CudaBackend final : public Backend {
     find_in_batch(triangles.subspan(half), tile, out);
   }
 
-  /// Once more, with room for all, if there are more crossings than were expected. False, and nothing done, if they
-  /// are too many for several triangles.
+  /// Finds the crossings of all triangles at once, and again with room for all if there are more than expected. If
+  /// several triangles have too many, it returns false and has done nothing.
   bool find_at_once(std::span<const FixedTriangle> triangles, const VoxelBox& tile, std::vector<Crossing>& out) {
     staging_.upload(triangles_.grow(triangles.size()), triangles.data(), triangles.size_bytes());
     std::uint32_t capacity = kCrossingBatch, found = 0;
@@ -176,7 +176,7 @@ class CudaBackend final : public Backend {
     return true;
   }
 
-  /// `numbers` and `bits` are untouched if this throws OutOfDeviceMemory.
+  /// Fills on the device. If it throws OutOfDeviceMemory, `numbers` and `bits` are untouched.
   void fill_on_device(const std::vector<Crossing>& crossings, std::span<const std::uint64_t> skip,
                       std::span<std::int32_t> numbers, BitBox& bits) {
     staging_.upload(crossings_.grow(crossings.size()), crossings.data(), crossings.size() * sizeof(Crossing));
@@ -202,7 +202,7 @@ class CudaBackend final : public Backend {
     staging_.download(closed.data(), out_.data(), words_out * 4);
   }
 
-  /// `cubes` is set, and stays in use as the field does.
+  /// Uploads the scale and the cubes. It sets `cubes`, which must live as long as the field.
   TileField upload_field(const ScaleLattice& scale, const ClosingParams& params, const VoxelBox& dilated,
                          const TileLayout& layout, CubesOver& cubes) {
     TileField field{scale, nullptr, params.element};
@@ -224,7 +224,7 @@ class CudaBackend final : public Backend {
 
   static bool whole_bricks(const VoxelBox& box) { return !box.empty() && voxels_of(bricks_of(box)) == box; }
 
-  /// Only bricks that are neither empty nor full travel, in both directions.
+  /// Closes bricks. Only bricks that are neither empty nor full travel, in both directions.
   void close_bricks(const BrickShelf& solid, const BrickBox& bricks, const ScaleLattice& scale, const Halo& halo,
                     const ClosingParams& params, const VoxelBox& interior, BitBox& closed) {
     const BrickBox seen = intersect(bricks_of(interior.grown(halo.total_vox())), bricks), made = bricks_of(interior);
@@ -281,7 +281,7 @@ class CudaBackend final : public Backend {
     return table;
   }
 
-  /// The bricks of `made` into `closed`, which is empty; slots_ says where each is.
+  /// Puts the bricks of `made` into `closed`, which is empty. slots_ says where each brick is.
   void take_bricks(const BrickBox& made, const std::uint64_t* bits, BitBox& closed) {
     const std::size_t n = slots_.size() - 1, mixed = slots_[n];
     std::vector<std::size_t> brick_of(mixed);
@@ -296,7 +296,7 @@ class CudaBackend final : public Backend {
         });
   }
 
-  /// `rows`: words of the brick; null: all ones.
+  /// Puts one brick into `closed`. `rows`: words of the brick; null: all ones.
   static void put_brick(BrickCoord brick, const std::byte* rows, BitBox& closed) {
     const VoxelCoord first = first_voxel(brick);
     const std::int32_t column = (first.x - closed.box().min.x) / kBrickEdge;
@@ -309,7 +309,7 @@ class CudaBackend final : public Backend {
     }
   }
 
-  /// Gives back all device memory.
+  /// Frees all device memory.
   void make_room() {
     BP_CUDA_CHECK(cudaStreamSynchronize(stream_.get()));
     closing_.release();
@@ -323,7 +323,8 @@ class CudaBackend final : public Backend {
     numbers_.release();
   }
 
-  /// The longest axis along which a tile holds two units that may be closed apart; -1 if there is none.
+  /// Returns the longest axis along which a tile can be divided into two parts that are closed separately; -1 if there
+  /// is none.
   static int longest_divisible_axis(const VoxelBox& tile) {
     int axis = -1;
     for (int i = 0; i < 3; ++i) {
@@ -333,7 +334,8 @@ class CudaBackend final : public Backend {
     return axis;
   }
 
-  /// A tile too large for the device: each half of the interior with what it needs of the solid.
+  /// Closes a tile that is too large for the device: each half of the interior with the part of the solid that it
+  /// needs.
   void close_in_halves(const BitBox& solid, const ScaleLattice& scale, const Halo& halo, const ClosingParams& params,
                        const VoxelBox& interior, BitBox& closed) {
     make_room();
@@ -343,7 +345,7 @@ class CudaBackend final : public Backend {
       throw DeviceError(fmt::format("{}: not enough device memory for a tile of {} x {} x {} voxels", name_,
                                     interior.size().x, interior.size().y, interior.size().z));
     }
-    const std::int32_t unit = axis == 0 ? kBrickEdge : kUnit;  // whole words along x
+    const std::int32_t unit = axis == 0 ? kBrickEdge : kUnit;  // along x whole words are needed
     lower.max[axis] = upper.min[axis] = floor_div(interior.min[axis] + (interior.size()[axis] + unit) / 2, unit) * unit;
     for (const VoxelBox& half : {lower, upper}) {
       BitBox part_solid(intersect(half.grown(halo.total_vox()), solid.box())), part_closed;

@@ -5,7 +5,7 @@
 
 #include "lib/device/backend.h"
 
-/// The GPU behind the Backend interface. No CUDA type here: tools and tests include it without the toolkit.
+/// The GPU behind the Backend interface. There is no CUDA type here, so tools and tests include it without the toolkit.
 namespace bp {
 
 struct CudaDevice {
@@ -14,13 +14,13 @@ struct CudaDevice {
   int multiprocessors = 0;
 };
 
-/// The GPUs this process may use; empty if there is none or no driver. Throws DeviceError if there is a driver that is
-/// too old for this build or does not work.
+/// Returns the GPUs that this process may use; none if there is no GPU or no driver. Throws DeviceError if the driver
+/// is too old for this build or does not work.
 [[nodiscard]] std::vector<CudaDevice> cuda_devices();
 
-/// A backend with a stream and buffers of its own on one GPU; several may share a GPU. Buffers grow with the tiles and
-/// are kept. A tile that does not fit in device memory is closed in parts. Throws DeviceError if there is no such
-/// device, or if this build holds no code for it; what fails there later is a DeviceError, too.
+/// Returns a backend with a stream and buffers of its own on one GPU. Several backends may share a GPU. Buffers grow
+/// with the tiles and are kept. A tile that does not fit in device memory is closed in parts. Throws DeviceError if
+/// there is no such device, or if this build holds no code for it. Later failures of the device are DeviceErrors, too.
 [[nodiscard]] std::unique_ptr<Backend> make_cuda_backend(int device);
 
 }  // namespace bp

@@ -17,7 +17,7 @@ cudaDeviceProp device_properties(int device) {
 std::vector<CudaDevice> cuda_devices() {
   int count = 0, driver = 0;
   const cudaError_t error = cudaGetDeviceCount(&count);
-  if (error == cudaErrorInsufficientDriver) {  // also said where there is none
+  if (error == cudaErrorInsufficientDriver) {  // the driver reports this also where there is none
     (void)cudaGetLastError();
     if (cudaDriverGetVersion(&driver) != cudaSuccess || driver == 0) return {};
     throw DeviceError(

@@ -3,7 +3,7 @@
 
 namespace bp {
 
-/// What the driver says of a GPU. Throws DeviceError.
+/// Returns the properties that the driver reports for a GPU. Throws DeviceError.
 [[nodiscard]] cudaDeviceProp device_properties(int device);
 
 }  // namespace bp

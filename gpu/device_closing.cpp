@@ -20,7 +20,7 @@ VoxelRange range_in(const VoxelBox& box, VoxelCoord origin) {
   return {a.x, a.y, a.z, b.x, b.y, b.z};
 }
 
-/// The words of the BitBox of `box`: whole 64-voxel words.
+/// Returns the words of the BitBox of `box`, in whole words of 64 voxels.
 BoxOfWords words_in(const VoxelBox& box, VoxelCoord origin) {
   const std::int32_t x0 = round_down(box.min.x, 64), x1 = round_up(box.max.x, 64);
   return {(x1 - x0) / 32,       box.max.y - box.min.y, box.max.z - box.min.z,
@@ -33,7 +33,7 @@ std::int32_t floor_sqrt(std::uint32_t v) {
   return r;
 }
 
-/// The scale as kernels see it; constant, or from the samples on the device.
+/// Returns the scale for kernels: a constant, or the samples on the device.
 ScaleView view_of(const ScaleLattice& scale, const TileLayout& layout, const Scale* samples) {
   ScaleView view;
   view.constant = scale.max;
@@ -44,7 +44,7 @@ ScaleView view_of(const ScaleLattice& scale, const TileLayout& layout, const Sca
   return view;
 }
 
-/// Of the erosion by balls.
+/// Returns the bounds of the erosion by balls.
 TransformBounds bounds_of(Scale most, bool wide) {
   TransformBounds bounds;
   bounds.wide = wide;
@@ -85,7 +85,7 @@ CubeView view_of(const CubesOver& cubes, const TileLayout& layout, const ScaleLa
   CubeView view;
   view.nx = cubes.size.x, view.ny = cubes.size.y, view.nz = cubes.size.z;
   view.edge = cubes.edge / kCell;
-  // A field far away has one cell along the axis, which is the nearest one from anywhere.
+  // A distant field has one cell along the axis, which is the nearest one from anywhere.
   const auto from_first = [&](std::int32_t domain, std::int32_t first) {
     return std::int32_t(std::clamp<std::int64_t>(domain - std::int64_t(first) * view.edge, -(1 << 29), 1 << 29));
   };
@@ -131,7 +131,7 @@ void DeviceClosing::start(const TileLayout& layout, cudaStream_t stream) {
   zero(flags_.data(), (2 * quads + 2 * ((quads + 3) / 4)) * 4, stream);
 }
 
-/// The closing of the voxels in solid_, whose cells are flagged.
+/// Enqueues the closing of the voxels in solid_, whose cells are flagged. Returns its bits.
 const std::uint32_t* DeviceClosing::close(const TileLayout& layout, const TileField& field, cudaStream_t stream,
                                           const Mark& mark) {
   const ScaleLattice& scale = field.scale;
@@ -141,7 +141,7 @@ const std::uint32_t* DeviceClosing::close(const TileLayout& layout, const TileFi
   const GridShape& shape = layout.shape;
   const std::size_t quads = shape.quad_count();
   std::uint32_t *solid_cells = flags_.data(), *contour_cells = solid_cells + quads;
-  auto* wanted = reinterpret_cast<std::uint8_t*>(contour_cells + quads);  // one byte per quad, twice
+  auto* wanted = reinterpret_cast<std::uint8_t*>(contour_cells + quads);  // two bytes for each quad
   const ScaleView view = view_of(scale, layout, field.samples);
   if (!scale.constant()) {
     bound_cells(view, shape, w_of_cells_.grow(4 * quads), stream);
@@ -151,7 +151,7 @@ const std::uint32_t* DeviceClosing::close(const TileLayout& layout, const TileFi
   TransformBounds bounds = bounds_of(scale.max, tuning_.wide);
   const std::uint32_t* result = dilate(layout, field, view, bounds, stream, mark);
   done("dilate");
-  if (bounds.reach == 0) return result;  // no ball of the erosion leaves its centre, and E = D
+  if (bounds.reach == 0) return result;  // no ball of the erosion leaves its centre, so E = D
   outer_contour(dilated_.data(), shape, contour_.data(), contour_cells, stream);
   done("contour");
   bounds.offset_at_seed = !scale.constant();
@@ -163,7 +163,7 @@ const std::uint32_t* DeviceClosing::close(const TileLayout& layout, const TileFi
   return closed_.data();
 }
 
-/// Where D is.
+/// Enqueues the dilation. Returns the bits of D.
 const std::uint32_t* DeviceClosing::dilate(const TileLayout& layout, const TileField& field, const ScaleView& view,
                                            TransformBounds bounds, cudaStream_t stream, const Mark& mark) {
   if (field.cubes != nullptr) {
@@ -181,7 +181,7 @@ const std::uint32_t* DeviceClosing::dilate(const TileLayout& layout, const TileF
   return dilated_.data();
 }
 
-/// Tables of windows for radii from `least` to `most`. The arrays of the contour and of E are free until later.
+/// Makes tables of windows for radii from `least` to `most`. The arrays of the contour and of E are free until later.
 WindowTables DeviceClosing::windows(const GridShape& shape, int least, int most, cudaStream_t stream) {
   const int last = octave_of(most), first = std::max(1, octave_of(least));
   WindowTables tables{};
@@ -211,8 +211,8 @@ void DeviceClosing::dilate_by_cube(const TileLayout& layout, const ScaleLattice&
                       dilated_.data(), contour_.data(), &counts_.data()->rows, stream);
 }
 
-/// Cubes along the axes decide for most voxels: those around the turned ones for what is out, those in them for what is
-/// in.
+/// Cubes along the axes decide most voxels: voxels that the cube around the turned one does not reach are out, voxels
+/// that the cube inside it reaches are in.
 void DeviceClosing::dilate_by_turned_cubes(const TileLayout& layout, const TileField& field, const ScaleView& view,
                                            cudaStream_t stream, const Mark& mark) {
   const auto done = [&](const char* stage) {
@@ -244,7 +244,7 @@ int DeviceClosing::slab_words(const TileLayout& layout, const TransformBounds& b
       return n;
     } catch (const OutOfDeviceMemory&) {
       if (n == 1) throw;
-      n = (n + 1) / 2;  // the device is fuller than expected: go in smaller steps
+      n = (n + 1) / 2;  // the device is fuller than expected, so smaller steps are taken
     }
   }
 }
@@ -265,7 +265,7 @@ void DeviceClosing::transform(const TileLayout& layout, const ScaleView& view, c
   transform_slabs(layout, view, t, answers, stream, done);
 }
 
-/// The words of t.region in slabs, as many at a time as the memory for distances takes.
+/// Transforms the words of t.region in slabs. A slab has as many words as the memory for distances holds.
 void DeviceClosing::transform_slabs(const TileLayout& layout, const ScaleView& view, const Transform& t,
                                     const CellAnswers& answers, cudaStream_t stream, const Mark& done) {
   const GridShape& shape = layout.shape;

@@ -9,37 +9,38 @@
 #include "gpu/kernels/turned_kernels.h"
 #include "lib/closing/closing.h"
 
-/// The closing of one tile whose voxels are on the device already: a fixed sequence of kernels on one stream, no
-/// allocation once the sizes are known, no synchronisation with the host. After lib/closing/closing.h, to the bit.
+/// The closing of one tile whose voxels are on the device already. It is a fixed sequence of kernels on one stream,
+/// without allocation once the sizes are known, and without synchronisation with the host. The bits are those of
+/// lib/closing/closing.h.
 namespace bp {
 
-/// Where a tile lies on the device: computed on the host from its boxes.
+/// The place of a tile on the device, computed on the host from its boxes.
 struct TileLayout {
   GridShape shape;
   BoxOfWords solid, closed;             ///< the caller's boxes in the domain
-  VoxelRange dilated, interior;         ///< where D is needed, and where E is
+  VoxelRange dilated, interior;         ///< where D is needed, and where E is needed
   std::int32_t ox = 0, oy = 0, oz = 0;  ///< sample of the scale lattice at voxel (0,0,0) of the domain
 };
-/// Throws OutOfDeviceMemory if the domain has 2^31 words or more.
+/// Lays out a tile. Throws OutOfDeviceMemory if the domain has 2^31 words or more.
 [[nodiscard]] TileLayout lay_out(const VoxelBox& solid, const ScaleLattice& scale, const Halo& halo,
                                  const VoxelBox& interior);
 
-/// Where the cubes of a tile lie in its domain; their numbers are to be put on the device.
+/// Returns where the cubes of a tile lie in its domain. Their numbers must still be copied to the device.
 [[nodiscard]] CubeView view_of(const CubesOver& cubes, const TileLayout& layout, const ScaleLattice& scale);
 
 struct ClosingTuning {
   int multiprocessors = 1;
-  std::size_t slab_bytes = 0;  ///< memory for distances; at least that of one word of columns is taken
+  std::size_t slab_bytes = 0;  ///< memory for distances; at least one word of columns is taken
   bool wide = false;           ///< 32-bit distances even where 16 bits suffice
 };
 
-/// What the closing goes by at each voxel of a tile.
+/// The scale and the cubes at each voxel of a tile.
 struct TileField {
   const ScaleLattice& scale;  ///< bounds and shape
-  const Scale* samples;       ///< its samples on the device; unused where constant
+  const Scale* samples;       ///< the samples on the device; unused if the scale is constant
   StructuringElement element;
-  const CubesOver* cubes = nullptr;  ///< that are turned, over the dilation; null: none is
-  CubeView cubes_there{};            ///< they on the device
+  const CubesOver* cubes = nullptr;  ///< turned cubes over the dilation; null: none is turned
+  CubeView cubes_there{};            ///< the same cubes on the device
 };
 
 class DeviceClosing {
@@ -49,15 +50,15 @@ class DeviceClosing {
 
   explicit DeviceClosing(const ClosingTuning& tuning) : tuning_(tuning) {}
 
-  /// Enqueues the closing of a tile. All pointers to the device stay in use until the stream has passed.
+  /// Enqueues the closing of a tile. All pointers to the device must stay valid until the stream has passed.
   void enqueue(const TileLayout& layout, const std::uint32_t* solid, const TileField& field, std::uint32_t* closed,
                cudaStream_t stream, const Mark& mark = {});
-  /// The same from bricks into bricks: `closed` has room for all of the interior, which is made of whole bricks.
-  ///   count  out: bricks of `closed` that are neither empty nor full
+  /// Enqueues the closing from bricks into bricks. `closed` has room for the whole interior, which is whole bricks.
+  ///   count  out: number of bricks of `closed` that are neither empty nor full
   void enqueue(const TileLayout& layout, const BrickTable& solid, const TileField& field, const BrickTable& closed,
                std::uint32_t* count, cudaStream_t stream);
 
-  /// Gives back all device memory.
+  /// Frees all device memory.
   void release();
 
  private:
@@ -88,7 +89,7 @@ class DeviceClosing {
   ClosingTuning tuning_;
   DeviceBuffer<std::uint32_t> solid_, dilated_, contour_, closed_, tables_;
   DeviceBuffer<std::uint32_t>
-      flags_;  ///< what is zeroed at the start of a tile: cells of G and of the contour, wanted quads
+      flags_;  ///< zeroed at the start of a tile: flags of the cells of G and of the contour, and wanted quads
   DeviceBuffer<std::uint32_t> answers_;
   DeviceBuffer<uint2> w_of_cells_;
   DeviceBuffer<std::uint8_t> cells_, values_, pass_flags_, columns_;

@@ -8,22 +8,22 @@
 
 namespace bp {
 
-/// Backend::weigh() on a GPU: points that the kernel leaves are weighed on the calling thread.
+/// Backend::weigh() on a GPU. The calling thread weighs the points that the kernel leaves.
 class DeviceWeighing {
  public:
-  /// Where the points do not fit in device memory, calls make_room(), and takes them in parts.
+  /// Weighs points. If they do not fit in device memory, it calls make_room() and takes them in parts.
   void weigh(const CageCoordinates& coordinates, std::span<const Vec3d> points, bool carry_outside, Staging& staging,
              cudaStream_t stream, const std::function<void()>& make_room, WeightBlock& out,
              std::span<CoordinateRows::Place> places);
   void release() { weigher_.release(); }
 
  private:
-  /// `first`: number of the first point in `out`.
+  /// Weighs some points. `first`: number of the first point in `out`.
   void weigh_part(const CageCoordinates& coordinates, std::span<const Vec3d> points, std::size_t first,
                   Staging& staging, cudaStream_t stream, WeightBlock& out, std::span<CoordinateRows::Place> places);
 
   DeviceWeigher weigher_;
-  std::vector<std::uint32_t> left_;  ///< points for the calling thread
+  std::vector<std::uint32_t> left_;  ///< points that are left to the calling thread
   CoordinateRows rows_;
 };
 

@@ -120,7 +120,8 @@ __device__ int largest_gap(int p, int n, int c, int m) {
   return max(c + m - 1 - p, p + n - 1 - c);
 }
 
-/// The block of `edge`^3 voxels that asks. Cube or ball around it, one size for all of its voxels, or bounds of it.
+/// The block of `edge`^3 voxels whose dilation is asked for, with a cube or ball around it: one size for all of its
+/// voxels, or bounds of the sizes.
 struct CubeElement {
   int x, y, z, edge, least, most;  ///< radius: every voxel of the block has at least `least`, none more than `most`
   __device__ int reach() const { return most; }
@@ -193,7 +194,7 @@ __device__ std::uint32_t swap_children(std::uint32_t mask, int with) {
   return mask;
 }
 
-/// What the occupied voxels say about the element's block: wholly - some voxel is in reach of all of the block's
+/// The answer of the occupied voxels for the element's block: wholly - some voxel is in reach of all of the block's
 /// voxels; no - none is in reach of any; partly - neither is known. For a block of one voxel the answer is exact: never
 /// partly.
 template <class Element>
@@ -239,7 +240,7 @@ __device__ Meets walk(const PyramidView& t, const Element& e) {
 
 enum class Shape { ball, cube, oriented };
 
-/// What is asked at a block of voxels, after which field.
+/// The query at a block of voxels, and its field.
 struct Question {
   bool erosion;
   Shape shape;      ///< of the dilation
@@ -249,7 +250,7 @@ struct Question {
   RotationView rotations;
 };
 
-/// S over a block of 2^3 voxels, or at one: bounds.
+/// Returns bounds of S over a block of 2^3 voxels, or at one voxel.
 __device__ void scale_over(const ScaleView& s, int x, int y, int z, int edge, int& least, int& most) {
   least = 0xffff, most = 0;
   for (int c = 0; c < edge * edge * edge; ++c) {
@@ -356,7 +357,7 @@ __global__ void __launch_bounds__(kPassThreads)
   }
 }
 
-/// The open blocks, voxel by voxel: four to a warp.
+/// Decides the open blocks, voxel by voxel: four blocks to a warp.
 template <bool kErosion, Shape kShape, bool kVarying>
 __global__ void __launch_bounds__(kPassThreads)
     open_blocks_kernel(const __grid_constant__ PyramidView t, const __grid_constant__ Question q, GridShape shape,

@@ -34,7 +34,7 @@ namespace {
 
 constexpr std::uint64_t kExamples = 5;
 
-/// What --origin says, or else the proxy, which is noted.
+/// Returns the point that --origin names, or else the one in the proxy's file, with a note.
 bp::Vec3d origin_of(const bp::CheckRun& o, bp::Report& report) {
   if (o.origin) return *o.origin;
   const std::vector<std::string> scenes(o.files.begin(), o.files.end() - 1);
@@ -60,7 +60,7 @@ void fill_report(bp::Report& report, const bp::CheckRun& o, const bp::Vec3d& ori
   if (!verdicts[0].distance_note.empty()) report.notes.push_back(verdicts[0].distance_note);
 }
 
-/// An answer to another question than was asked would be none.
+/// Refuses options that ask another question: its answer would be no answer to this one.
 void refuse_for_tileset(const bp::CheckRun& o) {
   for (const auto& [option, given] : {std::pair{"--inside", o.inside},
                                       {"--convex", o.convex},
@@ -75,13 +75,13 @@ void note_hint(bp::Report& report, const bp::CheckRun& o, const std::string& hin
   if (!hint.empty()) report.note(hint, o.common);
 }
 
-/// Exit status (docs/exit-codes.md).
+/// Returns the exit status (docs/exit-codes.md).
 int status_of(bp::Answer answer) {
   constexpr int kProven = 0, kRefuted = 1, kUndecided = 5;
   return answer == bp::Answer::proven ? kProven : answer == bp::Answer::refuted ? kRefuted : kUndecided;
 }
 
-/// What may be behind the failure of a tileset; reads the scenes once more.
+/// Returns a hint about the failure of a tileset. Reads the scenes once more.
 std::string tileset_hint(const std::vector<std::string>& scenes, const std::string& tileset,
                          const bp::SceneOptions& options) {
   if (std::string other = bp::other_scene_hint(scenes, tileset, options); !other.empty()) return other;
@@ -89,7 +89,7 @@ std::string tileset_hint(const std::vector<std::string>& scenes, const std::stri
   return contents.empty() ? "" : bp::fit_hint(contents.front().path);
 }
 
-/// A tileset is many proxies and what holds them together.
+/// Checks a tileset: many proxies, and the tree that holds them together.
 int run_tileset(const bp::CheckRun& o) {
   refuse_for_tileset(o);
   bp::Report report("bpcheck");
@@ -120,14 +120,14 @@ std::string with_claim(const std::string& text, bp::Contract claim, bool json) {
   return verdict.dump(2) + "\n";
 }
 
-/// Of enclosure, or with --inside of its opposite.
+/// Returns whether the answers about enclosure hold, or with --inside about lying inside.
 bool answers_hold(const bp::CheckRun& o, const std::vector<bp::CheckReport>& verdicts) {
   return o.files.size() < 2 || std::all_of(verdicts.begin(), verdicts.end(), [&](const bp::CheckReport& v) {
            return o.inside ? v.inside() || v.holds() : v.encloses();
          });
 }
 
-/// Each level as a proxy of its own.
+/// Checks each level as a proxy of its own.
 std::vector<bp::CheckReport> check(const bp::CheckRun& o, const std::vector<bp::IndexedMesh>& levels,
                                    bp::TriangleSource* scene, const std::optional<bp::HidingQuestion>& hidden,
                                    std::uint64_t scene_bytes) {
@@ -160,14 +160,15 @@ std::vector<bp::CheckReport> check(const bp::CheckRun& o, const std::vector<bp::
   return verdicts;
 }
 
-/// Whether the proxy fails as one surface in a way that convex parts do: they intersect, or share vertices or edges.
+/// Returns whether the proxy fails as one surface as convex parts do: they intersect, or share vertices or edges.
 bool parts_meet(const bp::CheckRun& o, const std::vector<bp::CheckReport>& verdicts) {
   if (o.convex || o.inside) return false;
   return std::any_of(verdicts.begin(), verdicts.end(),
                      [](const bp::CheckReport& v) { return v.components > 1 && (!v.embedded() || !v.manifold()); });
 }
 
-/// Asked for a hint only, so of small proxies only: physics engines take no others.
+/// Returns whether several convex parts are there. It serves a hint only, so only small proxies are tested: physics
+/// engines take no others.
 bool has_convex_parts(const std::vector<bp::IndexedMesh>& levels) {
   constexpr std::size_t kMostTriangles = 20000;
   bp::CheckOptions options;
@@ -178,7 +179,7 @@ bool has_convex_parts(const std::vector<bp::IndexedMesh>& levels) {
   });
 }
 
-/// What the proxy's file says that it is hidden by, if it says so; `walls` opens the scene for it.
+/// Returns the question how the proxy is hidden, if its file says how; `walls` opens the scene for it.
 std::optional<bp::HidingQuestion> hiding_question(const bp::CheckRun& o, const std::vector<std::string>& scenes,
                                                   bp::SceneOptions options,
                                                   std::unique_ptr<bp::TriangleSource>& walls) {
@@ -191,7 +192,7 @@ std::optional<bp::HidingQuestion> hiding_question(const bp::CheckRun& o, const s
   return bp::HidingQuestion{recipe->hiding, walls.get(), !recipe->opaque_only};
 }
 
-/// Its levels, which are taken from the budget.
+/// Reads the levels of the proxy. Their memory is subtracted from the budget.
 std::vector<bp::IndexedMesh> read_proxy(const std::string& proxy, const std::vector<std::string>& scenes,
                                         const bp::SceneOptions& options, bp::CheckBudget& budget) {
   try {
@@ -218,7 +219,7 @@ int run_mesh(const bp::CheckRun& o, const std::optional<bp::Contract>& claim = {
   for (const std::string& note : bp::place_notes(o.files, levels.front().up)) report.note(note, o.common);
   for (bp::IndexedMesh& level : levels) bp::add_origin(level, origin);
   std::unique_ptr<bp::TriangleSource> scene;
-  scene_options.keep_degenerate = true;  // they have a place, and may be what closes the scene
+  scene_options.keep_degenerate = true;  // degenerate triangles have a place, and may close the scene
   if (!scenes.empty()) scene = bp::open_scenes(scenes, scene_options);
   std::unique_ptr<bp::TriangleSource> walls;
   const std::optional<bp::HidingQuestion> hidden = hiding_question(o, scenes, scene_options, walls);
@@ -243,7 +244,7 @@ int run_mesh(const bp::CheckRun& o, const std::optional<bp::Contract>& claim = {
   return status_of(answer_of(verdicts));
 }
 
-/// The file's own claim as the question.
+/// Asks whether the file's own claim holds.
 int run_claimed(const bp::CheckRun& o) {
   const std::optional<bp::Contract> claim = bp::told_contract(o.files.back());
   if (claim) return run_mesh(bp::asking_for(*claim, o), claim);

@@ -59,7 +59,7 @@ Options parse(bp::Args& args) {
   return o;
 }
 
-/// By the options, or by the field that bpscale gave the stream.
+/// Returns the plan of the options, or the field that bpscale gave the stream.
 bp::ScalePlan scale_plan(const Options& o, bp::RuledSource& source) {
   const bp::StreamHeader& header = source.header();
   if (header.has_field && (o.closing.scale || !o.field.empty()))
@@ -78,7 +78,7 @@ bp::ScalePlan scale_plan(const Options& o, bp::RuledSource& source) {
   return plan;
 }
 
-/// An opening: what is narrow is removed of the inside of a scene.
+/// Returns whether the stream is opened: narrow parts are removed from the inside of a scene.
 bool opens(const bp::StreamHeader& header) {
   return header.fill == bp::FillMode::inside;
 }
@@ -87,7 +87,7 @@ bp::OptionText option_text(const Options& o, const bp::StreamHeader& header, con
   bp::OptionText text;
   if (o.closing.scale) {
     text.add("scale", *o.closing.scale);
-  } else if (!header.has_field) {  // else bpscale tells
+  } else if (!header.has_field) {  // else bpscale has told it
     text.add("field", bp::provenance_text(plan));
   }
   text.add("element", name_of(o.closing.element));
@@ -96,7 +96,7 @@ bp::OptionText option_text(const Options& o, const bp::StreamHeader& header, con
   return text;
 }
 
-/// How --memory is shared out: the program, the stream's batches and `pinned` memory, the shelves, the tiles at work.
+/// Shares out --memory: the program, the stream's batches and `pinned` memory, the shelves, the tiles at work.
 bp::CloseOptions pass_options(const Options& o, bool opening, std::uint64_t pinned, bp::Progress& progress) {
   const bp::MemoryLimit limit{o.common.memory_bytes, bp::kVoxelProgram + pinned};
   const std::uint64_t usable = limit.rest_bytes();
@@ -108,7 +108,7 @@ bp::CloseOptions pass_options(const Options& o, bool opening, std::uint64_t pinn
   return options;
 }
 
-/// With cubes as bpscale turned them.
+/// Returns the parameters, with the cubes as bpscale turned them.
 bp::ClosingParams closing_params(const Options& o, const bp::StreamHeader& header) {
   bp::ClosingParams params{o.closing.element};
   if (header.has_field && !header.orientation.empty() && params.element == bp::StructuringElement::cube)
@@ -157,7 +157,7 @@ void fill_report(bp::Report& report, const bp::Backends& backends, const bp::Clo
   if (counts.ignored_bricks > 0) report.notes.push_back("the input's closing layer was made anew from its solid layer");
 }
 
-/// What makes no sense for this stream.
+/// Refuses options that make no sense for this stream.
 void question(const Options& o, const bp::StreamHeader& in) {
   if (opens(in) && o.keep_cavities)
     fail(ErrorCode::bad_argument, "--keep-cavities means nothing for a stream of bpvox --fill inside; leave it out");

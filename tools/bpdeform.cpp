@@ -89,7 +89,7 @@ bp::SceneOptions scene_options(const Options& o) {
   options.temp_dir = o.common.temp;
   options.memory_bytes = o.common.memory_bytes / 4;
   options.keep_extremes = true;
-  options.fans = true;  // a cage and what it moves to have the same triangles
+  options.fans = true;  // a cage and its moved copy must have the same triangles
   options.document = bp::document_budget(o.common.memory_bytes, bp::least_memory(o.common.threads), 1);
   bp::MemoryShare cage = options.document;
   cage.bytes /= 2, cage.share /= 2;
@@ -117,7 +117,8 @@ void bind(const Options& o, bp::Report& report, bp::Progress& progress) {
   report.bytes_out = output->bytes();
 }
 
-/// Of scene number i of n: its number stands before the extension, with as many digits as the last one has.
+/// Returns the name of scene number i of n. Its number stands before the extension, with as many digits as the last one
+/// has.
 std::string numbered(const std::string& name, std::size_t i, std::size_t n) {
   if (n == 1) return name;
   const std::size_t dot = name.find_last_of('.');

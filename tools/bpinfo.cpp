@@ -75,7 +75,8 @@ Options parse(bp::Args& args) {
   return o;
 }
 
-/// stdin and pipes are streams of voxels, for they cannot be tried twice; files by their first bytes.
+/// Returns whether the input is a stream of voxels. stdin and pipes are, since they cannot be read twice; files tell by
+/// their first bytes.
 bool is_stream(const Options& o, const std::string& in) {
   if (!o.format.empty()) return false;
   if (in == "-") return true;
@@ -85,12 +86,12 @@ bool is_stream(const Options& o, const std::string& in) {
   return bp::begins_as_stream(in) || in.ends_with(".bpv");
 }
 
-/// By its name, as bpcheck does.
+/// Decides by the name, as bpcheck does.
 bool is_tileset(const Options& o, const std::string& in) {
   return o.format.empty() && in.ends_with(".json");
 }
 
-/// By its first bytes, which are those of a stream of voxels but for its own magic.
+/// Decides by the first bytes. They are those of a stream of voxels except for the magic.
 bool is_weights(const Options& o, const std::string& in) {
   return o.format.empty() && in != "-" && bp::begins_as_weights(bp::InputFile(in));
 }
@@ -106,13 +107,13 @@ void check_level(const std::string& in, std::size_t level, std::size_t levels) {
            levels - 1);
 }
 
-/// Files that can have levels, though many have one.
+/// Returns whether the file can have levels, though many have one.
 bool is_gltf(const std::string& in) {
   const std::string format = bp::scene_format_of(in);
   return format == "glb" || format == "gltf";
 }
 
-/// --level would be passed over in silence.
+/// Refuses --level where it would be ignored in silence.
 void check_level_is_used(const Options& o) {
   const auto has_levels = [&](const std::string& in) {
     return is_tileset(o, in) ? !o.picture.image.file.empty() : is_gltf(in);
@@ -219,7 +220,7 @@ void show_weights(const Options& o, const std::string& in, bp::Picture& picture)
   bp::print(o.json ? bp::weight_json(info).dump(2) + "\n" : bp::weight_text(info, in));
 }
 
-/// The scene that a stream was made of, or one in a file.
+/// Returns the places of parts, as text: of the scene that a stream was made of, or of a scene in a file.
 std::string part_places(const Options& o, const std::string& in) {
   if (is_tileset(o, in)) bp::fail(bp::ErrorCode::bad_argument, "{}: --boxes is for scenes; tiles have no parts", in);
   if (is_weights(o, in)) bp::fail(bp::ErrorCode::bad_argument, "{}: --boxes is for scenes; weights have no parts", in);

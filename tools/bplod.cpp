@@ -14,7 +14,7 @@
 
 namespace {
 
-/// The row of a file. How far hulls are from the scene is not measured.
+/// Returns the row of a file. The distance of hulls to the scene is not measured.
 bp::LevelRow row_of(const bp::WrittenFile& file, const std::vector<bp::LevelFacts>& levels,
                     const bp::OutputFolder& out) {
   std::uint64_t bytes = out.bytes(file.name);
@@ -27,7 +27,7 @@ bp::LevelRow row_of(const bp::WrittenFile& file, const std::vector<bp::LevelFact
   return row;
 }
 
-/// Files that there will be; most: levels.
+/// Returns the names of the files to come; `most`: number of levels.
 std::vector<std::string> files_of(const bp::BuildOptions& o, std::size_t most) {
   if (o.profile == bp::LodProfile::collision) return bp::collision_files(o);
   return o.obj ? bp::obj_files(o, most) : bp::profile_files(o.profile, o.name, most);
@@ -48,7 +48,7 @@ std::vector<bp::WrittenFile> write_files(bp::Build& build, const bp::MadeChain& 
   return bp::write_profile(o, levels, chain.scene.voxels.header.bounds.diagonal(), origin, out);
 }
 
-/// One mesh a level.
+/// Builds levels of one mesh each.
 void build_chain(const bp::BuildOptions& o) {
   const std::size_t most = bp::level_count(request_of(o));
   bp::OutputFolder out(o.out, files_of(o, most), o.common.overwrite);
@@ -59,7 +59,7 @@ void build_chain(const bp::BuildOptions& o) {
   bp::note_levels(build, made.facts, 0, made.left_out, scene.size);
   const bp::StreamHeader& header = scene.voxels.header;
   const bp::Vec3d origin = bp::origin_of(o.proxy.origin, header.frame, header.bounds);
-  for (std::size_t i = made.levels.size(); i < most; ++i)  // as many as there may be
+  for (std::size_t i = made.levels.size(); i < most; ++i)  // there may be as many
     out.leave_out(bp::level_name(o.name, i) + ".glb");
   build.progress.end();
   const bp::LevelFacts& finest = made.facts.front();

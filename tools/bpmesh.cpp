@@ -24,10 +24,11 @@
 
 namespace {
 
-/// A tenth of the diameter: what hides a hundredth of the largest part costs as many triangles.
+/// A share of the volume, which is a tenth of the diameter. Such a part hides a hundredth of what the largest part
+/// hides, and costs as many triangles.
 constexpr double kLeastPart = 1e-3;
 
-/// Where the scale differs from place to place, so do the edges: no longer than so many scales.
+/// Edges follow the scale where it differs from place to place: no edge is longer than so many scales.
 constexpr double kEdgeFactor = 4;
 
 bp::MeshParams mesh_params(const bp::MeshOptions& o, const bp::StreamHeader& header) {
@@ -41,13 +42,13 @@ bp::MeshParams mesh_params(const bp::MeshOptions& o, const bp::StreamHeader& hea
   params.quads = o.quads;
   if (!header.scale.constant()) params.edge_factor = kEdgeFactor;
   params.edges_yield = true;
-  // What may come out beyond --error is measured, so that it can be told.
+  // A result that may lie beyond --error is measured, so that a note can tell.
   const bool chosen = o.proxy.enclose.kind != bp::EncloseOption::Kind::automatic;
   params.distances = o.error() && (chosen || o.levels.faces.size() > 1);
   return params;
 }
 
-/// Where a glTF lies far from its origin, or was moved nearer; other formats hold double, or refuse.
+/// Notes that a glTF lies far from its origin, or was moved nearer. Other formats hold doubles, or refuse.
 void note_origin(bp::Report& report, const bp::MeshOptions& o, const bp::StreamHeader& header, bp::MeshFormat format) {
   const bool gltf = format == bp::MeshFormat::glb || format == bp::MeshFormat::gltf;
   if (!gltf && o.proxy.origin.kind != bp::OriginOption::Kind::automatic) return;
@@ -56,7 +57,7 @@ void note_origin(bp::Report& report, const bp::MeshOptions& o, const bp::StreamH
     report.note(text, o.common);
 }
 
-/// What is enclosed; a note where it is less than could be.
+/// Sets what is enclosed. A note tells if it is less than possible.
 std::string set_enclosure(const bp::MeshOptions& o, const bp::StreamHeader& header, bp::MeshParams& params,
                           const bp::PieceMemory& memory, bp::Report& report) {
   bp::Enclosure enclosure = bp::make_enclosure(
@@ -64,7 +65,7 @@ std::string set_enclosure(const bp::MeshOptions& o, const bp::StreamHeader& head
   if (!enclosure.note.empty()) report.note(enclosure.note, o.common);
   params.enclose = enclosure.what;
   params.scene = std::move(enclosure.scene);
-  // Nobody asked for the scene: the bound is on what bpmesh adds to the closing that was asked for.
+  // The user did not ask for the scene: the bound is on what bpmesh adds to the requested closing.
   if (o.error() && o.proxy.mode == bp::MeshMode::bounding && o.proxy.enclose.kind == bp::EncloseOption::Kind::automatic)
     params.distances_to = bp::Enclose::closing;
   return o.proxy.enclose.kind == bp::EncloseOption::Kind::files ? o.proxy.enclose.text() : name_of(enclosure.what);
@@ -77,8 +78,7 @@ std::optional<double> volume_of(const std::vector<bp::TriangleD>& scene) {
   return volume.value();
 }
 
-/// What the stream tells and the mesh will not: a field that nobody closed by; and of formats that say where up is, the
-/// axis.
+/// Notes a scale field by which nobody closed, and the up axis of the scene if the format has one of its own.
 void note_stream(bp::Report& report, const bp::MeshOptions& o, const bp::StreamHeader& header, bp::MeshFormat format) {
   if (header.has_field && !header.has_closing)
     report.note("the stream has a scale field, and was not closed by it; bpclose goes between bpscale and bpmesh",
@@ -95,7 +95,7 @@ void note_estimate(bp::Report& report, const bp::MeshOptions& o, const bp::Strea
   if (!text.empty()) report.note(text, o.common);
 }
 
-/// One for each level.
+/// Opens one file for each level.
 std::vector<std::unique_ptr<bp::OutputFile>> open_outputs(const bp::MeshOptions& o) {
   std::vector<std::unique_ptr<bp::OutputFile>> outputs;
   for (std::size_t i = 0; i < std::max<std::size_t>(o.levels.faces.size(), 1); ++i)
@@ -103,16 +103,16 @@ std::vector<std::unique_ptr<bp::OutputFile>> open_outputs(const bp::MeshOptions&
   return outputs;
 }
 
-/// What all levels of a run have in common.
+/// The facts that all levels of a run share.
 struct Made {
   const bp::StreamHeader& header;
-  std::string checksum;  ///< of the stream
+  std::string checksum;  ///< checksum of the stream
   const std::string& enclosed;
   bp::Vec3d origin;
   bp::MeshFormat format;
 };
 
-/// The levels as files, all or none.
+/// Writes the levels as files, all or none.
 void write_levels(std::vector<bp::LatticeMesh>& levels, const bp::MeshOptions& o, const Made& made,
                   const std::vector<std::unique_ptr<bp::OutputFile>>& outputs) {
   for (std::size_t i = 0; i < levels.size(); ++i) {
@@ -159,7 +159,7 @@ void run(bp::MeshOptions o) {
   report.counts["enclosed"] = enclosed;
   if (may_raise && bp::wants_scale(o, counts)) {
     report.begin("try scales");
-    levels.clear();  // they are written, and their memory is counted on
+    levels.clear();  // they are written, and their memory counts from here on
     facts.enough_scale =
         bp::enough_scale(source.header(), keeper.shelf(), o.levels.faces.front(), context.make_shelf, o.common);
   }

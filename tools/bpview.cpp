@@ -17,7 +17,7 @@
 
 namespace {
 
-/// Signals that end the server in good order. They are held back before any thread begins, and waited for.
+/// The signals that end the server in good order. They are blocked before any thread begins, and waited for.
 class EndSignals {
  public:
   EndSignals() {
@@ -37,7 +37,7 @@ class EndSignals {
   sigset_t set_{};
 };
 
-/// Where there is a screen, and a program that knows which browser.
+/// Opens a browser, if there is a screen and a program that knows the browser.
 void open_browser(const std::string& link) {
   if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return;
   const pid_t child = ::fork();
@@ -58,7 +58,7 @@ void open_browser(const std::string& link) {
 void run(const bp::ViewOptions& o) {
   const EndSignals signals;
   bp::Report report("bpview");
-  constexpr double kLongWork = 1e3;  // a page waits for each closing: a GPU is worth its start
+  constexpr double kLongWork = 1e3;  // a page waits for each closing, so a GPU is worth its start
   bp::Backends backends = bp::make_backends(o.common, kLongWork, &report);
   bp::Session session(o, backends);
   bp::Server server(session, o.port);

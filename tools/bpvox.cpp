@@ -49,7 +49,7 @@ Options parse(bp::Args& args) {
   return o;
 }
 
-/// told: whether the user or the scene said which axis is up; of another axis than y that goes without saying.
+/// `told`: whether the user or the scene named the up axis. For an axis other than y that is clear anyway.
 bp::OptionText option_text(const Options& o, bp::UpAxis up, bool told) {
   bp::OptionText text;
   if (o.voxels.voxel) {
@@ -62,7 +62,7 @@ bp::OptionText option_text(const Options& o, bp::UpAxis up, bool told) {
   return text;
 }
 
-/// Asked for when the scene has been read once.
+/// Returns the voxel size. It is called when the scene has been read once.
 double voxel_size(const Options& o, const bp::Bounds3d& bounds) {
   if (o.voxels.resolution) bp::question_resolution(*o.voxels.resolution, bounds);
   if (!o.voxels.voxel) return bp::voxel_size_of(bounds, o.voxels.resolution.value_or(bp::kDefaultResolution));
@@ -70,7 +70,7 @@ double voxel_size(const Options& o, const bp::Bounds3d& bounds) {
   return o.voxels.voxel->in_world(bounds.diagonal(), 0);
 }
 
-/// For tools that come later; nothing if part of the scene came from a pipe, which cannot be read again.
+/// Returns the files for later tools; none if part of the scene came from a pipe, which cannot be read again.
 bp::SceneFiles scene_files(const Options& o, const bp::VoxelizeCounts& counts) {
   const std::string format = o.voxels.format.empty() ? "" : bp::scene_format_named(o.voxels.format);
   bp::SceneFiles scene{{}, format, counts.scene.triangles, counts.input_hash};

@@ -1,6 +1,6 @@
-// Cube dilation: where the radius is constant it is a windowed OR in y and z (a table of power-of-two windows, two
-// overlapping look-ups per axis as in a sparse table of range maxima), then a widening of words in x. Where the radius
-// varies, the same table answers every radius of its octave, so a word asks only for the radii that occur in it.
+// Cube dilation. If the radius is constant, it is a windowed OR in y and z, then a widening of words in x. The OR uses
+// a table of power-of-two windows, with two overlapping look-ups per axis, as in a sparse table of range maxima. If the
+// radius varies, one table answers every radius of its octave, so a word asks only for the radii that occur in it.
 #include "gpu/kernels/bit_kernels.h"
 #include "gpu/kernels/launch.h"
 #include "lib/grid/brick.h"
@@ -68,7 +68,7 @@ __global__ void __launch_bounds__(kPassThreads)
   if (any) atomicOr(&cells[shape.quad(r.w, r.cy, r.z / kCell)], spread_bytes(any));
 }
 
-/// A block per brick.
+/// One block per brick.
 __global__ void __launch_bounds__(kPassThreads)
     unpack_bricks_kernel(const std::uint32_t* __restrict__ bits, GridShape shape, const __grid_constant__ BrickTable to,
                          std::uint32_t* count) {
@@ -114,8 +114,8 @@ struct WindowAxis {
   std::uint32_t stride, n, inner, outer_stride, runs;  ///< runs: chunks of kRun outputs along the axis
 };
 
-/// out[j] = in[j] | ... | in[j + length - 1], kRun consecutive j per thread: what all of them share is read and joined
-/// once, the two ragged ends are running ORs. (length + kRun - 1) / kRun reads per output.
+/// out[j] = OR of in[j] to in[j + length - 1], kRun consecutive j per thread. The part that all of them share is read
+/// and joined once; the two ragged ends are running ORs. That takes (length + kRun - 1) / kRun reads per output.
 template <int kRun>
 __global__ void __launch_bounds__(kPassThreads)
     window_kernel(const std::uint32_t* __restrict__ in, std::uint32_t* __restrict__ out, WindowAxis axis, int length,
@@ -156,10 +156,10 @@ void window_pass(const std::uint32_t* in, std::uint32_t* out, WindowAxis axis, u
   go(window_kernel<2>, 2);
 }
 
-/// Voxels of a word within r of a set voxel of the same word.
+/// Returns the voxels of a word within r of a set voxel of the same word.
 __device__ std::uint32_t widen(std::uint32_t v, int r) {
   for (int reach = 0;
-       reach < r && reach < 31;) {  // a step of reach + 1 at most, or a run cut at the word's end would tear
+       reach < r && reach < 31;) {  // a step is reach + 1 at most: else a run cut at the word's end would tear
     const int step = min(reach + 1, r - reach);
     v |= v << step | v >> step;
     reach += step;
@@ -178,7 +178,7 @@ struct Windows {
     low = tables.table[octave] + std::size_t(max(z - r, 0)) * plane;
     high = tables.table[octave] + std::size_t(max(z + r + 1 - length, 0)) * plane;
   }
-  /// False if no voxel of word w in rows y .. y + rows - 1 can have G in its cube.
+  /// Returns false if no voxel of word w in rows y .. y + rows - 1 can have G in its cube.
   __device__ bool any_near(int w, int y, int rows) const {
     const int side = (r + 31) / 32, first = max(w - side, 0), last = min(w + side, words - 1);
     const int end = y + rows + r - length;  // where the last window begins
@@ -188,7 +188,7 @@ struct Windows {
       if (found != 0 || at >= end) return found != 0;
     }
   }
-  /// Voxels of word w of row y whose cube of radius r meets G.
+  /// Returns the voxels of word w of row y whose cube of radius r meets G.
   __device__ std::uint32_t word(int w, int y) const {
     const int a = max(y - r, 0) * words + w, b = max(y + r + 1 - length, 0) * words + w;
     const std::uint32_t centre = any(a, b), right = w + 1 < words ? any(a + 1, b + 1) : 0,
@@ -221,7 +221,8 @@ struct Windows {
 
  private:
   __device__ std::uint32_t any(int a, int b) const { return low[a] | low[b] | high[a] | high[b]; }
-  /// Voxels within r of one at `at` >= 32 voxels from the word's first, or at `before` > 0 voxels before it.
+  /// Return the voxels within r of a set voxel `at` >= 32 voxels from the word's first, or `before` > 0 voxels before
+  /// it.
   __device__ std::uint32_t reached_from_right(int at) const { return at - r < 32 ? ~0u << max(at - r, 0) : 0; }
   __device__ std::uint32_t reached_from_left(int before) const {
     return r >= before ? ~0u >> max(31 - (r - before), 0) : 0;
@@ -242,7 +243,7 @@ __global__ void __launch_bounds__(kPassThreads)
   }
 }
 
-/// The table of windows twice as long, from that of `length`.
+/// Makes the table of windows of 2 `length` from that of `length`.
 __global__ void __launch_bounds__(kPassThreads)
     double_windows_kernel(const std::uint32_t* __restrict__ in, GridShape shape, int length,
                           std::uint32_t* __restrict__ out) {
@@ -277,7 +278,7 @@ struct WordScale {
 #pragma unroll
     for (int i = 0; i < 5; ++i) corner[i] = s.column(4 * w + i, y, z);
   }
-  /// Bounds of r over the word (the last corner belongs to the next word: the bound need not be attained).
+  /// Bounds r over the word. The last corner belongs to the next word, so the bound need not be attained.
   __device__ int least() const {
     std::uint32_t m = corner[0];
 #pragma unroll
@@ -290,7 +291,8 @@ struct WordScale {
     for (int i = 1; i < 5; ++i) m = max(m, corner[i]);
     return int(m >> 6) / kScaleOne;
   }
-  /// Voxels with r >= radius: 512 S is a sum that grows by the same amount from voxel to voxel within a cell.
+  /// Returns the voxels with r >= radius: 512 S is a sum that grows by the same amount from voxel to voxel within a
+  /// cell.
   __device__ std::uint32_t at_least(int radius) const {
     const std::int32_t bound = radius * kScaleOne * 512;
     std::uint32_t bits = 0;
@@ -312,13 +314,14 @@ struct WordScale {
   }
 };
 
-/// Of a varying dilation: settles the words that the largest radius does not reach or that G fills, lists the others.
+/// First pass of a varying dilation: settles the words that the largest radius does not reach or that G fills, and
+/// lists the others.
 __global__ void __launch_bounds__(kPassThreads)
     dilate_cube_far_kernel(const __grid_constant__ WindowTables tables, const std::uint32_t* __restrict__ bits,
                            GridShape shape, VoxelRange region, int most, std::uint32_t* __restrict__ out,
                            WordList list) {
   std::uint32_t* shared =
-      static_cast<std::uint32_t*>(dynamic_shared_memory());  // words per warp, then the first's place
+      static_cast<std::uint32_t*>(dynamic_shared_memory());  // words of each warp, then the place of the first
   const unsigned i = thread_in_grid();
   std::uint32_t open = 0;  // rows that are listed
   CellRow c{};
@@ -361,9 +364,9 @@ __global__ void __launch_bounds__(kPassThreads)
   }
 }
 
-/// Blocks of the next kernel on a multiprocessor, at least.
+/// Least number of blocks of the next kernel on a multiprocessor.
 constexpr int kListedBlocks = 3;
-/// The listed words: settled by the least and the largest radius of the word where they agree, else radius by radius.
+/// Settles the listed words: by the least and the largest radius of the word if they agree, else radius by radius.
 __global__ void __launch_bounds__(kPassThreads, kListedBlocks)
     dilate_cube_listed_kernel(const __grid_constant__ WindowTables tables, GridShape shape, VoxelRange region,
                               const __grid_constant__ ScaleView scale, std::uint32_t* __restrict__ out, WordList list) {
@@ -379,7 +382,7 @@ __global__ void __launch_bounds__(kPassThreads, kListedBlocks)
     if (open != 0 && least > 0) reached = open & Windows(tables, shape, least, z).word(w, y);
     for (int r = least + 1; r <= most && (open & ~reached) != 0; ++r) {
       const std::uint32_t asked = open & ~reached & s.at_least(r);
-      if (asked == 0) break;  // nor is any radius larger
+      if (asked == 0) break;  // no larger radius occurs either
       reached |= r == most ? asked : asked & Windows(tables, shape, r, z).word(w, y);
     }
     if (reached != 0) out[at] = have | reached;

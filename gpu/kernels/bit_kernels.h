@@ -7,17 +7,17 @@
 /// shape.word_count() words, flags of cells one word per quad (a byte is 0xff where the cell holds a set voxel).
 namespace bp {
 
-/// cudaSuccess if this build holds code that the current device can run: else the first launch would fail.
+/// Returns cudaSuccess if this build holds code that the current device can run; else the first launch would fail.
 [[nodiscard]] cudaError_t find_code();
 
-/// A dense box of words elsewhere (a BitBox on the device), and where its first word lies in the domain.
+/// A dense box of words somewhere on the device (a BitBox), and the place of its first word in the domain.
 struct BoxOfWords {
   std::int32_t words = 0, ny = 0, nz = 0;  ///< 32-bit words per row
   std::int32_t w0 = 0, y0 = 0, z0 = 0;     ///< position in the domain; may be negative
 };
 
-/// Bricks of 64^3 voxels on the device (BrickBits, one after the other), and the box that they fill: brick (x, y, z) of
-/// it is number slots[x + nx (y + ny z)], or none where it is empty or full.
+/// Bricks of 64^3 voxels on the device (BrickBits, one after the other), and the box that they fill. Brick (x, y, z) of
+/// the box is number slots[x + nx (y + ny z)]; it has no number if it is empty or full.
 struct BrickTable {
   std::uint64_t* bits = nullptr;
   std::uint32_t* slots = nullptr;
@@ -29,8 +29,8 @@ constexpr std::uint32_t kEmptyBrick = 0xffffffffu, kFullBrick = 0xfffffffeu;
 /// bits := the bricks' voxels, empty elsewhere; cells := flags (must be zero before).
 void pack_bricks(const BrickTable& from, const GridShape& shape, std::uint32_t* bits, std::uint32_t* cells,
                  cudaStream_t stream);
-/// to := the bricks of the domain that `to` covers, those neither empty nor full packed without gaps in any order;
-/// `count` (zero before): their number.
+/// Packs the bricks of the domain that `to` covers, if they are neither empty nor full, without gaps and in any order.
+/// Adds their number to `count`, which must be zero before.
 void unpack_bricks(const std::uint32_t* bits, const GridShape& shape, const BrickTable& to, std::uint32_t* count,
                    cudaStream_t stream);
 
@@ -44,7 +44,7 @@ void unpack_bits(const std::uint32_t* bits, const GridShape& shape, const BoxOfW
 /// table(w, y, z) := OR of bits over [y, y + length) x [z, z + length); length a power of two; `half` is scratch.
 void window_table(const std::uint32_t* bits, const GridShape& shape, int length, std::uint32_t* half,
                   std::uint32_t* table, cudaStream_t stream);
-/// The table of twice the length from that of `length`.
+/// Makes the table of twice the length from that of `length`.
 void double_windows(const std::uint32_t* table, const GridShape& shape, int length, std::uint32_t* twice,
                     cudaStream_t stream);
 
@@ -60,11 +60,11 @@ struct WindowTables {
   const std::uint32_t* table[kOctaves];  ///< of octave k: windows of 2^k; octave 0 is the bits themselves
 };
 
-/// out := the voxels of `region` whose cube of this radius meets G; the radius' table is there. Exact for p at least as
-/// far from the domain's lower faces.
+/// Sets `out` to the voxels of `region` whose cube of this radius meets G. The table of the radius must exist. Exact
+/// for voxels at least as far from the domain's lower faces.
 void dilate_cube(const WindowTables& tables, const GridShape& shape, const VoxelRange& region, int radius,
                  std::uint32_t* out, cudaStream_t stream);
-/// The same where the radius r(p) varies; the tables of all that occur are there.
+/// Does the same for a radius r(p) that varies. The tables of all radii that occur must exist.
 ///   bits   G
 ///   most   the largest radius
 ///   words  scratch, shape.word_count(); `count`, one more, must be zero before
@@ -76,7 +76,7 @@ void dilate_cube_varying(const WindowTables& tables, const std::uint32_t* bits, 
 void outer_contour(const std::uint32_t* bits, const GridShape& shape, std::uint32_t* contour, std::uint32_t* cells,
                    cudaStream_t stream);
 
-/// 0xff in each byte of a flag word whose byte of `v` is not zero.
+/// Returns 0xff in each byte of a flag word whose byte of `v` is not zero.
 [[nodiscard]] BP_HD inline std::uint32_t spread_bytes(std::uint32_t v) {
   v |= v >> 4;
   v |= v >> 2;

@@ -16,7 +16,7 @@ __device__ CellCoord cell_at(const GridShape& s, std::uint32_t i) {
           std::int32_t(rest / std::uint32_t(s.cells_y()))};
 }
 
-/// Least and largest difference of two coordinates, squared, of voxels whose cells are `i` apart.
+/// Returns the least and the largest squared difference of two coordinates of voxels whose cells are `i` apart.
 __device__ std::uint32_t least_square(int i) {
   const int d = i == 0 ? 0 : kCell * i - (kCell - 1);
   return std::uint32_t(d * d);
@@ -25,7 +25,7 @@ __device__ std::uint32_t largest_square(int i) {
   const int d = kCell * i + (kCell - 1);
   return std::uint32_t(d * d);
 }
-/// Cells further apart than this along one axis cannot matter.
+/// Returns the distance in cells along one axis beyond which cells cannot matter.
 __host__ __device__ int cell_reach(int reach) {
   return (reach + kCell - 1) / kCell;
 }
@@ -45,15 +45,15 @@ __global__ void __launch_bounds__(kPassThreads)
   w[i] = make_uint2(std::uint32_t(ball_bound(Scale(least))), std::uint32_t(ball_bound(Scale(most))));
 }
 
-/// Bounds of the transform in the four cells of a quad, as P holds two numbers: lower in the low, upper in the high
-/// half.
+/// Bounds of the transform in the four cells of a quad. P holds two numbers: the lower bound in the low half, the upper
+/// in the high half.
 template <class P>
 struct alignas(16) Quad {
   P cell[4];
   __device__ static Quad far_away() { return {{P::far_away(), P::far_away(), P::far_away(), P::far_away()}}; }
 };
 
-/// First axis: from the seeds' flags.
+/// Runs the pass along the first axis, from the seeds' flags.
 template <class P>
 __global__ void __launch_bounds__(kPassThreads)
     cells_x_kernel(const std::uint8_t* __restrict__ seeds, const uint2* __restrict__ w_of_cells,
@@ -79,7 +79,7 @@ __global__ void __launch_bounds__(kPassThreads)
   out[i] = v;
 }
 
-/// One more axis: `at` of `n` cells, `stride` quads apart.
+/// Runs the pass along one more axis: `at` of `n` cells, `stride` quads apart.
 template <class P>
 __device__ Quad<P> cells_along(const Quad<P>* __restrict__ in, unsigned i, int at, int n, int stride, int m) {
   Quad<P> v = Quad<P>::far_away();
@@ -150,7 +150,7 @@ __global__ void __launch_bounds__(kPassThreads)
   if (undecided) wanted[quad] = 1;
 }
 
-/// One thread per y unit: is a wanted voxel within reach along z? A z unit is listed where it holds one.
+/// One thread per y unit: is a wanted voxel within reach along z? A z unit is listed if it holds one.
 __global__ void __launch_bounds__(kPassThreads)
     plan_columns_kernel(const std::uint8_t* __restrict__ wanted, TransformBounds bounds, GridShape shape, Slab slab,
                         WorkLists lists, unsigned threads) {

@@ -3,13 +3,14 @@
 
 #include "gpu/kernels/grid_view.h"
 
-/// Whole answers, before any voxel is looked at: for each cell of 8^3 voxels, bounds of the transform
+/// Answers for whole cells, before any voxel is examined. The cells that hold seeds give, for each cell of 8^3 voxels,
+/// bounds of the transform
 ///   value(p) = min over seeds q of |p-q|^2 + offset(q),   offset(q) = 0, or limit - w(q) where the scale varies at the
-///   seed
-/// from which cells hold seeds, and what is left to compute as lists of units of work.
+///   seed.
+/// The rest is listed as units of work.
 namespace bp {
 
-/// What decides about a voxel: value(p) < bound(p).
+/// The test that decides about a voxel: value(p) < bound(p).
 struct TransformBounds {
   std::uint32_t limit = 0;      ///< largest w: no seed at this squared distance or beyond matters
   std::int32_t reach = 0;       ///< largest distance along an axis at which a seed matters
@@ -18,10 +19,10 @@ struct TransformBounds {
   bool bound_at_voxel = false;  ///< ball dilation with varying scale: the ball belongs to the voxel; bound(p) = w(p)
 };
 
-/// Whether 16 bits hold the values of a transform.
+/// Returns whether 16 bits hold the values of a transform.
 [[nodiscard]] bool fits_16_bits(const TransformBounds& bounds);
 
-/// Flags of cells, a byte each, 0xff or 0: every voxel within its bound; and undecided.
+/// Flags of cells, a byte each, 0xff or 0: every voxel is within its bound; undecided.
 struct CellAnswers {
   std::uint32_t* near;
   std::uint32_t* open;
@@ -58,7 +59,7 @@ struct WorkLists {
   std::uint32_t* zs;      ///< 16 rows of 16 slices: (w - w0) + words (y/16 + units_y z/16)
   std::uint8_t* columns;  ///< scratch: the y units as flags
 };
-/// Lengths that always suffice.
+/// Lengths of the lists that always suffice.
 struct WorkSizes {
   std::size_t rows, ys, zs;
 };

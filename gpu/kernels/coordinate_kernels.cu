@@ -1,6 +1,6 @@
-// The formulas of lib/deform/formulas, a thread for each point. A point's numbers are some 30 kB for a cage of 300
-// faces: they lie in device memory, those of a warp side by side, so that each access is one line. Compiled without
-// fused products and sums: the bits are those of the CPU.
+// The formulas of lib/deform/formulas, with a thread for each point. The numbers of a point take some 30 kB for a cage
+// of 300 faces. They lie in device memory, those of a warp side by side, so that each access is one line. The file is
+// compiled without fused products and sums, so the bits are those of the CPU.
 #include "gpu/kernels/coordinate_kernels.h"
 #include "gpu/kernels/launch.h"
 #include "lib/deform/formulas/green.h"
@@ -46,7 +46,7 @@ class LaneShelf {
   double* at_;
 };
 
-/// Numbers of doubles that a point needs; what the constructors of the two scratches take.
+/// Returns how many doubles a point needs: as many as the constructors of the two scratches take.
 std::size_t numbers_of(const CageView& cage, CoordinateKind kind) {
   const std::size_t vertices = cage.vertex_count, edges = cage.edge_count, faces = cage.face_count;
   if (kind == CoordinateKind::green) return 5 * vertices + 2 * edges + faces;
@@ -65,7 +65,7 @@ struct MeanNumbers {
         faces(warp, cage.face_count) {}
 };
 
-/// `sums` and `face_weights` follow each other: so the columns of weights are one shelf.
+/// `sums` and `face_weights` follow each other, so the columns of weights are contiguous.
 struct GreenNumbers {
   LaneShelf<double> sums, face_weights;
   LaneShelf<GreenVertex<double>> vertices;
@@ -97,7 +97,7 @@ __device__ bool find_weights(const WeighTask& t, const Vec<double>& point, doubl
   return true;
 }
 
-/// As CageCoordinates::finish() and round_weights() do.
+/// Does what CageCoordinates::finish() and round_weights() do.
 __device__ bool finish_weights(const WeighTask& t, const Vec<double>& point, double* warp, std::uint32_t i) {
   const LaneShelf<double> w(warp, t.cage.columns());
   divide_by_sum(t.cage, w);
@@ -121,7 +121,7 @@ __global__ void __launch_bounds__(kWeighThreads)
                     (p[2] - t.cage.origin[2]) / t.cage.diagonal};
   double size = BP_DOT(point, point);
   root(size);
-  const bool good = size <= kFarAway && find_weights(t, point, warp);  // of what is not finite no size is
+  const bool good = size <= kFarAway && find_weights(t, point, warp);  // a point that is not finite has no size
   t.done[i] = good && finish_weights(t, point, warp, i) ? 1 : 0;
 }
 

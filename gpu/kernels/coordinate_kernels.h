@@ -11,24 +11,24 @@
 /// Coordinates of cages on the device, rounded: the units of round_weights() in lib/deform/weight_block.h, to the bit.
 namespace bp {
 
-/// Cage and numbers at work of the formulas on the device.
+/// The cage and the scratch of the formulas on the device.
 struct WeighTask {
   detail::CageView cage;
   CoordinateKind kind = CoordinateKind::mean_value;
   const Vec3d* points = nullptr;
   std::uint32_t count = 0;
-  double* scratch = nullptr;  ///< of a warp: the numbers of its points side by side
+  double* scratch = nullptr;  ///< of each warp: the numbers of its points side by side
   std::int32_t* units = nullptr;
   std::uint8_t* done = nullptr;
 };
 
-/// A thread for each point. What lies on the cage or outside, and what needs other bits than WeightBlock::kBits, is not
-/// done.
+/// Weighs one point per thread. Points on the cage or outside of it, and points that need other bits than
+/// WeightBlock::kBits, are left.
 class DeviceWeigher {
  public:
-  /// Copies the cage and the points. All of it is small beside the weights.
+  /// Copies the cage and the points, which are small compared with the weights.
   void upload(const CageCoordinates& coordinates, std::span<const Vec3d> points, Staging& staging);
-  /// No synchronisation.
+  /// Enqueues the kernel, without synchronisation.
   void enqueue(cudaStream_t stream);
   [[nodiscard]] const std::int32_t* units() const { return units_.data(); }  ///< column by column; device memory
   [[nodiscard]] const std::uint8_t* done() const { return done_.data(); }    ///< by point; device memory

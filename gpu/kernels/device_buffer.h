@@ -6,7 +6,8 @@
 
 #include "gpu/kernels/cuda_check.h"
 
-/// Memory that grows when needed and is kept until the end: no allocation inside a tile once the sizes are known.
+/// Memory that grows when needed and is kept until the end. So nothing is allocated inside a tile once the sizes are
+/// known.
 namespace bp {
 
 /// Device memory of the current device. Contents are lost when it grows.
@@ -18,7 +19,7 @@ class DeviceBuffer {
   DeviceBuffer(const DeviceBuffer&) = delete;
   DeviceBuffer& operator=(const DeviceBuffer&) = delete;
 
-  /// At least `count` elements; throws OutOfDeviceMemory and is empty if the device has no room.
+  /// Makes room for at least `count` elements. Throws OutOfDeviceMemory, and is empty, if the device has no room.
   T* grow(std::size_t count) {
     if (count <= capacity_) return data_;
     release();
@@ -39,8 +40,8 @@ class DeviceBuffer {
   std::size_t capacity_ = 0;
 };
 
-/// Page-locked host memory, for copies that run beside kernels. Too little of it is no OutOfDeviceMemory: smaller tiles
-/// do not help.
+/// Page-locked host memory, for copies that run beside kernels. A lack of it is not OutOfDeviceMemory, because smaller
+/// tiles do not help.
 template <class T>
 class PinnedBuffer {
  public:

@@ -3,10 +3,10 @@
 
 #include "lib/device/device_error.h"
 
-/// Apart from cuda_check.h, which device code includes: fmt is not for nvcc.
+/// This file is apart from cuda_check.h, which device code includes: nvcc does not compile fmt.
 namespace bp {
 
-/// The device has no room for something; its parts may fit.
+/// The device has no room for an array; parts of it may fit.
 class OutOfDeviceMemory : public DeviceError {
  public:
   explicit OutOfDeviceMemory(const std::string& message)

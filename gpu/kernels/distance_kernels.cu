@@ -1,7 +1,7 @@
-// Separable squared-distance and power transforms after Saito & Toriwaki and Felzenszwalb & Huttenlocher, in the brute
-// form min(best, value + d^2): on a window of some tens of voxels, two voxels to a register and skipping rows without
-// seeds, it beats the lower-envelope form, whose branches diverge. An offset per seed turns distance into power at no
-// cost after the first pass.
+// Separable squared-distance and power transforms after Saito & Toriwaki and Felzenszwalb & Huttenlocher, in the
+// brute-force form min(best, value + d^2). On a window of some tens of voxels, with two voxels to a register and
+// skipping rows without seeds, it beats the lower-envelope form, whose branches diverge. An offset per seed turns
+// distance into power at no cost after the first pass.
 #include "gpu/kernels/transform_device.h"
 
 namespace bp {
@@ -11,11 +11,12 @@ namespace {
 __host__ __device__ int padded_reach(int reach) {
   return (reach + kRowGroup - 1) / kRowGroup * kRowGroup;
 }
-/// Groups of inputs in reach of a unit of outputs.
+/// Returns the number of groups of inputs in reach of a unit of outputs.
 __host__ __device__ int group_count(int reach) {
   return (kUnit + 2 * padded_reach(reach)) / kRowGroup;
 }
-/// Squares of -(padded + 16) ... : entry i is (i - padded - 16)^2, so that a group's squares start at a multiple of 8.
+/// Returns the size of the table of squares: entry i is (i - padded - 16)^2, so a group's squares start at a multiple
+/// of 8.
 __host__ __device__ int table_size(int reach) {
   return kRowGroup * group_count(reach) + kUnit;
 }
@@ -38,7 +39,8 @@ struct Column {
 #pragma unroll
     for (int t = 0; t < kUnit; ++t) best[t] = P::far_away();
   }
-  /// Takes the inputs of one group: those of `uniform` (the same for the warp), far away where `own` lacks the bit.
+  /// Takes the inputs of one group: those of `uniform` (the same for the warp). Where `own` lacks the bit, an input
+  /// counts as far away.
   ///   from    input j at from[j * stride]
   ///   table   squares for this group, see squares_table
   __device__ void take(const P* from, std::size_t stride, unsigned uniform, unsigned own, const uint4* table) {
@@ -111,7 +113,7 @@ __global__ void __launch_bounds__(kPassThreads, sizeof(P) == 4 ? 3 : 2)
   }
 }
 
-/// Slices of a z unit in rows `row` and `row` + 1, and the decision.
+/// Runs the z pass of a z unit in rows `row` and `row` + 1, and decides.
 template <class P, bool kBoundAtVoxel>
 __device__ void z_unit(const TransformArgs& a, const DecideArgs& decide, const uint4* table, const UnitCoord& u,
                        int row) {
@@ -159,7 +161,8 @@ __device__ void z_unit(const TransformArgs& a, const DecideArgs& decide, const u
   if (set != 0) decide.out[at] |= set;
 }
 
-/// Along z, and the decision. A warp takes 16 slices of two neighbouring rows at a time; half a z unit from the queue.
+/// The pass along z, and the decision. A warp takes 16 slices of two neighbouring rows at a time; the queue hands out
+/// half z units.
 template <class P, bool kBoundAtVoxel>
 __global__ void __launch_bounds__(kPassThreads, sizeof(P) == 4 ? 3 : 2)
     z_pass_kernel(const __grid_constant__ TransformArgs a, const __grid_constant__ DecideArgs decide) {

@@ -3,8 +3,8 @@
 
 #include "gpu/kernels/cell_kernels.h"
 
-/// The separable transform of a slab, voxel by voxel, where cells left it open: value(p) = min over seeds q of
-/// |p-q|^2 + offset(q), as three passes over small integers, and the decision value(p) < bound(p).
+/// The separable transform of a slab, for the voxels that cells left open. value(p) = min over seeds q of |p-q|^2 +
+/// offset(q) is computed by three passes over small integers; then value(p) < bound(p) decides.
 namespace bp {
 
 /// Intermediate values of a slab: after the row pass and after the y pass. Layout [word][z][y][16 pairs], so that what
@@ -33,8 +33,8 @@ struct TransformArgs {
   TransformBuffers buffers;  ///< flags zeroed before
   WorkLists lists;
 };
-/// What the last pass decides about: the voxels of `region` in open cells that are in D and not in G (erosion), not in
-/// G (dilation). Erosion sets those that are NOT within their bound, dilation those that are.
+/// The task of the last pass. It decides the voxels of `region` in open cells that are in D and not in G (erosion), or
+/// not in G (dilation). Erosion sets those that are NOT within their bound, dilation those that are.
 struct DecideArgs {
   bool erosion;
   const std::uint32_t* solid;

@@ -19,7 +19,7 @@ struct GridShape {
   [[nodiscard]] BP_HD std::uint32_t word_count() const {
     return std::uint32_t(words) * std::uint32_t(ny) * std::uint32_t(nz);
   }
-  /// Four cells along x share a word of flags, one byte each: their number, and the place of one.
+  /// Returns the number of quads. Four cells along x share a word of flags, one byte each.
   [[nodiscard]] BP_HD std::uint32_t quad_count() const { return word_count() / (kCell * kCell); }
   [[nodiscard]] BP_HD std::uint32_t word(std::int32_t w, std::int32_t y, std::int32_t z) const {
     return (std::uint32_t(z) * std::uint32_t(ny) + std::uint32_t(y)) * std::uint32_t(words) + std::uint32_t(w);
@@ -42,7 +42,7 @@ struct QuadCoord {
 /// A box of voxels of the domain, half-open.
 struct VoxelRange {
   std::int32_t x0, y0, z0, x1, y1, z1;
-  /// Those voxels of word (w, y, z) that lie in the box.
+  /// Returns the voxels of word (w, y, z) that lie in the box.
   [[nodiscard]] BP_HD std::uint32_t mask(std::int32_t w, std::int32_t y, std::int32_t z) const {
     if (y < y0 || y >= y1 || z < z0 || z >= z1) return 0;
     const std::int32_t lo = x0 - 32 * w, hi = x1 - 32 * w;
@@ -52,7 +52,7 @@ struct VoxelRange {
   }
 };
 
-/// The place of a lattice of n nearest to i.
+/// Returns the place of a lattice of n that is nearest to i.
 [[nodiscard]] BP_HD inline std::int32_t nearest_index(std::int32_t i, std::int32_t n) {
   return i < 0 ? 0 : i >= n ? n - 1 : i;
 }
@@ -64,12 +64,13 @@ struct ScaleView {
   std::int32_t ox = 0, oy = 0, oz = 0;  ///< index of the sample at voxel (0,0,0) of the domain
   Scale constant = 0;                   ///< S where the field is constant
 
-  /// Sample at the corner of cell (cx, cy, cz); outside of the lattice the nearest one (no voxel there counts).
+  /// Returns the sample at the corner of cell (cx, cy, cz). Outside of the lattice it is the nearest one; no voxel
+  /// there counts.
   [[nodiscard]] BP_HD std::uint32_t sample(std::int32_t cx, std::int32_t cy, std::int32_t cz) const {
     const std::int32_t i = nearest_index(cx + ox, nx), j = nearest_index(cy + oy, ny), k = nearest_index(cz + oz, nz);
     return samples[(std::uint32_t(k) * std::uint32_t(ny) + std::uint32_t(j)) * std::uint32_t(nx) + std::uint32_t(i)];
   }
-  /// 64 times S at x = 8 cx, interpolated in y and z. ScaleLattice::at is the definition.
+  /// Returns 64 times S at x = 8 cx, interpolated in y and z. ScaleLattice::at() is the definition.
   [[nodiscard]] BP_HD std::uint32_t column(std::int32_t cx, std::int32_t y, std::int32_t z) const {
     const std::int32_t cy = y >> 3, cz = z >> 3;
     const std::uint32_t fy = std::uint32_t(y & 7), fz = std::uint32_t(z & 7);
@@ -82,7 +83,7 @@ struct ScaleView {
   }
 };
 
-/// Rotations on the device, a cell of 8^3 voxels each; outside of the lattice the nearest one.
+/// Rotations on the device, one for each cell of 8^3 voxels. Outside of the lattice the nearest one holds.
 struct RotationView {
   const Rotation* cells = nullptr;
   std::int32_t nx = 0, ny = 0, nz = 0;  ///< cells held

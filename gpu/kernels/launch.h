@@ -13,12 +13,12 @@ namespace bp {
 constexpr int kWarp = 32;
 constexpr unsigned kAllLanes = 0xffffffffu;
 
-/// Blocks of kPassThreads for this many threads.
+/// Returns the number of blocks of kPassThreads for this many threads.
 inline unsigned blocks_for(std::uint64_t threads) {
   return unsigned((threads + kPassThreads - 1) / kPassThreads);
 }
 
-/// Launches `kernel`; throws Error if the launch is refused. With BP_DEBUG_SYNC=1 waits, so that a fault names its
+/// Launches `kernel`. Throws Error if the launch is refused. With BP_DEBUG_SYNC=1 it waits, so that a fault names its
 /// kernel.
 template <class... P, class... A>
 void launch(const char* name, void (*kernel)(P...), unsigned blocks, unsigned threads, std::size_t shared_bytes,
@@ -32,7 +32,7 @@ void launch(const char* name, void (*kernel)(P...), unsigned blocks, unsigned th
   check_launch(cudaLaunchKernelEx(&config, kernel, static_cast<P>(args)...), name, stream);
 }
 
-/// Shared memory whose size the launch gives.
+/// Returns shared memory whose size the launch gives.
 __device__ inline void* dynamic_shared_memory() {
 #ifdef BP_EMULATED_CUDA
   return emulator::dynamic_shared();
@@ -52,15 +52,15 @@ __device__ inline unsigned thread_in_grid() {
   return blockIdx.x * blockDim.x + threadIdx.x;
 }
 
-/// Next item of a queue shared by all warps of the grid; the same for every lane.
+/// Returns the next item of a queue that all warps of the grid share. It is the same for every lane.
 __device__ inline unsigned next_item(std::uint32_t* queue) {
   unsigned item = 0;
   if (lane_id() == 0) item = atomicAdd(queue, 1u);
   return __shfl_sync(kAllLanes, item, 0);
 }
 
-/// Places at the end of a list for the lanes where `wanted`, with one atomic per warp. All lanes of the warp must call
-/// it.
+/// Returns places at the end of a list for the lanes with `wanted`, by one atomic per warp. All lanes of the warp must
+/// call it.
 __device__ inline unsigned place_in_list(bool wanted, std::uint32_t* count) {
   const unsigned mask = __ballot_sync(kAllLanes, wanted);
   unsigned first = 0;
@@ -69,7 +69,7 @@ __device__ inline unsigned place_in_list(bool wanted, std::uint32_t* count) {
   return __shfl_sync(kAllLanes, first, 0) + unsigned(__popc(mask & ((1u << lane_id()) - 1)));
 }
 
-/// Appends `value` of the lanes where `wanted`. All lanes of the warp must call it.
+/// Appends `value` of the lanes with `wanted`. All lanes of the warp must call it.
 __device__ inline void append(bool wanted, std::uint32_t value, std::uint32_t* list, std::uint32_t* count) {
   const unsigned at = place_in_list(wanted, count);
   if (wanted) list[at] = value;

@@ -8,20 +8,20 @@
 /// order.
 namespace bp {
 
-/// 16 bits each: while squared bounds stay below kLimit. One instruction a step on Hopper (DPX), a few elsewhere.
+/// 16 bits each, while squared bounds stay below kLimit. A step is one instruction on Hopper (DPX), a few elsewhere.
 struct Packed16 {
   std::uint32_t v;
-  /// Farther than any bound. No step is longer (square() cuts it; between cells in reach it is at most 167^2), and
-  /// kFar + kFar still fits 16 bits.
+  /// Farther than any bound. No step is longer: square() cuts it, and between cells in reach it is at most 167^2. kFar
+  /// + kFar still fits 16 bits.
   static constexpr std::uint32_t kFar = 0x7fff;
-  static constexpr std::uint32_t kLimit = 160u * 160u;  ///< bounds up to here
+  static constexpr std::uint32_t kLimit = 160u * 160u;  ///< bounds up to here are allowed
 
   __device__ static Packed16 far_away() { return {kFar | kFar << 16}; }
   __device__ static Packed16 of(std::uint32_t low, std::uint32_t high) { return {low | high << 16}; }
-  /// What the table of squares holds for d^2.
+  /// Returns the entry of the table of squares for d^2.
   __device__ static std::uint32_t square(std::uint32_t d2) { return (d2 < kFar ? d2 : kFar) * 0x10001u; }
   __device__ void step(Packed16 from, std::uint32_t d2) { v = __viaddmin_u16x2(from.v, d2, v); }
-  /// With a number of its own for each half, below 2^15.
+  /// Steps with a number of its own for each half, below 2^15.
   __device__ void step_each(Packed16 from, std::uint32_t low_d2, std::uint32_t high_d2) {
     v = __viaddmin_u16x2(from.v, low_d2 | high_d2 << 16, v);
   }
@@ -50,7 +50,8 @@ struct Packed32 {
   __device__ std::uint32_t high() const { return v.y; }
 };
 
-/// Largest and least value of a warp, all lanes: one instruction from compute capability 8.0 on, five shuffles before.
+/// Return the largest and the least value of a warp, in all lanes: one instruction from compute capability 8.0 on, five
+/// shuffles before.
 __device__ inline std::uint32_t warp_max(std::uint32_t v) {
 #if !defined(__CUDA_ARCH__) || __CUDA_ARCH__ >= 800
   return __reduce_max_sync(0xffffffffu, v);

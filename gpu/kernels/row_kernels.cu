@@ -1,14 +1,14 @@
 // The pass along x of the separable transforms (gpu/kernels/distance_kernels.cu), from bits to small integers. With one
-// scale a row's values are squared distances to the nearest seed, a matter of counting zeros. With a scale per seed a
-// nearer seed may have the smaller ball, so that all in reach count.
+// scale a row's values are squared distances to the nearest seed, and counting zeros gives them. With a scale per seed
+// a nearer seed may have the smaller ball, so all seeds in reach count.
 #include "gpu/kernels/transform_device.h"
 
 namespace bp {
 
 namespace {
 
-/// Where a row's seeds lie around one word: its own bits, and the distance from its first and last voxel to the nearest
-/// seed in the words before and after.
+/// The seeds of a row around one word: the word's own bits, and the distances from its first and last voxel to the
+/// nearest seed in the words before and after.
 struct RowSeeds {
   std::uint32_t here;
   int before, after;
@@ -26,7 +26,7 @@ __device__ RowSeeds row_seeds(const TransformArgs& a, int w, int y, int z) {
   return s;
 }
 
-/// Squared distance of voxel x of the word to the nearest seed of the row.
+/// Returns the squared distance of voxel x of the word to the nearest seed of the row.
 __device__ std::uint32_t row_value(std::uint32_t here, int before, int after, int x, int reach, std::uint32_t far) {
   const std::uint32_t left = here << (31 - x), right = here >> x;
   const int to_left = left ? __clz(int(left)) : x + before, to_right = right ? __ffs(int(right)) - 1 : 31 - x + after;
@@ -53,7 +53,8 @@ __device__ CellRows load_rows(const TransformArgs& a, int wl, int cy, int cz, co
   return r;
 }
 
-/// Distance transform along x. A warp takes 8 x 8 rows; each half of it computes a row, each lane voxels x and x + 16.
+/// Distance transform along x. A warp takes 8 x 8 rows. Each half of it computes a row; each lane computes voxels x and
+/// x + 16.
 template <class P>
 __global__ void __launch_bounds__(kPassThreads) row_pass_kernel(const __grid_constant__ TransformArgs a) {
   const int lane = lane_id(), half = lane >> 4, x = lane & 15;
@@ -65,7 +66,7 @@ __global__ void __launch_bounds__(kPassThreads) row_pass_kernel(const __grid_con
     for (std::uint64_t left = r.mask; left != 0;) {
       const int first = __ffsll((long long)left) - 1;
       left &= left - 1;
-      const int second = left != 0 ? __ffsll((long long)left) - 1 : first;  // an odd one out is computed twice
+      const int second = left != 0 ? __ffsll((long long)left) - 1 : first;  // an odd row at the end is computed twice
       left &= left - 1;
       const int row = half ? second : first;
       const std::uint32_t here_low = __shfl_sync(kAllLanes, r.low.here, row),
@@ -85,14 +86,14 @@ __global__ void __launch_bounds__(kPassThreads) row_pass_kernel(const __grid_con
   }
 }
 
-/// What the power transform along x keeps in shared memory, per warp. Eight rows go together, two to a register: four
-/// pairs of rows, for each an entry per voxel within `side` words of the word.
+/// The shared memory of a warp in the power transform along x. Eight rows go together, two to a register: four pairs of
+/// rows, and in each an entry per voxel within `side` words of the word.
 constexpr int kRowPairs = 4, kRun = 4;  ///< a lane computes kRun neighbouring voxels of one pair of rows
 struct RowMemory {
   uint4* corners;          ///< the four samples around the unit's rows at x = 8 i, from the first word on
   std::uint32_t* columns;  ///< [row of the eight][corner]: 64 S there
   std::uint32_t*
-      entries;  ///< [pair][voxel]: offsets of the seeds of both rows as Packed16 holds them, far where there is none
+      entries;  ///< [pair][voxel]: offsets of the seeds of both rows as Packed16 holds them; far where there is no seed
 };
 __host__ __device__ int row_corners(int side) {
   return 4 * (2 * side + 1) + 1;
@@ -103,7 +104,7 @@ __host__ __device__ int row_entries(int side) {
 __host__ __device__ std::size_t row_memory_bytes(int side) {
   return std::size_t(row_corners(side)) * (16 + 2 * kRowPairs * 4) + std::size_t(kRowPairs * row_entries(side)) * 4;
 }
-/// Blocks to a multiprocessor: the pass waits for memory more than it computes.
+/// Blocks on a multiprocessor: the pass waits for memory more than it computes.
 constexpr int kPowerBlocks = 5;
 #if defined(__CUDA_ARCH__) && __CUDA_ARCH__ < 800
 [[maybe_unused]] constexpr int kPowerResident =
@@ -111,7 +112,7 @@ constexpr int kPowerBlocks = 5;
 #else
 [[maybe_unused]] constexpr int kPowerResident = kPowerBlocks;
 #endif
-/// Groups of kRun inputs in reach of kRun outputs, and the reach they come to.
+/// Returns how many groups of kRun inputs are in reach of kRun outputs, and how far they reach.
 __host__ __device__ int run_reach(int reach) {
   return (reach + kRun - 1) / kRun * kRun;
 }
@@ -119,7 +120,7 @@ __host__ __device__ int run_groups(int reach) {
   return 1 + 2 * run_reach(reach) / kRun;
 }
 
-/// Loads the samples around a unit. Returns a bound of the reach of the balls of all seeds that are looked at.
+/// Loads the samples around a unit. Returns a bound of the reach of the balls of all seeds in question.
 __device__ int load_corners(const TransformArgs& a, const RowMemory& memory, int side, const UnitCoord& u) {
   std::uint32_t most = 0;
   for (int i = lane_id(); i < row_corners(side); i += kWarp) {
@@ -144,12 +145,12 @@ __device__ void load_columns(const RowMemory& memory, int side, int pair, int fi
   }
 }
 
-/// Offset of a seed `fx` voxels behind a corner.
+/// Returns the offset of a seed `fx` voxels behind a corner.
 __device__ std::uint32_t seed_offset(const std::uint32_t* column, std::uint32_t fx, std::uint32_t limit) {
   return limit - std::uint32_t(ball_bound(Scale(((8 - fx) * column[0] + fx * column[1]) >> 9)));
 }
 
-/// Writes the entries of one pair of rows of a unit; `second` < 0: there is none.
+/// Writes the entries of one pair of rows of a unit. `second` < 0: there is no second row.
 __device__ void load_pair(const TransformArgs& a, const RowMemory& memory, int side, const UnitCoord& u, int pair,
                           int first, int second) {
   const int lane = lane_id(), w = a.slab.w0 + u.wl, corners = row_corners(side);
@@ -174,7 +175,7 @@ __device__ void load_pair(const TransformArgs& a, const RowMemory& memory, int s
   }
 }
 
-/// The values of kRun voxels of two rows: `inputs` is the first voxel in reach.
+/// Computes the values of kRun voxels of two rows. `inputs` is the first voxel in reach.
 __device__ void take_window(Packed16 (&best)[kRun], const std::uint32_t* inputs, int groups, const uint4* squares) {
   uint4 below = squares[0];
 #pragma unroll 2
@@ -191,7 +192,7 @@ __device__ void take_window(Packed16 (&best)[kRun], const std::uint32_t* inputs,
   }
 }
 
-/// Rows of a unit with at most kFewSeeds seeds in the words that are looked at.
+/// Returns the rows of a unit with at most kFewSeeds seeds in the words in question.
 __device__ std::uint64_t rows_with_few(const TransformArgs& a, int side, const UnitCoord& u) {
   const auto few = [&](int row) {
     const std::uint32_t* seeds = a.seeds + a.shape.word(0, kCell * u.y + (row & 7), kCell * u.z + (row >> 3));
@@ -205,11 +206,12 @@ __device__ std::uint64_t rows_with_few(const TransformArgs& a, int side, const U
   return std::uint64_t(high) << 32 | low;
 }
 
-/// Up to eight rows with few seeds, seed by seed: four lanes share a row, each computes eight of its voxels.
+/// Transforms up to eight rows with few seeds, seed by seed: four lanes share a row, and each computes eight voxels of
+/// it.
 __device__ void transform_few(const TransformArgs& a, const RowMemory& memory, int side, const UnitCoord& u,
                               const int (&rows)[2 * kRowPairs]) {
   const int own = lane_id() >> 2, x = 4 * (lane_id() & 3), w = a.slab.w0 + u.wl;
-  __syncwarp();  // corners are there; the columns before have been read
+  __syncwarp();  // the corners are there; the previous columns have been read
   int row = -1;
 #pragma unroll
   for (int pair = 0; pair < kRowPairs; ++pair) {
@@ -240,15 +242,16 @@ __device__ void transform_few(const TransformArgs& a, const RowMemory& memory, i
       make_uint4(best[0].v, best[1].v, best[2].v, best[3].v);
 }
 
-/// Up to eight rows, two to a register; eight lanes share a pair of rows, and each looks at all voxels in `reach`.
+/// Transforms up to eight rows, two to a register. Eight lanes share a pair of rows, and each looks at all voxels in
+/// `reach`.
 __device__ void transform_many(const TransformArgs& a, const RowMemory& memory, int side, const UnitCoord& u,
                                const int (&rows)[2 * kRowPairs], int reach, const uint4* squares) {
   const int group = lane_id() >> 3, run = lane_id() & 7;
-  __syncwarp();  // corners are there; the columns and entries before have been read
+  __syncwarp();  // the corners are there; the previous columns and entries have been read
 #pragma unroll
   for (int pair = 0; pair < kRowPairs; ++pair) load_columns(memory, side, pair, rows[2 * pair], rows[2 * pair + 1]);
   __syncwarp();
-  int first = -1, second = -1;  // of this lane's pair
+  int first = -1, second = -1;  // rows of this lane's pair
 #pragma unroll
   for (int pair = 0; pair < kRowPairs; ++pair) {
     if (rows[2 * pair] >= 0) load_pair(a, memory, side, u, pair, rows[2 * pair], rows[2 * pair + 1]);
@@ -275,7 +278,7 @@ __device__ void transform_many(const TransformArgs& a, const RowMemory& memory, 
   }
 }
 
-/// The next eight rows; -1 where none is left.
+/// Takes the next eight rows; -1 where none is left.
 __device__ void take_rows(std::uint64_t& left, int (&rows)[2 * kRowPairs]) {
 #pragma unroll
   for (int& row : rows) {
@@ -284,7 +287,7 @@ __device__ void take_rows(std::uint64_t& left, int (&rows)[2 * kRowPairs]) {
   }
 }
 
-/// Power transform along x (the ball belongs to the seed and its size varies), 16 bits. A warp takes 8 x 8 rows.
+/// The power transform along x in 16 bits: the ball belongs to the seed, and its size varies. A warp takes 8 x 8 rows.
 __global__ void __launch_bounds__(kPassThreads, kPowerResident)
     row_pass_power_kernel(const __grid_constant__ TransformArgs a, int side) {
   std::uint32_t* squares = static_cast<std::uint32_t*>(dynamic_shared_memory());
@@ -303,7 +306,7 @@ __global__ void __launch_bounds__(kPassThreads, kPowerResident)
   for (unsigned item = next_item(&a.lists.counts->row_next); item < count;
        item = next_item(&a.lists.counts->row_next)) {
     const UnitCoord u = unit_at(a.lists.rows[item], a.slab.words, a.shape.cells_y());
-    __syncwarp();  // the corners before have been read
+    __syncwarp();  // the previous corners have been read
     const int local_reach = load_corners(a, memory, side, u), padded = run_reach(local_reach);
     const std::uint64_t rows = load_rows(a, u.wl, u.y, u.z, local_reach).mask, few = rows & rows_with_few(a, side, u);
     for (std::uint64_t left = few; left != 0;) {
@@ -319,7 +322,7 @@ __global__ void __launch_bounds__(kPassThreads, kPowerResident)
   }
 }
 
-/// The offsets of the seeds around one word of a row, in shared memory: kFar where there is none.
+/// The offsets of the seeds around one word of a row, in shared memory; kFar where there is no seed.
 struct Offsets {
   std::uint32_t* at;  ///< [(2 side + 1) * 32]; voxel x of the word is at[32 side + x]
   int side;           ///< words on each side
@@ -331,7 +334,7 @@ __device__ Offsets load_offsets(const TransformArgs& a, std::uint32_t* memory, i
   Offsets o{memory, side, 0, P::kFar};
   const int lane = lane_id();
   const std::uint32_t* row = a.seeds + a.shape.word(0, y, z);
-  __syncwarp();  // the row before has been read
+  __syncwarp();  // the previous row has been read
   for (int k = -side; k <= side; ++k) {
     const std::uint32_t bits = w + k >= 0 && w + k < a.shape.words ? row[w + k] : 0;
     std::uint32_t offset = P::kFar;
@@ -345,8 +348,8 @@ __device__ Offsets load_offsets(const TransformArgs& a, std::uint32_t* memory, i
   return o;
 }
 
-/// min over the seeds in reach of d^2 + offset, at voxel `lane` of the word; at least kFar (or exact) if beyond the
-/// limit.
+/// Returns the minimum of d^2 + offset over the seeds in reach, at voxel `lane` of the word. A minimum beyond the limit
+/// may come back as kFar.
 template <class P>
 __device__ std::uint32_t offset_value(const TransformArgs& a, const Offsets& o, int w, int y, int z) {
   const int lane = lane_id(), here = 32 * o.side + lane;
@@ -370,7 +373,8 @@ __device__ std::uint32_t offset_value(const TransformArgs& a, const Offsets& o, 
   return best < a.bounds.limit ? best : P::kFar;
 }
 
-/// The same in 32 bits, for large scales. A warp takes 8 x 8 rows, one row at a time, a voxel per lane.
+/// The power transform along x in 32 bits, for large scales. A warp takes 8 x 8 rows, one row at a time, a voxel per
+/// lane.
 template <class P>
 __global__ void __launch_bounds__(kPassThreads)
     row_pass_offset_kernel(const __grid_constant__ TransformArgs a, int side) {
@@ -391,7 +395,7 @@ __global__ void __launch_bounds__(kPassThreads)
   }
 }
 
-constexpr std::size_t kSharedLimit = 48 * 1024;  ///< what every device gives without asking
+constexpr std::size_t kSharedLimit = 48 * 1024;  ///< every device gives so much without being asked
 
 }  // namespace
 

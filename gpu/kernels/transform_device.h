@@ -3,7 +3,7 @@
 #include "gpu/kernels/launch.h"
 #include "gpu/kernels/packed_min.h"
 
-/// What the passes of the transform share. Device code only.
+/// Code that the passes of the transform share. Device code only.
 namespace bp {
 
 constexpr int kPairs = 16;  ///< pairs of voxels in a word
@@ -16,7 +16,7 @@ __device__ P* values_at(void* buffer, const TransformArgs& a, int wl, int z, int
              kPairs;
 }
 
-/// A unit of work by its number in a list: word of the slab, and place along y and z in units of the list.
+/// A unit of work, from its number in a list: word of the slab, and place along y and z in units of the list.
 struct UnitCoord {
   int wl, y, z;
 };

@@ -1,7 +1,7 @@
 // A warp has 8 x 8 words of 32 voxels that share a rotation. It asks for blocks of rows of the turned cube. If nothing
-// that any row of a block has meets G, none of its rows is asked; else the block is taken apart. A stretch of x of any
-// length is two windows, each a power of two wide, that are read from tables. So rows are asked one by one only where G
-// ends near the cube's own face.
+// in any row of a block meets G, none of its rows is asked for; else the block is taken apart. A stretch of x of any
+// length is two windows, each a power of two wide, which are read from tables. So rows are asked for one by one only
+// where G ends near the cube's own face.
 #include "gpu/kernels/launch.h"
 #include "gpu/kernels/turned_kernels.h"
 
@@ -11,7 +11,7 @@ namespace {
 
 // ---------------------------------------------------------------- tables
 
-/// Words of one table by number: y fastest, then w, then z.
+/// A place in one table, from its number: y fastest, then w, then z.
 struct Column {
   int y, w, z;
 };
@@ -28,7 +28,7 @@ __global__ void __launch_bounds__(kPassThreads)
   to[i] = bits[shape.word(c.w, c.y, c.z)];
 }
 
-/// Four words of a table, y to y + 3: y is a multiple of 4.
+/// Returns the OR of four words each of two tables, y to y + 3; y is a multiple of 4.
 __device__ uint4 either(const uint4& a, const uint4& b) {
   return make_uint4(a.x | b.x, a.y | b.y, a.z | b.z, a.w | b.w);
 }
@@ -36,7 +36,7 @@ __device__ uint4 four_at(const std::uint32_t* table, std::uint32_t i, bool insid
   return inside ? *reinterpret_cast<const uint4*>(table + i) : make_uint4(0, 0, 0, 0);
 }
 
-/// Windows of twice the length along x, from those of `shift`.
+/// Makes windows of twice the length along x, from windows of length `shift`.
 __global__ void __launch_bounds__(kPassThreads)
     double_along_kernel(const std::uint32_t* __restrict__ from, GridShape shape, int shift,
                         std::uint32_t* __restrict__ to) {
@@ -51,7 +51,7 @@ __global__ void __launch_bounds__(kPassThreads)
                                          __funnelshift_r(near.z, far.z, bits), __funnelshift_r(near.w, far.w, bits)));
 }
 
-/// Windows of 4 kRows rows each way across, from those of kRows, 1 or 4.
+/// Makes windows of 4 kRows rows each way across, from those of kRows, 1 or 4.
 template <int kRows>
 __global__ void __launch_bounds__(kPassThreads)
     widen_across_kernel(const std::uint32_t* __restrict__ from, GridShape shape, std::uint32_t* __restrict__ to) {
@@ -79,11 +79,11 @@ __global__ void __launch_bounds__(kPassThreads)
 
 // ---------------------------------------------------------------- what is asked
 
-/// Work of one warp: the quad of cells, and which of its four cells, whose cubes are alike.
+/// Returns the work item of one warp: the quad of cells, and a mask of its cells whose cubes are alike.
 __device__ std::uint32_t item_of(std::uint32_t quad, unsigned cells) {
   return quad << 4 | cells;
 }
-/// A cell's 8 voxels of a word, for each cell of the four.
+/// Returns the 8 voxels of a word in each of the given cells.
 __device__ std::uint32_t voxels_of_cells(unsigned cells) {
   return (cells & 1 ? 0xffu : 0u) | (cells & 2 ? 0xff00u : 0u) | (cells & 4 ? 0xff0000u : 0u) |
          (cells & 8 ? 0xff000000u : 0u);
@@ -111,7 +111,7 @@ struct LaneWords {
   }
 };
 
-/// Lists the quads with open voxels, each once for all of its cells that are alike.
+/// Lists the quads with open voxels, once for each set of cells that are alike.
 __global__ void __launch_bounds__(kPassThreads) list_turned_kernel(const __grid_constant__ TurnedArgs a) {
   const std::uint32_t quad = thread_in_grid() / kWarp;
   if (quad >= a.shape.quad_count()) return;
@@ -142,7 +142,7 @@ __global__ void __launch_bounds__(kPassThreads) list_turned_kernel(const __grid_
 
 // ---------------------------------------------------------------- the cube
 
-/// Voxels of a row: none if hi < lo.
+/// The voxels lo to hi of a row; none if hi < lo.
 struct Stretch {
   int lo, hi;
   __device__ bool empty() const { return hi < lo; }
@@ -150,17 +150,17 @@ struct Stretch {
 
 struct TurnedCube {
   Rotation rotation;  ///< canonical: no row begins with a negative number
-  int least, most;    ///< S; what lies between is for each voxel to say
+  int least, most;    ///< S: voxels between `least` and `most` decide for themselves
   int reach;
 
   __device__ static int limit(int s) { return s * ((1 << kRotationBits) / kScaleOne); }
 
-  /// The x that lie in the cube of a scale in any of `rows` x `rows` rows from (y, z) on, and, if they are several,
-  /// some more.
+  /// Returns the x that lie in the cube of a scale in any of `rows` x `rows` rows from (y, z) on. For several rows it
+  /// may return some more.
   __device__ Stretch stretch(int scale, int y, int z, int rows) const {
     Stretch s{-reach, reach};
 #pragma unroll
-    for (int i = 0; i < 3; ++i) {  // |a x + t| <= limit
+    for (int i = 0; i < 3; ++i) {  // solves |a x + t| <= limit
       const int a = rotation.row[i][0], b = rotation.row[i][1], c = rotation.row[i][2];
       const int t = b * y + c * z, low = t + (min(b, 0) + min(c, 0)) * (rows - 1),
                 high = t + (max(b, 0) + max(c, 0)) * (rows - 1);
@@ -186,7 +186,7 @@ struct Asker {
 
   __device__ bool any_open() const { return __any_sync(kAllLanes, (open[0] | open[1]) != 0); }
 
-  /// Voxels from which a voxel of the rows from (dy, dz) on meets G.
+  /// Finds the voxels from which a voxel of the rows from (dy, dz) on meets G.
   __device__ void meet(int level, Stretch s, int dy, int dz, std::uint32_t (&met)[2]) const {
     met[0] = met[1] = 0;
     const int k = max(31 - __clz(s.hi - s.lo + 1), first_octave(level)), ny = a.shape.ny;
@@ -207,7 +207,7 @@ struct Asker {
     }
   }
 
-  /// Of these voxels of a lane's word, those whose own cube has something of row (dy, dz).
+  /// Returns those of the given voxels of a lane's word whose own cube meets G in row (dy, dz).
   __device__ std::uint32_t decide(std::uint32_t voxels, int half, int dy, int dz) const {
     std::uint32_t met = 0;
     for (; voxels != 0; voxels &= voxels - 1) {
@@ -226,7 +226,7 @@ struct Asker {
     return met;
   }
 
-  /// f(stretch, dy, dz) for the stretches of the lanes where `wanted`.
+  /// Calls f(stretch, dy, dz) for the stretches of the lanes with `wanted`.
   template <class F>
   __device__ void for_each(bool wanted, Stretch own, int dy, int dz, const F& f) const {
     for (unsigned left = __ballot_sync(kAllLanes, wanted); left != 0; left &= left - 1) {
@@ -236,7 +236,8 @@ struct Asker {
     }
   }
 
-  /// Row by row: the cube of the least scale decides, and where the largest has more, each voxel for itself.
+  /// Asks row by row: the cube of the least scale decides. Where the largest cube reaches further, each voxel decides
+  /// for itself.
   __device__ void ask_row(bool inside, int dy, int dz) {
     std::uint32_t met[2];
     const Stretch sure = cube.stretch(cube.least, dy, dz, 1);
@@ -252,7 +253,7 @@ struct Asker {
     });
   }
 
-  /// Asks for across^2 blocks of rows of a level, the first of which begins at (y0, z0).
+  /// Asks for across^2 blocks of rows of a level; the first begins at (y0, z0).
   template <int kLevel>
   __device__ void ask(int y0, int z0, int across) {
     constexpr int kRows = rows_across(kLevel);
@@ -273,7 +274,7 @@ struct Asker {
   }
 };
 
-/// Blocks of the next kernel on a multiprocessor.
+/// Number of blocks of the next kernel on a multiprocessor.
 constexpr int kTurnedBlocks = 4;
 
 __global__ void __launch_bounds__(kPassThreads, kTurnedBlocks)

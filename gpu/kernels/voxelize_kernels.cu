@@ -8,10 +8,10 @@ namespace bp {
 
 namespace {
 
-constexpr std::int64_t kFew = 64;          ///< voxels of a range that one thread tests, a bit each
-constexpr std::int64_t kManyRows = 16384;  ///< rows of a range from which on the whole grid works on one triangle
+constexpr std::int64_t kFew = 64;          ///< a range of at most so many voxels is tested by one thread, a bit each
+constexpr std::int64_t kManyRows = 16384;  ///< on a range of so many rows or more, the whole grid works together
 
-/// Bits of a BitBox on the device.
+/// The bits of a BitBox on the device.
 struct BitsView {
   std::uint32_t* bits;
   std::int32_t min[3], max[3];  ///< voxels; x in whole words
@@ -28,11 +28,11 @@ struct BitsView {
   __device__ std::uint32_t* row(std::int64_t y, std::int64_t z) const {
     return bits + ((z - min[2]) * (max[1] - min[1]) + (y - min[1])) * words;
   }
-  /// Sets bits; most are set already where triangles are dense, and reading is cheaper than an atomic.
+  /// Sets bits. Where triangles are dense most are set already, and reading is cheaper than an atomic.
   __device__ static void set(std::uint32_t* word, std::uint32_t mask) {
     if ((mask & ~*word) != 0) atomicOr(word, mask);
   }
-  /// Voxels first..last of a row, counted from min[0].
+  /// Sets voxels first..last of a row, counted from min[0].
   __device__ void set_run(std::uint32_t* row, std::int32_t first, std::int32_t last) const {
     const std::uint32_t head = ~0u << (first & 31), tail = ~0u >> (31 - (last & 31));
     const std::int32_t a = first >> 5, b = last >> 5;
@@ -43,7 +43,7 @@ struct BitsView {
   }
 };
 
-/// Lists of triangles that need a warp, or the grid; and the queue of the former.
+/// Lists of triangles that need a warp, or the grid, and the queue of the triangles for warps.
 struct Lists {
   std::uint32_t *warp, *grid;
   std::uint32_t* counts;  ///< [0] warp, [1] grid, [2] next of warp
@@ -66,19 +66,21 @@ __device__ void cut(std::uint64_t& mask, const HalfSpace<std::int64_t>& h, int n
   }
 }
 
-/// The cells of a range of at most 64 that a small triangle meets. `whole`: the range before it was cut to the box.
+/// Returns the cells of a range of at most 64 that a small triangle meets. `whole`: the range before it was cut to the
+/// box.
 __device__ std::uint64_t cells_met(const Corners& corners, const CellRange& whole, const CellRange& range) {
   const int nx = int(range.size(0)), ny = int(range.size(1)), nz = int(range.size(2));
   std::uint64_t mask = ~std::uint64_t(0) >> (64 - nx * ny * nz);
   const bool flat[3] = {whole.size(0) == 1, whole.size(1) == 1, whole.size(2) == 1};
   const int thin = int(flat[0]) + int(flat[1]) + int(flat[2]);
-  if (thin >= 2) return mask;  // connected, and inside the cubes in two axes: it meets each in the third
+  // The triangle is connected, and inside the cubes along two axes, so it meets each along the third.
+  if (thin >= 2) return mask;
   std::int64_t normal[3];
 #pragma unroll
   for (int w = 0; w < 3; ++w) {
     normal[w] = normal_component<std::int64_t>(corners, w);
     if (thin == 1 && !flat[w])
-      continue;  // between the cubes' faces along one axis: only the projection along it decides
+      continue;  // it lies between the cubes' faces along one axis, so only the projection along that axis decides
 #pragma unroll
     for (int e = 0; e < 3; ++e)
       cut(mask, edge_space<std::int64_t>(corners, e, w, normal[w] < 0, range, kFixedOne), nx, ny, nz);
@@ -134,7 +136,7 @@ __global__ void __launch_bounds__(kPassThreads)
 
 // ---------------------------------------------------------------- many threads per triangle
 
-/// Rows of cells of a triangle, dealt out to `workers`: slices first, then rows within a slice.
+/// The rows of cells of a triangle, dealt out to `workers`: slices first, then rows within a slice.
 template <class Triangle>
 __device__ void set_rows(const Triangle& t, const BitsView& out, unsigned worker, unsigned workers) {
   const std::int32_t nx = std::int32_t(t.range.size(0)), ny = std::int32_t(t.range.size(1)),
@@ -144,7 +146,7 @@ __device__ void set_rows(const Triangle& t, const BitsView& out, unsigned worker
   for (unsigned z = worker / parts; z < unsigned(nz); z += workers / parts) {
     std::int32_t y0 = 0, y1 = ny - 1;
     bool any = true;
-    // In a slice, a half-space can only hold in rows where it holds at the better end: that bounds y.
+    // In a slice, a half-space can hold only in rows where it holds at the better end. That bounds y.
     const auto bound = [&](const auto& h) {
       any = any && clip(h.value(h.step[0] > 0 ? nx - 1 : 0, 0, std::int32_t(z)), h.step[1], y0, y1);
     };
@@ -173,7 +175,7 @@ struct SharedTriangle {
   FixedTriangle triangle;
   alignas(16) Triangle cells;
 };
-/// Those who work on one triangle together: a warp, or the grid (a copy of the triangle per block).
+/// The threads that work on one triangle together: a warp, or the grid (a copy of the triangle per block).
 struct WarpTeam {
   __device__ static void meet() { __syncwarp(); }
   __device__ static unsigned builder() { return unsigned(lane_id()); }
@@ -227,7 +229,7 @@ __device__ void load_triangle(FixedTriangle& shared, const FixedTriangle& from) 
 using WarpTriangle = SharedTriangle<MediumTriangle>;
 using GridTriangle = SharedTriangle<WideTriangle>;
 
-/// Triangles up to kMediumExtent.
+/// Voxelizes triangles up to kMediumExtent.
 __global__ void __launch_bounds__(kPassThreads)
     voxelize_warp_kernel(const FixedTriangle* __restrict__ triangles, BitsView out, Lists lists) {
   WarpTriangle& shared = static_cast<WarpTriangle*>(dynamic_shared_memory())[warp_in_block()];
@@ -238,7 +240,7 @@ __global__ void __launch_bounds__(kPassThreads)
   }
 }
 
-/// Any triangle; in blocks, so that the plane's values stay within 128 bits.
+/// Voxelizes any triangle, in blocks, so that the plane's values stay within 128 bits.
 __global__ void __launch_bounds__(kPassThreads)
     voxelize_grid_kernel(const FixedTriangle* __restrict__ triangles, BitsView out, Lists lists) {
   GridTriangle& shared = *static_cast<GridTriangle*>(dynamic_shared_memory());

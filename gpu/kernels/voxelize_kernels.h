@@ -5,9 +5,9 @@
 #include "lib/core/box.h"
 #include "lib/voxel/fixed_triangle.h"
 
-/// Conservative surface voxelization on the device: the voxels of lib/voxel/voxelize.h, to the bit. Three routes, so
-/// that ten million triangles of a voxel and one across the grid both keep all threads at work: a thread per triangle
-/// of up to 64 voxels, a warp per larger one, the whole grid for the largest.
+/// Conservative surface voxelization on the device. The voxels are those of lib/voxel/voxelize.h, to the bit. There are
+/// three routes, so that ten million triangles of one voxel and one triangle across the grid both keep all threads at
+/// work: a thread for a triangle of up to 64 voxels, a warp for a larger one, the whole grid for the largest.
 namespace bp {
 
 class DeviceVoxelizer {

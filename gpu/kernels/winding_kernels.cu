@@ -1,5 +1,5 @@
 // Crossings: a thread per small triangle, a block per larger one. Fill: crossings are sorted into buckets of 32 columns
-// by 32 slices; a warp then climbs 32 columns, a lane each, and turns their numbers into a word per slice by a ballot.
+// by 32 slices. A warp then climbs 32 columns, a lane each, and turns their numbers into a word per slice by a ballot.
 #include "gpu/kernels/launch.h"
 #include "gpu/kernels/winding_kernels.h"
 #include "lib/voxel/column_crossings.h"
@@ -8,18 +8,18 @@ namespace bp {
 
 namespace {
 
-constexpr int kSlices = 32;  ///< of a bucket
+constexpr int kSlices = 32;  ///< slices of a bucket
 
 // ---------------------------------------------------------------- crossings
 
-/// Where crossings go; those beyond the capacity are counted only.
+/// The list of crossings. Crossings beyond the capacity are only counted.
 struct CrossingList {
   Crossing* out;
   std::uint32_t capacity;
   std::uint32_t* found;
 };
 
-/// Appends what each lane's triangle, or share of one, still has. All lanes of the warp must call it.
+/// Appends the remaining crossings of each lane's triangle, or of its share of one. All lanes of the warp must call it.
 template <class Crossings>
 __device__ void append_all(Crossings& crossings, bool wanted, const CrossingList& list) {
   Crossing c{};
@@ -31,7 +31,7 @@ __device__ void append_all(Crossings& crossings, bool wanted, const CrossingList
   }
 }
 
-/// Triangles up to kSmallExtent; the others are listed.
+/// Finds the crossings of triangles up to kSmallExtent, and lists the others.
 __global__ void __launch_bounds__(kPassThreads)
     cross_small_kernel(const FixedTriangle* __restrict__ triangles, std::uint32_t count, VoxelBox tile,
                        CrossingList list, std::uint32_t* __restrict__ large, std::uint32_t* large_count) {
@@ -43,7 +43,7 @@ __global__ void __launch_bounds__(kPassThreads)
   append_all(crossings, i < count && small, list);
 }
 
-/// Any triangle: a warp of the block per row of columns, a lane per column.
+/// Finds the crossings of any triangle: a warp of the block per row of columns, a lane per column.
 __global__ void __launch_bounds__(kPassThreads)
     cross_large_kernel(const FixedTriangle* __restrict__ triangles, VoxelBox tile, CrossingList list,
                        const std::uint32_t* __restrict__ large, const std::uint32_t* __restrict__ large_count) {
@@ -59,7 +59,7 @@ __global__ void __launch_bounds__(kPassThreads)
 /// Buckets of crossings in a tile: x fastest, then y, then z. A crossing above the last slice has a bucket, too.
 struct Buckets {
   std::uint32_t words, ny, nz;
-  std::uint32_t *counts, *ends;  ///< per bucket; where its part of the sorted crossings ends
+  std::uint32_t *counts, *ends;  ///< number of crossings of each bucket; where its part of the sorted crossings ends
   __host__ __device__ std::uint32_t layers() const { return nz / kSlices + 1; }
   __host__ __device__ std::uint32_t size() const { return words * ny * layers(); }
   __device__ std::uint32_t of(const Crossing& c) const { return (c.z / kSlices * ny + c.y) * words + c.x / 32; }
@@ -71,7 +71,8 @@ __global__ void __launch_bounds__(kPassThreads)
   if (i < count) atomicAdd(&buckets.counts[buckets.of(crossings[i])], 1u);
 }
 
-/// Gives each bucket its part of the sorted crossings; which bucket comes first does not matter. ends: where it begins.
+/// Gives each bucket its part of the sorted crossings; the order of buckets does not matter. `ends` becomes where it
+/// begins.
 __global__ void __launch_bounds__(kPassThreads) place_buckets_kernel(Buckets buckets, std::uint32_t* total) {
   const unsigned i = thread_in_grid();
   if (i >= buckets.size()) return;
@@ -86,11 +87,11 @@ __global__ void __launch_bounds__(kPassThreads)
   if (i < count) sorted[atomicAdd(&buckets.ends[buckets.of(crossings[i])], 1u)] = crossings[i];
 }
 
-/// A warp per 32 columns. Its shared memory: by how much the number of each column changes at each slice of a bucket.
+/// Fills 32 columns per warp. Its shared memory holds the change of each column's number at each slice of a bucket.
 __global__ void __launch_bounds__(kPassThreads)
     fill_columns_kernel(const Crossing* __restrict__ sorted, Buckets buckets, const std::uint32_t* __restrict__ skip,
                         std::int32_t* __restrict__ numbers, std::uint32_t* __restrict__ bits) {
-  const std::uint32_t row = thread_in_grid() / kWarp, lane = std::uint32_t(lane_id());  // row: 32 columns
+  const std::uint32_t row = thread_in_grid() / kWarp, lane = std::uint32_t(lane_id());  // a row has 32 columns
   if (row >= buckets.words * buckets.ny) return;
   std::int32_t* change = static_cast<std::int32_t*>(dynamic_shared_memory()) + warp_in_block() * kSlices * kWarp;
   const std::uint32_t kept = skip != nullptr ? ~skip[row] : ~0u;

@@ -12,7 +12,7 @@ namespace bp {
 namespace {
 
 constexpr int kPadding = 2;  // texels around a chart
-constexpr int kStep = 4;     // rectangles begin and end at multiples: twice halved, no texel has two charts
+constexpr int kStep = 4;     // rectangles begin and end at multiples: halved twice, no texel has two charts
 constexpr int kLeastSide = 32;
 
 int texels(double length, double texel) {
@@ -20,7 +20,7 @@ int texels(double length, double texel) {
   return int(std::min(n, 1e8) + kStep - 1) / kStep * kStep;
 }
 
-/// Rectangles of charts; empty if they have more texels than an image.
+/// Returns the rectangles of charts; none if they have more texels than an image.
 std::vector<PackedRect> rectangles(const std::vector<Chart>& charts, double texel, int most_side) {
   std::vector<PackedRect> rects;
   double area = 0;
@@ -33,7 +33,7 @@ std::vector<PackedRect> rectangles(const std::vector<Chart>& charts, double texe
   return rects;
 }
 
-/// The narrowest image, not higher than wide; false if there is none.
+/// Finds the narrowest image that is not higher than wide. Returns false if there is none.
 bool place(std::vector<PackedRect>& rects, int most_side, Atlas& atlas) {
   double area = 0;
   int width = kLeastSide;

@@ -1,8 +1,8 @@
 #pragma once
 #include "lib/mesh/lattice_mesh.h"
 
-/// Where the faces of a mesh lie in an image: charts side by side, none over another, with room between them that is
-/// filled with what is beside it, so that smaller copies of the image do not mix charts.
+/// Where the faces of a mesh lie in an image. Charts lie side by side and never overlap. The room between them is
+/// filled with the neighbouring texels, so that smaller copies of the image do not mix charts.
 namespace bp {
 
 struct Atlas {
@@ -17,8 +17,8 @@ struct AtlasParams {
   int most_side = 4096;  ///< texels; a multiple of 4
 };
 
-/// Texels are square on the mesh and of one size, but for what charts.h says of lengths. Throws bad_argument if the
-/// mesh has no triangle, or so many charts that the image cannot hold them.
+/// Unwraps a mesh. Texels are square on the mesh and of one size, except as charts.h says about lengths. Throws
+/// bad_argument if the mesh has no triangle, or so many charts that the image cannot hold them.
 [[nodiscard]] Atlas unwrap(const LatticeMesh& mesh, const AtlasParams& params);
 
 }  // namespace bp

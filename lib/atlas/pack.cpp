@@ -7,12 +7,12 @@ namespace bp {
 
 namespace {
 
-/// The upper edge of what lies in the strip: spans from left to right.
+/// The upper edge of the rectangles in the strip, as spans from left to right.
 class Skyline {
  public:
   explicit Skyline(int width) : width_(width), spans_{{0, 0}} {}
 
-  /// Finds the lowest place, of those the leftmost.
+  /// Finds the lowest place; if there are several, the leftmost.
   [[nodiscard]] std::optional<std::size_t> lowest(const PackedRect& rect, int& y) const {
     std::optional<std::size_t> best;
     for (std::size_t i = 0; i < spans_.size() && spans_[i].x + rect.width <= width_; ++i) {

@@ -5,15 +5,15 @@
 
 namespace bp {
 
-/// A rectangle of texels, and where it was put.
+/// A rectangle of texels and its place.
 struct PackedRect {
   int width = 0, height = 0;
   int x = 0, y = 0;
 };
 
-/// Puts all of `rects` into a strip of this width, lowest places first (a skyline), tall ones before low ones. Returns
+/// Packs all of `rects` into a strip of this width, lowest places first (a skyline), tall ones before low ones. Returns
 /// the height that they take; empty if one is wider than the strip, or if they take more than `most_height`. The same
-/// places for the same rectangles. O(n (n + width)) at worst, mostly O(n log n).
+/// rectangles get the same places. O(n (n + width)) at worst, mostly O(n log n).
 [[nodiscard]] std::optional<int> pack(std::vector<PackedRect>& rects, int width, int most_height);
 
 }  // namespace bp

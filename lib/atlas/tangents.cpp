@@ -13,7 +13,7 @@ Vec3d direction(LatticeCoord from, LatticeCoord to) {
   return {double(d.x), double(d.y), double(d.z)};
 }
 
-/// Orthogonal to the unit vector n, of length 1.
+/// Returns the part of v that is orthogonal to the unit vector n, at length 1.
 Vec3d in_plane(const Vec3d& v, const Vec3d& n) {
   return unit(v - dot(n, v) * n, {});
 }
@@ -35,7 +35,7 @@ std::vector<std::array<float, 4>> tangents_of(const LatticeMesh& mesh, const Sha
     const auto at = [&](std::size_t k) { return mesh.vertices[drawn.vertex[t[k % 3]]]; };
     const auto &a = drawn.uv[t[0]], &b = drawn.uv[t[1]], &c = drawn.uv[t[2]];
     const double u1 = double(b[0]) - a[0], v1 = double(b[1]) - a[1], u2 = double(c[0]) - a[0], v2 = double(c[1]) - a[1];
-    const double area = u1 * v2 - u2 * v1;  // v goes down: negative where the image is not mirrored
+    const double area = u1 * v2 - u2 * v1;  // v goes down, so it is negative if the image is not mirrored
     if (area == 0) continue;
     const Vec3d e1 = direction(at(0), at(1)), e2 = direction(at(0), at(2));
     const Vec3d along = (area < 0 ? -1.0 : 1.0) * (v2 * e1 - v1 * e2);

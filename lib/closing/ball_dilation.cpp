@@ -7,8 +7,8 @@ namespace bp {
 
 namespace detail {
 
-/// The cube inscribed in the least ball is in without any distance, what lies outside of the cube around the largest is
-/// not; between them, the distance to the solid decides.
+/// Voxels in the cube inscribed in the least ball are in without computing a distance. Voxels outside of the cube
+/// around the largest ball are out. Between them, the distance to the solid decides.
 void dilate_by_balls(const BitBox& solid, const VoxelBox& occupied, const BallRule& rule, std::int32_t least,
                      ClosingScratch::Parts& s, BitBox& out) {
   const std::int32_t reach = ball_reach(rule.bound), inscribed = ball_reach(std::max(1, (least + 2) / 3));

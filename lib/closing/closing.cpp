@@ -1,7 +1,7 @@
-// The closing of [CB17] §3.3 by distance transforms instead of the paper's walk down a tree per voxel: the same voxels,
-// at a cost that does not depend on how far the walk would go. Dilation: windowed ORs for a cube, a threshold on a
-// squared distance for a ball. Erosion: a threshold on a power transform of the contour. Both only over the band D
-// minus G, and only around what is occupied.
+// The closing of [CB17] §3.3 by distance transforms. The paper walks down a tree for each voxel; the voxels are the
+// same, at a cost that does not depend on the length of that walk. The dilation is a windowed OR for a cube, and a
+// threshold on a squared distance for a ball. The erosion is a threshold on a power transform of the contour. Both are
+// computed only in the band D minus G, and only around occupied voxels.
 #include "lib/closing/closing.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ using detail::occupied_bounds;
 using detail::ScaleRange;
 using detail::whole_words;
 
-/// Bits of the word at `x` that lie in [min, max).
+/// Returns the bits of the word at `x` that lie in [min, max).
 std::uint64_t bits_between(std::int32_t x, std::int32_t min, std::int32_t max) {
   const std::int32_t lo = std::max(min - x, 0), hi = std::min(max - x, 64);
   return lo >= hi ? 0 : (~std::uint64_t(0) << lo) & (~std::uint64_t(0) >> (64 - hi));
@@ -54,7 +54,7 @@ class TileClosing {
     }
   }
 
-  /// Dc over `box`, by columns. False if it has no voxel.
+  /// Finds Dc over `box`, by columns. Returns false if it has no voxel.
   bool find_contour(const VoxelBox& box) {
     s_.contour.reset(whole_words(box));
     const VoxelBox& d = s_.dilation.box();
@@ -82,7 +82,7 @@ class TileClosing {
     return any != 0;
   }
 
-  /// D minus G over `box`, by columns; `closed` holds G. False if it has no voxel.
+  /// Finds D minus G over `box`, by columns; `closed` holds G. Returns false if it has no voxel.
   bool find_band(const BitBox& closed) {
     s_.band.reset(intersect(closed.box(), s_.dilation.box()));
     const VoxelBox& box = s_.band.box();
@@ -99,10 +99,10 @@ class TileClosing {
     return any != 0;
   }
 
-  /// Keeps of the band what the erosion removes.
+  /// Keeps the part of the band that the erosion removes.
   void erode() { s_.ball.run(s_.contour, rule(BallScale::at_seed), s_.band); }
 
-  /// closed |= D minus what the erosion removes (nothing unless `eroded`).
+  /// Adds D to `closed`, without the voxels that the erosion removes. If `eroded` is false, it removes nothing.
   void finish(bool eroded, BitBox& closed) const {
     const VoxelBox& box = s_.band.box();
     for_each_row(box, [&](std::int32_t y, std::int32_t z) {
@@ -128,7 +128,7 @@ class TileClosing {
   ClosingScratch::Parts& s_;
 };
 
-/// Adds to `closed`, which holds G, what the closing adds.
+/// Adds the voxels of the closing to `closed`, which holds G.
 void add_closing(const BitBox& solid, const ScaleLattice& scale, const Halo& halo, const ClosingParams& params,
                  const VoxelBox& interior, BitBox& closed, ClosingScratch& scratch) {
   if (full(closed)) return;

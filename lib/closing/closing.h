@@ -4,57 +4,57 @@
 #include "lib/grid/scale_field.h"
 #include "lib/grid/stream.h"
 
-/// Spatially varying closing, after [CB17] §3.3, Alg. 1-2 (docs/references.md), exact in integers. With G the voxels of
-/// the input, r(p) = floor(S(p)), w(p) = ceil(S(p)^2):
+/// The spatially varying closing, after [CB17] §3.3, Alg. 1-2 (docs/references.md), exact in integers. With G the
+/// voxels of the input, r(p) = floor(S(p)), w(p) = ceil(S(p)^2):
 ///   D  = { p : exists g in G with max|p-g| <= r(p) }  (cube)   or   { p : exists g in G with |p-g|^2 < w(p) }  (ball),
-///        united with G (which matters for the ball where S = 0)
-///        where cubes are turned, by in_oriented_cube() of p's rotation and S(p) (lib/closing/rotation.h)
+///        united with G (which matters for the ball where S = 0).
+///        Where cubes are turned, in_oriented_cube() of p's rotation and S(p) decides (lib/closing/rotation.h).
 ///   Dc = { q not in D : a 6-neighbour of q is in D }
 ///   E  = G  united with  { p in D : no q in Dc has |p-q|^2 < w(q) }
-/// Hence G ⊆ E ⊆ D: a closing always encloses its input. S < 1 is the identity. Outside the grid everything is empty.
+/// Hence G ⊆ E ⊆ D: a closing always encloses its input. S < 1 is the identity. Everything outside the grid is empty.
 namespace bp {
 
 struct ClosingParams {
   StructuringElement element = StructuringElement::cube;
-  const OrientationField* orientation = nullptr;  ///< of cubes; null: along the axes
-  /// For the rows of turned cubes, of a tile; at least turned_cubes_bytes() are taken. Changes no result.
+  const OrientationField* orientation = nullptr;  ///< rotations of cubes; null: cubes stand along the axes
+  /// Memory for the rows of turned cubes of a tile. At least turned_cubes_bytes() are used. It changes no result.
   std::size_t cube_bytes = 0;
 
   [[nodiscard]] bool turned() const { return orientation != nullptr && element == StructuringElement::cube; }
-  /// Into the key of a kept result; levels, whose results are kept, take no orientation.
+  /// Adds the parameters to the key of a kept result. Levels, whose results are kept, take no orientation.
   template <class Hash>
   void add_to(Hash& hash) const {
     hash.add(element);
   }
 };
 
-/// At scales of whole voxels erosion, by an open ball, stops one voxel short of what a cube has added, flat sides
-/// included. The least scale beyond reaches as far and takes that back.
+/// Scales of whole voxels are a trap: the erosion, by an open ball, stops one voxel short of what a cube has added, on
+/// flat sides, too. The least scale above reaches as far, and its erosion takes that layer back.
 constexpr double kBeyondWholeVox = 1.0 / kScaleOne;
 
-/// Farthest that an element of scale `s`, cube or ball, reaches along an axis, voxels.
+/// Returns how far an element of scale `s`, cube or ball, reaches along an axis, in voxels.
 [[nodiscard]] std::int32_t element_reach(Scale s, const ClosingParams& params = {});
 
-/// The least that close_tile() takes for the rows of turned cubes that reach so far along an axis.
+/// Returns the least memory that close_tile() takes for the rows of turned cubes that reach so far along an axis.
 [[nodiscard]] std::size_t turned_cubes_bytes(std::int32_t reach);
 
-/// Voxels of context around a tile that make its interior exact: ceil(s1) + 1 + ceil(s2), where s1 is the largest scale
-/// of any voxel whose erosion ball can reach the tile and s2 the largest scale on what is left of the reach
-/// (docs/pipeline.md, "Halo").
+/// The voxels of context around a tile that make its interior exact: ceil(s1) + 1 + ceil(s2). s1 is the largest scale
+/// of any voxel whose erosion ball can reach the tile. s2 is the largest scale in the region that then decides about
+/// the contour (docs/pipeline.md, "Halo").
 struct Halo {
-  std::int32_t erosion_vox = 0;   ///< D and Dc must be exact this far from the tile
-  std::int32_t dilation_vox = 0;  ///< and G this much further
+  std::int32_t erosion_vox = 0;   ///< D and Dc must be exact so far from the tile
+  std::int32_t dilation_vox = 0;  ///< G must be known so much further
   [[nodiscard]] std::int32_t total_vox() const { return erosion_vox + dilation_vox; }
 };
 [[nodiscard]] Halo halo_of(const VoxelBox& tile, const ScaleField& scale, const GridFrame& frame,
                            const ClosingParams& params = {});
 
 /// Closes the interior of a tile on the calling thread.
-///   solid     G over the tile and its halo; what it does not hold is empty
+///   solid     G over the tile and its halo; voxels outside its box are empty
 ///   scale     S over interior.grown(halo.erosion_vox), at least
 ///   interior  the tile; `closed` is reset to it
 ///   scratch   reused between calls; one per thread (lib/closing/closing_scratch.h)
-/// Cost follows the band D minus G: nothing where the halo holds no solid voxel or the tile is full.
+/// The cost follows the band D minus G. There is none if the halo holds no solid voxel or the tile is full.
 class ClosingScratch;
 void close_tile(const BitBox& solid, const ScaleLattice& scale, const Halo& halo, const ClosingParams& params,
                 const VoxelBox& interior, BitBox& closed, ClosingScratch& scratch);

@@ -1,13 +1,12 @@
-// Halo of a tile T. Written out, with |.| the Euclidean and ||.|| the Chebyshev distance, which is never larger:
-// - E on T needs the voxels q of Dc with |p - q|^2 < w(q) for some p in T. Such a q is at t = ||q - T|| <= |p - q|,
-// hence
-//   t <= reach(q) := floor(sqrt(w(q) - 1)). With e the largest t of any voxel with t <= reach, all of them lie in T +
-//   e.
+// The halo of a tile T. |.| is the Euclidean distance, and ||.|| the Chebyshev distance, which is never larger.
+// - E on T needs the voxels q of Dc with |p - q|^2 < w(q) for some p in T. Such a q is at t = ||q - T|| <= |p - q|, so
+//   t <= reach(q) := floor(sqrt(w(q) - 1)). With e the largest t of any voxel with t <= reach, all of them lie in
+//   T + e.
 // - Dc on T + e needs D on T + (e + 1): `erosion_vox`.
 // - D at p needs the voxels g of G within floor(S(p)) (cube) or reach(p) (ball) of p. With d the larger of both over
 //   T + (e + 1), it needs G on T + (e + 1) + d: `dilation_vox` is d.
-// Nothing else enters, so a solid cut to T + (e + 1 + d) gives the same E on T as the whole grid. Both bounds are read
-// off the samples: S at a voxel is at most the largest of the eight samples around it.
+// Nothing else enters, so a solid cut to T + (e + 1 + d) gives the same E on T as the whole grid. Both bounds come from
+// the samples: S at a voxel is at most the largest of the eight samples around it.
 #include <algorithm>
 
 #include "lib/closing/closing.h"
@@ -25,7 +24,7 @@ std::int32_t reach_of(Scale s) {
   return detail::ball_reach(ball_bound(s));
 }
 
-/// Chebyshev distance from the tile to the nearest and to the farthest voxel of `box`.
+/// Returns the Chebyshev distances from the tile to the nearest and to the farthest voxel of `box`.
 struct Distance {
   std::int32_t nearest = 0, farthest = 0;
 };
@@ -38,7 +37,7 @@ Distance distance(const VoxelBox& tile, const VoxelBox& box) {
   return d;
 }
 
-/// Finds e by descending into the boxes around the tile that may still raise it.
+/// Finds e by descending into those boxes around the tile that may still raise it.
 class ErosionReach {
  public:
   ErosionReach(const VoxelBox& tile, const ScaleField& field, const GridFrame& frame)
@@ -63,7 +62,7 @@ class ErosionReach {
   void visit(const VoxelBox& box) {
     const Distance d = distance(tile_, box);
     if (d.farthest <= found_) return;
-    const Ball ball = around(box.grown(2 * kScaleStep));  // the samples of its voxels lie there
+    const Ball ball = around(box.grown(2 * kScaleStep));  // the samples of the box's voxels lie there
     const ScaleField here = field_.near(ball.centre, ball.radius);
     const std::int32_t bound = reach_of(scale_of(here.range(ball.centre, ball.radius).most, frame_));
     if (d.nearest > bound || bound <= found_) return;

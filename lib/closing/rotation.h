@@ -7,12 +7,12 @@
 #include "lib/grid/orientation_field.h"
 #include "lib/grid/scale_field.h"
 
-/// Cubes with an orientation of their own at each voxel, as the structuring element of a dilation ([CB17] §3.3).
-/// Decided in integers like all else.
+/// Cubes with an orientation of their own at each voxel, as the structuring element of a dilation ([CB17] §3.3). They
+/// are decided in integers, like everything else.
 namespace bp {
 
-/// True if the cube of scale `s` around a voxel holds the voxel (x, y, z) away from it: |row . (x, y, z)| <= s for each
-/// row.
+/// Returns true if the cube of scale `s` around a voxel holds the voxel at the offset (x, y, z): |row . (x, y, z)| <= s
+/// for each row.
 [[nodiscard]] BP_HD inline bool in_oriented_cube(const Rotation& r, Scale s, std::int32_t x, std::int32_t y,
                                                  std::int32_t z) {
   for (const auto& row : r.row) {
@@ -23,22 +23,24 @@ namespace bp {
   return true;
 }
 
-/// Farthest that such a cube of any rotation reaches along an axis: less than sqrt(3) S + 1, for rows of length 1 -
-/// 2^-12 or more.
+/// Returns how far such a cube of any rotation reaches along an axis, at most: less than sqrt(3) S + 1, for rows of
+/// length 1 - 2^-12 or more.
 [[nodiscard]] BP_HD constexpr std::int32_t oriented_reach(Scale s) {
   return std::int32_t(s) * 1775 / 1024 / kScaleOne + 1;
 }
 
-/// Cubes along the axes of the grid that lie in, and that hold, a turned cube of any scale. Linear in the scale.
+/// The largest upright cube in a turned cube, and the smallest one around it, for any scale. Both are linear in the
+/// scale.
 struct CubeBounds {
   bool turned = false;
   std::int64_t row_sum = 1 << kRotationBits;     ///< largest sum of a row's absolute values
-  std::int64_t column_sum = 1 << kRotationBits;  ///< the same of a column
+  std::int64_t column_sum = 1 << kRotationBits;  ///< the same for columns
 
-  /// Radius of the cube inside, times 16: every voxel within floor(that / 16) along each axis is in the turned cube.
+  /// Returns the radius of the cube inside, times 16: every voxel within floor(that / 16) along each axis is in the
+  /// turned cube.
   [[nodiscard]] std::int32_t inner(Scale s) const { return std::int32_t((std::int64_t(s) << kRotationBits) / row_sum); }
-  /// Radius of the cube around, times 16. The columns' sums are those of the inverse, but for the rounding of the rows,
-  /// which 1/512 and a voxel allow for.
+  /// Returns the radius of the cube around, times 16. The sums of the columns are those of the inverse, except for the
+  /// rounding of the rows. 1/512 and one voxel allow for that.
   [[nodiscard]] BP_HD std::int32_t outer(Scale s) const {
     if (!turned) return s;
     return std::int32_t((std::int64_t(s) * column_sum / 512 * 513 >> kRotationBits) + 1) + kScaleOne;
@@ -65,9 +67,10 @@ struct CubeBounds {
   return b;
 }
 
-/// Voxels `edge` times as large hold edge^3 voxels each. Two of them, D apart, hold only voxels that are within the
-/// turned cube of scale `s` of each other if |row . D| is within the first of these limits for each row, and none
-/// beyond the second one. In 1/16 of the large voxels; the first may be negative: then there are no such two.
+/// Scales at which large voxels, of edge^3 voxels each, decide about small ones. Take two large voxels, D apart. If
+/// |row . D| is within `sure` for each row, then all their voxels are in the turned cube of scale `s` of each other. If
+/// it is beyond `possible` for some row, none is. In 1/16 of the large voxels. `sure` may be negative: then no two are
+/// surely in.
 struct CoarseScale {
   std::int32_t sure, possible;
 };
@@ -81,19 +84,19 @@ struct CoarseScale {
 struct CubesOver {
   std::int32_t edge = 0;             ///< of a cell of the field, voxels
   OrientationCell origin, size;      ///< cells of the field in the region
-  std::vector<std::uint16_t> cells;  ///< which of `rotations`; x fastest
+  std::vector<std::uint16_t> cells;  ///< index into `rotations`, x fastest
   std::vector<Rotation> rotations;   ///< canonical
-  CubeBounds widest;                 ///< of all of them
+  CubeBounds widest;                 ///< bounds over all rotations
 
-  /// Which of `rotations` holds at a voxel of the region.
+  /// Returns the index into `rotations` at a voxel of the region.
   [[nodiscard]] std::uint16_t at(VoxelCoord p) const;
 };
 [[nodiscard]] CubesOver cubes_over(const OrientationField& field, const VoxelBox& region);
 
-/// Reach of all cubes of a field: at most oriented_reach(), and cube_radius() where none is turned.
+/// Returns the reach of all cubes of a field: at most oriented_reach(), and cube_radius() if none is turned.
 [[nodiscard]] std::int32_t oriented_reach(const OrientationField& field, Scale s);
 
-/// One rotation for each cell of 8^3 voxels, cells as those of ScaleLattice.
+/// One rotation for each cell of 8^3 voxels. The cells are those of ScaleLattice.
 struct RotationLattice {
   VoxelCoord origin, size;  ///< in cells; x fastest
   std::vector<Rotation> cells;
@@ -105,7 +108,7 @@ struct RotationLattice {
   }
 };
 
-/// The rotations of all voxels of a box.
+/// Returns the rotations of all voxels of a box.
 [[nodiscard]] RotationLattice sample(const OrientationField& field, const VoxelBox& box);
 
 }  // namespace bp

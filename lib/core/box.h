@@ -30,7 +30,7 @@ struct Box {
   friend constexpr bool operator==(const Box&, const Box&) = default;
 };
 
-/// f(c) for each c of the box: z, then y, then x, the fastest.
+/// Calls f(c) for each c of the box, in the order of memory: x is the fastest.
 template <class C, class F>
 constexpr void for_each(const Box<C>& box, const F& f) {
   for (C c = box.min; c.z < box.max.z; ++c.z) {
@@ -48,7 +48,7 @@ template <class C>
   return {{std::max(a.min.x, b.min.x), std::max(a.min.y, b.min.y), std::max(a.min.z, b.min.z)},
           {std::min(a.max.x, b.max.x), std::min(a.max.y, b.max.y), std::min(a.max.z, b.max.z)}};
 }
-/// Smallest box that holds both; an empty box counts as nothing.
+/// Returns the smallest box that holds both. An empty box counts as nothing.
 template <class C>
 [[nodiscard]] constexpr Box<C> hull(const Box<C>& a, const Box<C>& b) {
   if (a.empty()) return b;
@@ -59,7 +59,7 @@ template <class C>
 [[nodiscard]] constexpr VoxelBox voxels_of(const BrickBox& b) {
   return {first_voxel(b.min), first_voxel(b.max)};
 }
-/// Bricks that hold at least one voxel of `v`.
+/// Returns the bricks that hold at least one voxel of `v`.
 [[nodiscard]] constexpr BrickBox bricks_of(const VoxelBox& v) {
   if (v.empty()) return {};
   const BrickCoord last = brick_of({v.max.x - 1, v.max.y - 1, v.max.z - 1});

@@ -22,7 +22,7 @@ std::uint8_t byte_of(double x) {
   return std::uint8_t(x * 255 + 0.5);
 }
 
-/// A scene names the same few values over and over, and pow() takes long.
+/// A table: scenes repeat the same few values, and pow() is slow.
 const std::array<std::uint16_t, 256>& linear_of_bytes() {
   static const std::array<std::uint16_t, 256> table = [] {
     std::array<std::uint16_t, 256> t{};

@@ -5,7 +5,7 @@
 
 #include "lib/core/host_device.h"
 
-/// Integer coordinates by space. Voxel, brick and tile coordinates are different types and do not convert by
+/// Integer coordinates by space. Voxel, brick, tile and lattice coordinates are different types, and do not convert by
 /// themselves.
 namespace bp {
 
@@ -36,7 +36,7 @@ using BrickCoord = Coord3<struct BrickSpace, std::int32_t>;  ///< brick of the g
 using TileCoord = Coord3<struct TileSpace, std::int32_t>;    ///< tile of the current run
 using LatticeCoord = Coord3<struct LatticeSpace, std::int64_t>;  ///< vertex position, 1/64 voxel
 
-/// Floor division, so that negative coordinates land in the right cell. b > 0.
+/// Divides and rounds down, so that negative coordinates land in the right cell. b > 0.
 template <class Int>
 BP_HD constexpr Int floor_div(Int a, Int b) {
   return a / b - (a % b < 0);

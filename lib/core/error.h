@@ -6,9 +6,10 @@
 #include <string>
 #include <vector>
 
-/// The one exception type of the suite. Thrown anywhere, caught once per process in tools/cli/run_tool.h, which
-/// prints the message and exits with exit_code(). A message names the object and the fact (docs/exit-codes.md). The
-/// library does not know the options of a tool: what would help is a Remedy, and tools/cli/advice.h names the option.
+/// The one exception type of the suite. It is thrown anywhere and caught once per process, in tools/cli/run_tool.h,
+/// which prints the message and exits with exit_code(). A message names the object and the fact (docs/exit-codes.md).
+/// The library does not know the options of a tool: a Remedy says what would help, and tools/cli/advice.h names the
+/// option.
 namespace bp {
 
 enum class ErrorCode {
@@ -19,8 +20,8 @@ enum class ErrorCode {
   closed_pipe,      ///< the reader of our output went away: end quietly
 };
 
-/// Process exit status: 1 failed, 2 usage, 3 bad input, 4 out of memory, disk or device; 141 for a closed pipe (128 +
-/// SIGPIPE).
+/// Returns the exit status of the process: 1 failed, 2 usage, 3 bad input, 4 out of memory, disk or device. A closed
+/// pipe has 141, which is 128 + SIGPIPE.
 [[nodiscard]] constexpr int exit_code(ErrorCode code) {
   switch (code) {
     case ErrorCode::failed:
@@ -37,27 +38,27 @@ enum class ErrorCode {
   return 1;
 }
 
-/// What would help.
+/// A remedy that would help the user.
 enum class Remedy {
   more_memory,
   larger_voxels,
   smaller_voxels,
-  coarser_grid,    ///< where the tool itself makes the voxels
-  units_of_scene,  ///< for the size of voxels
-  other_units,     ///< for the scene
+  coarser_grid,    ///< larger voxels, where the tool itself makes them
+  units_of_scene,  ///< the size of voxels in units of the scene
+  other_units,     ///< other units for the scene
   smaller_scale,
   smaller_tiles,
   larger_tiles,
   fewer_faces,
   split_scene,
-  move_scene,  ///< nearer to its origin
+  move_scene,  ///< move the scene nearer to its origin
   repair_file,
   flood_fill,
-  fill_inside,  ///< the stream holds what the scene touches, and should hold its inside
-  mode_inside,  ///< the other way round
+  fill_inside,  ///< the stream holds only the voxels that the scene touches; its inside is needed
+  mode_inside,  ///< the stream holds only the inside; `--mode inside` is needed
   enclose_closing,
   enclose_input,
-  enclose_own_scene,  ///< that the stream was made from
+  enclose_own_scene,  ///< enclose the scene that the stream was made from
   no_volume,
   no_textures,
   fewer_users_of_device,
@@ -66,11 +67,11 @@ enum class Remedy {
   other_output,
   overwrite,
   name_format,
-  name_scene_format,  ///< where a stream of voxels is expected, but a scene will do
+  name_scene_format,  ///< the input is taken for a stream of voxels; if it is a scene, name its format
   set_origin,
-  double_format,  ///< one that holds doubles
-  ply_format,     ///< the one without a limit on what it holds
-  free_space,     ///< on the disk of what is written
+  double_format,  ///< choose a format that holds doubles
+  ply_format,     ///< choose PLY, which has no limit on the size of a mesh
+  free_space,     ///< free space on the disk that is written to
 };
 using Remedies = std::vector<Remedy>;
 
@@ -79,8 +80,8 @@ class Error : public std::runtime_error {
   Error(ErrorCode code, const std::string& message, Remedies remedies = {}, std::uint64_t memory_bytes = 0)
       : std::runtime_error(message), code_(code), remedies_(std::move(remedies)), memory_bytes_(memory_bytes) {}
   [[nodiscard]] ErrorCode code() const { return code_; }
-  [[nodiscard]] const Remedies& remedies() const { return remedies_; }  ///< any one of them
-  /// Of Remedy::more_memory: the limit on memory that would do; 0: not known.
+  [[nodiscard]] const Remedies& remedies() const { return remedies_; }  ///< each of them helps by itself
+  /// Returns the limit on memory that would do, for Remedy::more_memory. 0: not known.
   [[nodiscard]] std::uint64_t memory_bytes() const { return memory_bytes_; }
 
  private:
@@ -89,10 +90,11 @@ class Error : public std::runtime_error {
   std::uint64_t memory_bytes_;
 };
 
-/// A step does not fit in its share of the memory.
+/// Thrown if a step does not fit in its share of the memory.
 class NeedsMemory : public Error {
  public:
-  /// what: "closing a tile of 64 voxels". needed, left: bytes of the step and of its share. limit: as memory_bytes().
+  /// `what` is, for example, "closing a tile of 64 voxels". `needed` and `left` are the bytes of the step and of its
+  /// share. `limit` is that of memory_bytes().
   NeedsMemory(const std::string& what, std::uint64_t needed, std::uint64_t left, std::uint64_t limit,
               const Remedies& others = {})
       : Error(ErrorCode::out_of_resource,
@@ -100,7 +102,7 @@ class NeedsMemory : public Error {
                           left >> 20),
               with_memory(others), limit),
         needed_(needed) {}
-  [[nodiscard]] std::uint64_t needed_bytes() const { return needed_; }  ///< of the step
+  [[nodiscard]] std::uint64_t needed_bytes() const { return needed_; }  ///< that the step would take
 
  private:
   std::uint64_t needed_;
@@ -116,13 +118,13 @@ template <class... Args>
 [[noreturn]] void fail(ErrorCode code, fmt::format_string<Args...> format, Args&&... args) {
   throw Error(code, fmt::format(format, std::forward<Args>(args)...));
 }
-/// The same, with what would help.
+/// Throws an Error with the formatted message and with remedies.
 template <class... Args>
 [[noreturn]] void fail(ErrorCode code, Remedies remedies, fmt::format_string<Args...> format, Args&&... args) {
   throw Error(code, fmt::format(format, std::forward<Args>(args)...), std::move(remedies));
 }
-/// fail_as(e, "{}: {}", name, e.what()) throws the error `e` again with another message, which tells where it happened
-/// or what it left. Code, remedies and memory_bytes() stay.
+/// fail_as(e, "{}: {}", name, e.what()) throws the error `e` again with a message that also tells where it happened, or
+/// what it left behind. Code, remedies and memory_bytes() stay.
 template <class... Args>
 [[noreturn]] void fail_as(const Error& e, fmt::format_string<Args...> format, Args&&... args) {
   throw Error(e.code(), fmt::format(format, std::forward<Args>(args)...), e.remedies(), e.memory_bytes());

@@ -10,30 +10,31 @@ namespace bp {
 
 namespace {
 
-/// Largest distance of the bounds from the scene's origin along an axis.
+/// Returns the largest distance of the bounds from the scene's origin along an axis.
 double reach_of(const Bounds3d& bounds) {
   double reach = 0;
   for (std::size_t i = 0; i < 3; ++i) reach = std::max({reach, std::abs(bounds.min[i]), std::abs(bounds.max[i])});
   return reach;
 }
 
-/// Bits of the largest lattice integer (counted from the scene's origin) that a grid over `bounds` can hold. The reach
-/// of dilations is bounded by 2^12 voxels (scales are 16-bit, 1/16 voxel); twice that is left as margin.
+/// Returns the bits of the largest lattice integer, counted from the scene's origin, that a grid over `bounds` can
+/// hold. Dilations reach at most 2^12 voxels, because scales are 16-bit numbers of 1/16 voxel. Twice that is left as a
+/// margin.
 int lattice_bits(const Bounds3d& bounds, double voxel) {
   return int(std::ceil(std::log2((reach_of(bounds) / voxel + 8192) * kLatticePerVoxel + 1))) + 1;
 }
 
-/// The least power of two of which a voxel must be a multiple, so that float32 holds every lattice point within `reach`
-/// of zero: lattice steps are multiples of the last bit of the largest coordinate then.
+/// Returns the least power of two that a voxel must be a multiple of, so that float32 holds every lattice point within
+/// `reach` of zero. Lattice steps are multiples of the last bit of the largest coordinate then.
 double float_quantum(double reach) {
   int exponent = 0;
   (void)std::frexp(reach, &exponent);
   return std::ldexp(double(kLatticePerVoxel), exponent - std::numeric_limits<float>::digits);
 }
 
-/// The same for a scene with these bounds: about the scene's origin, or else about a point near its middle, which
-/// `--origin` or a node takes off. Proxies reach beyond the scene: a quarter of its longest side is left for it, or
-/// less if that is too much. 0: no such power is at most a 128th of the voxel.
+/// Returns the float_quantum() of a scene with these bounds: about the scene's origin, or else about a point near its
+/// middle, which `--origin` or a node subtracts. Proxies reach beyond the scene: a quarter of its longest side is left
+/// for them, or less if that is too much. Returns 0 if no such power is at most a 128th of the voxel.
 double affordable_float_quantum(const Bounds3d& bounds, double voxel) {
   constexpr double kVoxelsAround = 4, kDearest = 128;
   const double side = bounds.longest_side(), near = reach_of(bounds);
@@ -44,12 +45,12 @@ double affordable_float_quantum(const Bounds3d& bounds, double voxel) {
   return 0;
 }
 
-/// `x` as a multiple of a power of two; 0: as it is.
+/// Rounds `x` up to a multiple of `quantum`. 0 leaves it as it is.
 double round_up_to(double x, double quantum) {
   return quantum > 0 ? std::ceil(x / quantum) * quantum : x;
 }
 
-/// Refuses what no voxel that is in range can make a grid of.
+/// Refuses bounds for which no allowed voxel size makes a grid.
 void check_reach(const Bounds3d& bounds) {
   constexpr double kReach = kMostVoxel * 0x1p31;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -60,7 +61,7 @@ void check_reach(const Bounds3d& bounds) {
   }
 }
 
-/// Refuses sizes that would not stay in range when they are rounded up.
+/// Refuses voxel sizes that would leave the allowed range when they are rounded up.
 void check_voxel(const Bounds3d& bounds, double voxel) {
   if (!(voxel > 0) || !std::isfinite(voxel))
     fail(ErrorCode::bad_argument, "a voxel size of {} is not positive and finite", voxel);

@@ -11,22 +11,23 @@ namespace bp {
 struct GridFrame {
   double voxel = 1;                      ///< edge of a voxel, scene units; exact_voxel_size() made it
   std::array<std::int64_t, 3> origin{};  ///< corner of voxel (0,0,0), in voxels from the scene's origin
-  UpAxis up = UpAxis::y;                 ///< of the scene; glTF outputs are turned to y up
+  UpAxis up = UpAxis::y;                 ///< axis of the scene that points up; glTF outputs are turned to y up
 
-  /// Scene units of a lattice point; exact while |64 origin + p| < 2^(53 - bits of voxel), which make_frame ensures.
+  /// Converts a lattice point to scene units. Exact while |64 origin + p| < 2^(53 - bits of voxel), which make_frame()
+  /// ensures.
   [[nodiscard]] Vec3d world(LatticeCoord p) const {
     const double unit = voxel / kLatticePerVoxel;
     return {double(origin[0] * kLatticePerVoxel + p.x) * unit, double(origin[1] * kLatticePerVoxel + p.y) * unit,
             double(origin[2] * kLatticePerVoxel + p.z) * unit};
   }
-  /// Corner of voxel (0,0,0) in scene units; exact.
+  /// Returns the corner of voxel (0,0,0) in scene units, exactly.
   [[nodiscard]] Vec3d world_origin() const { return world({0, 0, 0}); }
-  /// Position in voxels, rounded: error below 2^-20 voxel in grids up to 2^31 voxels a side.
+  /// Converts a point to voxels. It is rounded: the error is below 2^-20 voxel in grids of up to 2^31 voxels a side.
   [[nodiscard]] Vec3d to_voxels(const Vec3d& p) const {
     const Vec3d o = world_origin();
     return {(p[0] - o[0]) / voxel, (p[1] - o[1]) / voxel, (p[2] - o[2]) / voxel};
   }
-  /// The same in lattice units.
+  /// Converts a point to lattice units, rounded likewise.
   [[nodiscard]] Vec3d to_lattice(const Vec3d& p) const {
     const Vec3d v = to_voxels(p);
     return {v[0] * kLatticePerVoxel, v[1] * kLatticePerVoxel, v[2] * kLatticePerVoxel};
@@ -34,18 +35,18 @@ struct GridFrame {
   friend bool operator==(const GridFrame&, const GridFrame&) = default;
 };
 
-/// `x` rounded up to `bits` significant bits.
+/// Rounds `x` up to `bits` significant bits.
 [[nodiscard]] double round_up_to_bits(double x, int bits);
 
-/// Frame for a scene with these bounds and (about) this voxel size: rounds `voxel` up, by at most a 128th of it, to the
-/// most significant bits (up to 24) that keep every lattice point of the grid, halo included, an exact double; and a
-/// float32, too, if a 128th suffices for it (at most 1,024 voxels from the scene's origin it does). If the scene lies
-/// farther off, lattice points less a point near its middle are such floats. Voxel (0,0,0) holds or touches bounds.min.
-/// Throws bad_argument if the voxel size is not within grid_limits.h, or if a side would exceed 2^31
+/// Returns a frame for a scene with these bounds and about this voxel size. The size is rounded up by at most a 128th,
+/// to the most significant bits (up to 24) that make every lattice point of the grid, halo included, an exact double.
+/// Each is an exact float32, too, if a 128th suffices for that; within 1,024 voxels of the scene's origin it does.
+/// Farther off, the lattice points less a point near the scene's middle are floats. Voxel (0,0,0) holds or touches
+/// bounds.min. Throws bad_argument if the voxel size is not within grid_limits.h, or if a side would exceed 2^31
 /// voxels; bad_input if the bounds are empty, or beyond any grid.
 [[nodiscard]] GridFrame make_frame(const Bounds3d& bounds, double voxel, UpAxis up = UpAxis::y);
 
-/// Voxels of the grid that the closed bounds touch, and one around them. Throws bad_argument beyond 2^31 voxels.
+/// Returns the voxels that the closed bounds touch, and one layer around them. Throws bad_argument beyond 2^31 voxels.
 [[nodiscard]] VoxelBox voxel_bounds(const GridFrame& frame, const Bounds3d& bounds);
 
 }  // namespace bp

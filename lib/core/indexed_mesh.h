@@ -8,18 +8,18 @@
 #include "lib/core/grid_frame.h"
 #include "lib/core/triangle_source.h"
 
-/// A whole mesh in memory, scene units: what bpcheck and bpinfo read (proxies; scenes are streamed instead).
+/// A whole mesh in memory, in scene units: bpcheck and bpinfo read proxies like this. Scenes are streamed instead.
 namespace bp {
 
 struct IndexedMesh {
   std::vector<Vec3d> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<std::uint8_t> inner_edges;  ///< as TriangleSource::read_faces(), by triangle; fewer: the rest has none
-  std::optional<UpAxis> up;               ///< if its file tells
-  std::uint64_t bad_faces = 0;            ///< faces of its file that are no triangles here: SceneCounts::bad_faces
+  std::vector<std::uint8_t> inner_edges;  ///< by triangle, as TriangleSource::read_faces() has them; missing ones are 0
+  std::optional<UpAxis> up;               ///< if the file tells it
+  std::uint64_t bad_faces = 0;            ///< faces of the file that are left out: SceneCounts::bad_faces
   std::uint64_t differing = 0;            ///< SceneCounts::differing
   Unfollowed unfollowed;                  ///< SceneCounts::unfollowed
-  Rounding rounding;                      ///< of the vertices, against those of its file
+  Rounding rounding;                      ///< of the vertices, compared with the file's numbers
 };
 
 }  // namespace bp

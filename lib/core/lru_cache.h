@@ -9,17 +9,17 @@
 
 namespace bp {
 
-/// Values that are made when they are first wanted; those that were wanted longest ago make room. Thread-safe. Threads
-/// that want what is there wait for a few instructions of those that want the same.
+/// Holds values that are made when they are first wanted. The least recently wanted ones make room. Thread-safe. A
+/// thread that wants a present value waits only for a few instructions of others that want the same.
 template <class T>
 class LruCache {
  public:
-  /// Values in the cache take at most `most_bytes`, or are one; those that someone holds come on top.
-  /// `keys`: how many there can be, 0 to keys - 1; each takes about 80 bytes, whatever is in the cache.
+  /// The cache holds at most `most_bytes`, or one value. Values that left the cache and are still held by someone come
+  /// on top. `keys`: there are keys from 0 to keys - 1, and each takes about 80 bytes, whatever is in the cache.
   LruCache(std::uint64_t most_bytes, std::size_t keys) : most_bytes_(most_bytes), slots_(keys) {}
 
-  /// make(), if the value is not there: a shared_ptr<const T>, maybe null, which is kept, too. Others that want the
-  /// same value wait for it: make() must not begin loops in parallel.
+  /// Returns the value of the key. If it is not there, it calls make(), which returns a shared_ptr<const T>; null is
+  /// kept, too. Other threads that want the same value wait for it, so make() must not begin parallel loops.
   template <class Make>
   [[nodiscard]] std::shared_ptr<const T> get(std::uint32_t key, const Make& make) {
     Slot& slot = slots_.at(key);
@@ -39,11 +39,11 @@ class LruCache {
     explicit Made(std::shared_ptr<const T> v) : value(std::move(v)) {}
     std::shared_ptr<const T> value;
   };
-  /// As std::atomic<std::shared_ptr>, whose order of memory is too weak in GCC 12.
+  /// Replaces std::atomic<std::shared_ptr>, whose memory order is too weak in GCC 12.
   class Slot {
    public:
-    std::atomic<std::uint32_t> last_wanted{0};  // a time: how many values had been made
-    std::mutex mutex;                           // of who makes it
+    std::atomic<std::uint32_t> last_wanted{0};  // a time: the number of values that had been made
+    std::mutex mutex;                           // held by the thread that makes the value
 
     [[nodiscard]] std::shared_ptr<const Made> get() {
       lock();
@@ -76,7 +76,7 @@ class LruCache {
     return value == nullptr ? nullptr : std::shared_ptr<const T>(std::move(made), value);
   }
 
-  /// For a value that was made just now.
+  /// Drops values until the one that was just made fits.
   void make_room(std::uint32_t key, std::uint64_t bytes) {
     const std::lock_guard lock(mutex_);
     makes_.fetch_add(1, std::memory_order_relaxed);
@@ -95,7 +95,7 @@ class LruCache {
   const std::uint64_t most_bytes_;
   std::vector<Slot> slots_;
   std::atomic<std::uint32_t> makes_{0};
-  std::mutex mutex_;  // of what follows
+  std::mutex mutex_;  // guards all that follows
   std::vector<Kept> kept_;
   std::uint64_t bytes_ = 0;
 };

@@ -5,13 +5,13 @@
 
 namespace bp {
 
-/// The memory that a process may take. A part of it is for the process itself; the rest is shared out.
+/// The memory that a process may take. The process itself takes `fixed_bytes`; the rest is shared out.
 struct MemoryLimit {
   std::uint64_t bytes = 0;        ///< 0: not known
-  std::uint64_t fixed_bytes = 0;  ///< for the process itself; half of all if that is less
+  std::uint64_t fixed_bytes = 0;  ///< for the process itself; half of `bytes` if that is less
   [[nodiscard]] std::uint64_t rest_bytes() const { return bytes > 2 * fixed_bytes ? bytes - fixed_bytes : bytes / 2; }
 
-  /// The limit at which `share` of the rest has `missing` bytes more than now; 0: not known.
+  /// Returns the limit at which `share` of the rest has `missing` bytes more than now. 0: not known.
   [[nodiscard]] std::uint64_t with(std::uint64_t missing, double share) const {
     if (bytes == 0 || !(share > 0)) return 0;
     const double rest = double(rest_bytes()) + double(missing) / share, fixed = double(fixed_bytes);
@@ -19,16 +19,16 @@ struct MemoryLimit {
   }
 };
 
-/// The memory that a step may take: so much of the rest of a limit.
+/// The memory that a step may take: a share of the rest of a limit.
 struct MemoryShare {
   std::uint64_t bytes = std::uint64_t(512) << 20;
   double share = 0;  ///< between 0 and 1; 0: not known
   MemoryLimit limit{};
   double least_share = 0;  ///< the smallest share that the step has when it runs again in this process; 0: `share`
 
-  /// The limit at which `missing` bytes more are there; 0: not known.
+  /// Returns the limit at which `missing` bytes more are there. 0: not known.
   [[nodiscard]] std::uint64_t limit_with(std::uint64_t missing) const { return limit.with(missing, share); }
-  /// The limit at which the step has `needed` bytes, each time that it runs; 0: not known.
+  /// Returns the limit at which the step has `needed` bytes each time that it runs. 0: not known.
   [[nodiscard]] std::uint64_t limit_for(std::uint64_t needed) const {
     const auto at = [&](std::uint64_t held, double part) { return limit.with(needed - std::min(needed, held), part); };
     if (!(least_share > 0)) return at(bytes, share);

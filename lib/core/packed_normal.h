@@ -5,12 +5,12 @@
 
 namespace bp {
 
-/// A direction in 32 bits, as octahedral coordinates: to within 0.003 degrees. 0: none.
+/// A direction in 32 bits, as octahedral coordinates. It is right to within 0.003 degrees. 0: no direction.
 using PackedNormal = std::uint32_t;
 
-/// None of a vector without length, or that is not finite.
+/// Returns 0 for a vector that has no length or is not finite.
 [[nodiscard]] PackedNormal pack_normal(const Vec3d& n);
-/// Of length 1; zeros of none.
+/// Returns a vector of length 1, or zeros for 0.
 [[nodiscard]] Vec3d unpack_normal(PackedNormal packed);
 
 }  // namespace bp

@@ -11,7 +11,7 @@ namespace bp {
 
 namespace {
 
-/// A loop in a pipeline whose other items failed must run to its end all the same: cancelled along with them, it would
+/// Keeps a loop within a pipeline from being cancelled when other items of the pipeline fail. A cancelled loop would
 /// return in the middle, and its caller would go on with half of its data.
 class OwnContext {
  public:

@@ -24,25 +24,25 @@ class ThreadLimit {
 
 [[nodiscard]] int thread_count();
 
-/// body(i) for i in [0, n), in any order, in parallel. The first exception is rethrown.
+/// Calls body(i) for i in [0, n), in any order, in parallel. Rethrows the first exception.
 void parallel_for(std::int64_t n, const std::function<void(std::int64_t)>& body);
 
-/// body(begin, end) over consecutive chunks of `grain` items; the last one may have fewer.
+/// Calls body(begin, end) for consecutive chunks of `grain` items. The last chunk may have fewer.
 void parallel_ranges(std::int64_t n, std::int64_t grain, const std::function<void(std::int64_t, std::int64_t)>& body);
 
-/// body(), whose parallel loops begin no other work of this thread while they wait: so it may hold a lock.
+/// Calls body(). While its parallel loops wait, this thread begins no other work, so body() may hold a lock.
 void isolated(const std::function<void()>& body);
 
-/// A pipeline with at most `in_flight` items: produce() in order on one thread at a time until it returns false, work()
-/// in parallel, consume() in the order of production. `Item` is default-constructible and movable.
+/// Runs a pipeline with at most `in_flight` items: produce() in order on one thread at a time until it returns false,
+/// work() in parallel, consume() in the order of production. `Item` is default-constructible and movable.
 ///   produce: bool(Item&)   work: void(Item&)   consume: void(Item&)
 template <class Item>
 void pipeline(int in_flight, const std::function<bool(Item&)>& produce, const std::function<void(Item&)>& work,
               const std::function<void(Item&)>& consume);
 
-/// A pipeline without an end: work() on at most `in_flight` items at once, begun in the order of production, none
-/// waiting for another. While a loop within an item waits for its other threads, no further item is begun on its
-/// thread.
+/// Runs a pipeline without consume(): work() on at most `in_flight` items at once, begun in the order of production. No
+/// item waits for another. While a loop within an item waits for its other threads, its own thread begins no further
+/// item.
 template <class Item>
 void run_jobs(int in_flight, const std::function<bool(Item&)>& produce, const std::function<void(Item&)>& work);
 
@@ -51,11 +51,11 @@ void run_jobs(int in_flight, const std::function<void*()>& produce, const std::f
 void run_pipeline(int in_flight, const std::function<void*()>& produce, const std::function<void(void*)>& work,
                   const std::function<void(void*)>& consume);
 
-/// Items on their way: those that an exception leaves there end with the pipeline.
+/// Owns the items in a pipeline, so that items which an exception leaves there are destroyed with it.
 template <class Item>
 class Items {
  public:
-  /// Null at the end.
+  /// Returns null at the end.
   void* add(const std::function<bool(Item&)>& produce) {
     auto item = std::make_unique<Item>();
     if (!produce(*item)) return nullptr;

@@ -6,14 +6,14 @@
 
 namespace bp {
 
-/// Things that tasks take and give back, pointers of some kind; a task waits until one is idle.
+/// Lends objects to tasks by pointers of some kind. A task waits until an object is idle.
 template <class Pointer>
 class Pool {
  public:
   explicit Pool(std::vector<Pointer> things) : count_(int(things.size())), idle_(std::move(things)) {}
   [[nodiscard]] int count() const { return count_; }
 
-  /// Holds one for the length of a scope.
+  /// Borrows one object for the length of a scope.
   class Lease {
    public:
     explicit Lease(Pool& pool) : pool_(pool), thing_(pool.take()) {}

@@ -7,11 +7,11 @@
 
 #include "lib/core/packed_normal.h"
 
-/// Images that lie on triangles of scenes. Readers of scenes implement TextureSet (io/scene); nothing else of an image
-/// is known to lib/.
+/// Images that lie on a scene's triangles. Readers of scenes implement TextureSet (io/scene). lib/ knows nothing else
+/// of an image.
 namespace bp {
 
-/// Rows from top to bottom; red, green, blue as sRGB, and straight alpha.
+/// Pixels by rows from top to bottom: red, green and blue as sRGB, and straight alpha.
 struct TextureImage {
   using Texel = std::array<std::uint8_t, 4>;
   int width = 0, height = 0;
@@ -25,14 +25,14 @@ struct TextureImage {
   }
 };
 
-/// What is seen beyond the edge of an image.
+/// How an image continues beyond its edge.
 enum class TextureWrap : std::uint8_t { repeat, mirror, clamp };
-/// What an alpha does: nothing; all below a cutoff is a hole; it is the share that covers what is behind.
+/// The meaning of alpha. opaque: nothing. mask: below a cutoff there is a hole. blend: it is the covering share.
 enum class AlphaMode : std::uint8_t { opaque, mask, blend };
 
 constexpr std::uint32_t kNoTextureImage = ~std::uint32_t(0);
 
-/// An image of something else than colour; it lies where the material's colours do.
+/// An image of something other than colour. It is placed as the image of the material's colours is.
 struct TextureMap {
   std::uint32_t image = kNoTextureImage;
   std::array<TextureWrap, 2> wrap{};
@@ -40,11 +40,11 @@ struct TextureMap {
   friend bool operator==(const TextureMap&, const TextureMap&) = default;
 };
 
-/// How a surface answers to light, beside its colour (glTF 2.0, section 3.9).
+/// How a surface answers to light, in addition to its colour (glTF 2.0, section 3.9).
 struct TextureSurface {
   TextureMap normal;     ///< directions in tangent space, green upwards
-  TextureMap roughness;  ///< green: roughness, blue: metal; times the factors
-  TextureMap emission;   ///< light of its own, times the factor
+  TextureMap roughness;  ///< green: roughness, blue: metal; multiplied by the factors
+  TextureMap emission;   ///< emitted light, multiplied by the factor
   float normal_scale = 1, roughness_factor = 1, metal_factor = 0;
   std::array<float, 3> emission_factor{};  ///< linear light
   friend bool operator==(const TextureSurface&, const TextureSurface&) = default;
@@ -56,39 +56,39 @@ struct TextureMaterial {
   std::uint32_t image = kNoImage;
   std::array<TextureWrap, 2> wrap{};  ///< along u, along v
   AlphaMode alpha_mode = AlphaMode::opaque;
-  float alpha = 1, cutoff = 0.5F;  ///< multiplies the image's alpha; of AlphaMode::mask
-  bool replaces_color = false;     ///< true: use the triangle's colour, because the image is missing; else multiply
-  TextureSurface surface{};        ///< if SceneOptions::surface asked for it; else its light of its own only
-  /// All that it shows; kNoImage where there is none.
+  float alpha = 1, cutoff = 0.5F;  ///< alpha multiplies the image's alpha; cutoff is that of AlphaMode::mask
+  /// true: the image is missing, so the triangle's colour is used; false: both are multiplied
+  bool replaces_color = false;
+  TextureSurface surface{};  ///< only `emission` is set unless SceneOptions::surface asks for all
+  /// Returns all images that it shows, kNoImage where there is none.
   [[nodiscard]] std::array<std::uint32_t, 4> images() const {
     return {image, surface.normal.image, surface.roughness.image, surface.emission.image};
   }
 };
 
-/// What lies on a triangle beside its colours.
+/// The texture of a triangle, in addition to its colours.
 struct TriangleTexture {
   static constexpr std::uint32_t kNoMaterial = ~std::uint32_t(0);
-  std::array<std::array<float, 2>, 3> uv{};  ///< of the corners: (0, 0) is the image's upper left, (1, 1) its lower
-                                             ///< right corner; may be anything, NaN included
-  std::uint32_t material = kNoMaterial;      ///< of the scene's TextureSet
-  std::array<PackedNormal, 3> normals{};     ///< of the corners, if SceneOptions::surface asked for them
+  /// At the corners: (0, 0) is the image's upper left, (1, 1) its lower right corner; any value may occur, NaN too.
+  std::array<std::array<float, 2>, 3> uv{};
+  std::uint32_t material = kNoMaterial;   ///< number in the scene's TextureSet
+  std::array<PackedNormal, 3> normals{};  ///< at the corners, if SceneOptions::surface asks for them
 };
 
-/// Materials and images of scenes. Numbers stay when a scene is read again.
+/// Materials and images of scenes. Their numbers stay when a scene is read again.
 class TextureSet {
  public:
   virtual ~TextureSet() = default;
   /// Thread-safe while no scene is read. `i` is one of TriangleTexture::material.
   [[nodiscard]] virtual const TextureMaterial& material(std::uint32_t i) const = 0;
-  /// How many there are in what was read of the scene so far.
+  /// Returns the number of images in the part of the scene that was read so far.
   [[nodiscard]] virtual std::uint32_t image_count() const = 0;
-  /// Texels of an image, {0, 0} if it is missing or broken; quick. Thread-safe.
+  /// Returns the texels of an image, {0, 0} if it is missing or broken. Quick and thread-safe.
   [[nodiscard]] virtual std::array<int, 2> size(std::uint32_t i) const = 0;
-  /// The file of an image as PNG, JPEG or WebP, undecoded where it is one of these; empty if it is missing.
-  /// Thread-safe.
+  /// Returns the file of an image, as it is if it is PNG, JPEG or WebP. Empty if it is missing. Thread-safe.
   [[nodiscard]] virtual std::vector<std::byte> file(std::uint32_t i) const = 0;
-  /// Decoded at each call; thread-safe. Throws bad_input if the image is missing or broken, out_of_resource if it takes
-  /// more than `most_bytes` decoded.
+  /// Decodes the image at each call. Thread-safe. Throws bad_input if it is missing or broken, out_of_resource if it
+  /// takes more than `most_bytes` decoded.
   [[nodiscard]] virtual TextureImage image(std::uint32_t i, std::uint64_t most_bytes) const = 0;
 };
 

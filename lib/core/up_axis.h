@@ -5,8 +5,8 @@
 #include <optional>
 #include <string_view>
 
-/// The axis of a scene that points up. glTF has y up; a scene with another one is turned, by a quarter or half turn, so
-/// without rounding.
+/// The axis of a scene that points up. glTF has y up. A scene with another axis is turned by a quarter or half turn,
+/// which rounds nothing.
 namespace bp {
 
 enum class UpAxis : std::uint8_t { y, z, x, minus_x, minus_y, minus_z };  ///< by their numbers in docs/brick-stream.md
@@ -16,7 +16,7 @@ constexpr std::array<const char*, 6> kUpNames{"y", "z", "x", "-x", "-y", "-z"}; 
 [[nodiscard]] constexpr const char* name_of(UpAxis up) {
   return kUpNames[std::size_t(up)];
 }
-/// "y", "-x", ...; empty if it is none of them.
+/// Returns the axis of "y", "-x", ...; empty for any other text.
 [[nodiscard]] constexpr std::optional<UpAxis> up_axis_named(std::string_view name) {
   for (std::size_t i = 0; i < kUpNames.size(); ++i) {
     if (name == kUpNames[i]) return UpAxis(i);
@@ -29,7 +29,7 @@ struct AxisTurn {
   std::array<std::uint8_t, 3> axis;
   std::array<bool, 3> negative;
 
-  /// Exact. Zeros stay positive.
+  /// Turns a vector, exactly. Zeros stay positive.
   template <class Vector>
   [[nodiscard]] constexpr Vector operator()(const Vector& v) const {
     Vector out{};
@@ -49,7 +49,7 @@ struct AxisTurn {
   }
 };
 
-/// From the axes of a scene to those of glTF, where y is up: the axis `up` becomes y.
+/// Returns the turn from a scene's axes to those of glTF, where y is up: the axis `up` becomes y.
 ///   y: (x, y, z)   z: (x, z, -y)   x: (-y, x, z)   -x: (y, -x, z)   -y: (x, -y, -z)   -z: (x, -z, y)
 [[nodiscard]] constexpr AxisTurn to_y_up(UpAxis up) {
   constexpr std::array<AxisTurn, 6> kTurns{{{{0, 1, 2}, {false, false, false}},
@@ -61,7 +61,7 @@ struct AxisTurn {
   return kTurns[std::size_t(up)];
 }
 
-/// From one scene's axes to another's: what is up stays up.
+/// Turns a vector from one scene's axes to another's: up stays up.
 template <class Vector>
 [[nodiscard]] constexpr Vector turned(const Vector& v, UpAxis from, UpAxis to) {
   return from == to ? v : to_y_up(to).inverse()(to_y_up(from)(v));

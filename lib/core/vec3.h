@@ -3,7 +3,7 @@
 
 #include "lib/core/coords.h"
 
-/// Arithmetic of Vec3d, each component rounded by itself.
+/// Arithmetic of Vec3d. Each component is rounded by itself.
 namespace bp {
 
 [[nodiscard]] inline Vec3d operator+(const Vec3d& a, const Vec3d& b) {
@@ -24,7 +24,7 @@ namespace bp {
 [[nodiscard]] inline double length(const Vec3d& v) {
   return std::sqrt(dot(v, v));
 }
-/// `v` at length 1; `otherwise` if it has no direction.
+/// Returns `v` scaled to length 1, or `otherwise` if `v` has no direction.
 [[nodiscard]] inline Vec3d unit(const Vec3d& v, const Vec3d& otherwise) {
   const double l = length(v);
   return l > 0 ? (1 / l) * v : otherwise;

@@ -22,7 +22,7 @@ void check_vertices(const IndexedMesh& mesh, const std::string& name) {
   }
 }
 
-/// Sets origin and diagonal, and moves the vertices there.
+/// Sets origin and diagonal, and moves the vertices into that unit.
 void take_unit(Cage& cage) {
   Bounds3d bounds;
   for (const Vec3d& v : cage.vertices) bounds.add(v);
@@ -50,7 +50,7 @@ class EdgeTable {
     }
     cage_.faces.push_back(face);
   }
-  /// Edges that are not run along as often one way as the other.
+  /// Returns the number of edges that faces do not use as often one way as the other.
   [[nodiscard]] std::size_t open_edges() const {
     std::size_t open = 0;
     for (const int sum : balance_) open += sum != 0;
@@ -70,7 +70,7 @@ double six_volumes(const Cage& cage) {
   return sum;
 }
 
-/// By cofactors; a cage with a volume spans all three directions.
+/// Returns the inverse of the spread, by cofactors. A cage with a volume spans all three directions.
 std::array<Vec3d, 3> inverse_spread(const Cage& cage) {
   std::array<Vec3d, 3> s{};
   for (const Vec3d& v : cage.vertices) {
@@ -84,7 +84,7 @@ std::array<Vec3d, 3> inverse_spread(const Cage& cage) {
 }  // namespace
 
 Cage make_cage(const IndexedMesh& mesh, const std::string& name) {
-  constexpr double kLeastVolume = 1e-9;  // six times, of the cube of the diagonal
+  constexpr double kLeastVolume = 1e-9;  // six times the volume, over the cube of the diagonal
   check_vertices(mesh, name);
   Cage cage;
   cage.vertices = mesh.vertices;

@@ -15,7 +15,7 @@ namespace {
 
 using detail::Wide;
 constexpr std::size_t kWide = detail::kWide;
-constexpr double kOnCage = 1e-9;  // of the diagonal: nearer points are taken for points of the cage
+constexpr double kOnCage = 1e-9;  // of the diagonal: nearer points count as points of the cage
 
 std::vector<TriangleD> triangles_of(const Cage& cage) {
   std::vector<TriangleD> triangles;
@@ -30,7 +30,7 @@ double sum_of(std::span<const double> numbers) {
   return sum;
 }
 
-/// [LLC08]: by how much a face with the edges u and v stretches if they become a and b.
+/// Returns by how much a face with the edges u and v stretches if they become a and b ([LLC08]).
 double stretch(const Vec3d& u, const Vec3d& v, const Vec3d& a, const Vec3d& b) {
   const double square = dot(a, a) * dot(v, v) - 2 * dot(a, b) * dot(u, v) + dot(b, b) * dot(u, u);
   return std::sqrt(std::max(square, 0.0) / 2) / length(cross(u, v));
@@ -70,7 +70,7 @@ std::size_t CageCoordinates::points_at_once() const {
 }
 
 std::uint64_t CageCoordinates::bytes_at_once() const {
-  constexpr std::size_t kSlow = 5;  // numbers in extended precision for each vertex, less for others
+  constexpr std::size_t kSlow = 5;  // numbers in extended precision for each vertex; other rows need fewer
   using namespace detail;
   const std::size_t vertex = (green_ ? sizeof(GreenVertex<Wide>) : sizeof(MeanVertex<Wide>)) + sizeof(Wide),
                     edge = green_ ? sizeof(GreenEdge<Wide>) : sizeof(MeanEdge<Wide>),
@@ -120,9 +120,10 @@ void CageCoordinates::take_group(std::span<const Vec3d> points, std::size_t firs
   }
 }
 
-/// `total`: of mean value weights the mean of one over the distance to the cage, in all directions: a ray from inside
-/// leaves before it comes back, so it is above 0; one from outside enters first, so it is below. Of Green coordinates
-/// the number of times that the cage winds around the point.
+/// Turns weights into coordinates. The sign of `total` tells whether the point is inside. For mean value weights it is
+/// the mean of one over the distance to the cage, in all directions. A ray from inside leaves before it comes back, so
+/// the mean is above 0; a ray from outside enters first, so it is below 0. For Green coordinates it is the number of
+/// times that the cage winds around the point.
 CoordinateRows::Place CageCoordinates::finish(const Vec3d& point, std::span<double> weights, double total,
                                               bool trusted) const {
   auto place = CoordinateRows::Place::inside;
@@ -142,7 +143,7 @@ CoordinateRows::Place CageCoordinates::finish(const Vec3d& point, std::span<doub
   return place;
 }
 
-/// Replaces the weights but those of maximum likelihood; returns their total.
+/// Computes the weights anew, except those of maximum likelihood. Returns their total.
 double CageCoordinates::slowly(const Vec3d& point, std::span<double> weights) const {
   if (green_) {
     detail::green_weights_slowly(cage_, view(), point, weights);
@@ -164,8 +165,8 @@ CageCoordinates::Nearest CageCoordinates::nearest(const Vec3d& point) const {
   return {std::sqrt(found.distance_squared), item.id, place, barycentric(item.corners, place)};
 }
 
-/// Weights of a point of the cage: those in the face. Green coordinates jump there. Their values within the cage are
-/// those on it, and what lacks to the sum 1 goes to the corners of the face.
+/// Sets the weights of a point of the cage: those in the face. Green coordinates jump there; their values on the cage
+/// are their limits from within. The rest to the sum 1 goes to the corners of the face.
 void CageCoordinates::take_surface(const Vec3d& point, const Nearest& near, std::span<double> weights) const {
   double missing = 1;
   if (green_) {

@@ -21,12 +21,12 @@ enum class CoordinateKind : std::uint8_t {
   maximum_likelihood = 2  ///< after [CDH23]: a number for each vertex, none negative inside
 };
 
-/// Coordinates of points: a row for each point, in it a number for each vertex of the cage, and perhaps for each face.
+/// Coordinates of points. Each point has a row with a number for each vertex of the cage, and perhaps for each face.
 struct CoordinateRows {
   enum class Place : std::uint8_t { inside, outside, nowhere };  ///< nowhere: the point is not finite
 
   std::size_t columns = 0;
-  std::vector<double> weights;  ///< of point i and column c: [i * columns + c]; all 0 for a point that is nowhere
+  std::vector<double> weights;  ///< of point i and column c: [i * columns + c]; all 0 if the point is nowhere
   std::vector<Place> places;    ///< by point; a point on the cage is inside
   std::unique_ptr<detail::CoordinateScratch> scratch;  ///< kept from call to call
 
@@ -39,11 +39,13 @@ struct CoordinateRows {
   }
 };
 
-/// Vertices of the cage; of Green coordinates also its faces that name no vertex twice.
+/// Returns the number of columns: the vertices of the cage, and for Green coordinates also its faces that name no
+/// vertex twice.
 [[nodiscard]] std::size_t columns_of(CoordinateKind kind, const IndexedMesh& cage);
 
-/// Coordinates of a cage. Those of the vertices sum to 1, and all together reproduce the point. So a similarity of the
-/// cage is that of the points, to rounding; an affine map, too, but not with Green coordinates. Thread-safe.
+/// Computes coordinates of a cage. The coordinates of the vertices sum to 1, and all columns together reproduce the
+/// point. So a similarity of the cage moves the points alike, up to rounding. So does an affine map, except with Green
+/// coordinates. Thread-safe.
 class CageCoordinates {
  public:
   explicit CageCoordinates(Cage cage, CoordinateKind kind = CoordinateKind::mean_value);
@@ -51,21 +53,21 @@ class CageCoordinates {
 
   [[nodiscard]] const Cage& cage() const { return cage_; }
   [[nodiscard]] CoordinateKind kind() const { return kind_; }
-  /// For formulas; valid as long as this is.
+  /// Returns the cage for formulas; valid as long as this object.
   [[nodiscard]] detail::CageView view() const;
   [[nodiscard]] std::size_t columns() const;
-  /// Points whose rows stay in the cache.
+  /// Returns a number of points whose rows stay in the processor's cache.
   [[nodiscard]] std::size_t points_at_once() const;
-  /// Memory of CoordinateRows with points_at_once().
+  /// Returns the bytes of CoordinateRows with points_at_once().
   [[nodiscard]] std::uint64_t bytes_at_once() const;
   /// Replaces `out`. `points` are in scene units. A point outside follows the nearest point of the cage; its offset
-  /// from there turns and grows as the cage does as a whole. This continues the coordinates inside. On the caller's
-  /// thread; the coordinates of a point do not depend on the points beside it. Cost: some microseconds for each 300
-  /// faces; a hundred for a point outside with Green coordinates.
+  /// from there turns and grows as the cage does as a whole. This continues the coordinates inside. It works on the
+  /// caller's thread. The coordinates of a point do not depend on the other points. Cost: some microseconds for each
+  /// 300 faces; a hundred for a point outside with Green coordinates.
   void evaluate(std::span<const Vec3d> points, CoordinateRows& out) const;
-  /// What the columns carry, in scene units, if the vertices move so: a point moves by the sum of coordinate times
-  /// move. Those of vertices as they are; that of a face is its normal times its stretch factor, less its normal at
-  /// rest. 0 where no vertex of a face moves.
+  /// Returns the move of each column in scene units: a point moves by the sum of coordinate times move. The column of a
+  /// vertex has the vertex's move. The column of a face has its normal times its stretch factor, less its normal at
+  /// rest, and 0 if no vertex of the face moves.
   [[nodiscard]] std::vector<Vec3d> moves_of_columns(std::span<const Vec3d> vertex_moves) const;
 
  private:
@@ -73,7 +75,7 @@ class CageCoordinates {
     double distance = 0;
     std::uint32_t face = 0;
     Vec3d place{};
-    std::array<double, 3> share{};  ///< of the corners in it
+    std::array<double, 3> share{};  ///< shares of the face's corners
   };
   void take_group(std::span<const Vec3d> points, std::size_t first, CoordinateRows& out) const;
   [[nodiscard]] CoordinateRows::Place finish(const Vec3d& point, std::span<double> weights, double total,
@@ -85,7 +87,7 @@ class CageCoordinates {
   Cage cage_;
   CoordinateKind kind_;
   TriangleBvh faces_;                         ///< in the unit of the cage
-  std::unique_ptr<detail::GreenCage> green_;  ///< null: other coordinates
+  std::unique_ptr<detail::GreenCage> green_;  ///< null if the coordinates are of another kind
 };
 
 }  // namespace bp

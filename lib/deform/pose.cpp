@@ -11,10 +11,10 @@ namespace bp {
 
 namespace {
 
-constexpr std::size_t kProbes = 3;  // places for each direction
-constexpr double kStep = 1e-6;      // of the diagonal: long beside rounding, short beside the cage
+constexpr std::size_t kProbes = 3;  // places that are evaluated for each direction
+constexpr double kStep = 1e-6;      // of the diagonal: long compared with rounding, short compared with the cage
 
-/// Two directions along the surface; the first is that of the tangent, if there is one.
+/// Two directions along the surface. The first is that of the tangent, if there is one.
 struct Frame {
   Vec3d first{}, second{};
 };

@@ -20,7 +20,7 @@ int bits_for(double largest) {
   return bits;
 }
 
-/// `units` are `stride` apart. Returns the bits.
+/// Rounds a row. `units` are `stride` apart. Returns the bits.
 int round_row(std::span<const double> weights, std::int32_t* units, std::size_t stride) {
   const detail::RowOfWeights<const double> row{weights.data()};
   const auto columns = std::uint32_t(weights.size());
@@ -40,7 +40,7 @@ WeightBlock::WeightBlock(std::size_t point_count, std::size_t column_count)
     : points(point_count), columns(column_count), bits(points), units(points * columns) {}
 
 void round_weights(const CoordinateRows& rows, std::size_t first, WeightBlock& out) {
-  constexpr std::size_t kTile = 16;  // points: one line of the cache in each column
+  constexpr std::size_t kTile = 16;  // points: one line of the processor's cache in each column
   std::vector<std::int32_t> tile(kTile * rows.columns);
   for (std::size_t at = 0; at < rows.points(); at += kTile) {
     const std::size_t count = std::min(kTile, rows.points() - at);

@@ -10,9 +10,9 @@
 #include "lib/voxel/fixed_triangle.h"
 #include "lib/voxel/winding.h"
 
-/// The tile operations, and the coordinates of cages, behind which CpuBackend and CudaBackend stand. One Backend per
-/// worker thread: it owns its scratch (on a GPU: its stream and buffers), allocated on the first call and kept. Results
-/// do not depend on threads, tile size or backend. What fails on a device is a DeviceError; what a call should have
+/// The operations on tiles and on cages' coordinates that CpuBackend and CudaBackend implement. Each worker thread has
+/// one Backend. It owns its scratch (on a GPU: its stream and buffers), allocated on the first call and kept. Results
+/// do not depend on threads, tile size or backend. A failure of a device is a DeviceError; what the call should have
 /// changed is then undefined.
 namespace bp {
 
@@ -20,36 +20,37 @@ class Backend {
  public:
   virtual ~Backend() = default;
   [[nodiscard]] virtual std::string name() const = 0;  ///< "cpu", "cuda:0 NVIDIA H100 80GB HBM3"
-  /// Page-locked memory of the host that it holds, bytes, beside what its calls take.
+  /// Returns the bytes of page-locked host memory that the backend holds, in addition to the memory of its calls.
   [[nodiscard]] virtual std::uint64_t pinned_bytes() const { return 0; }
 
-  /// Sets, in `out`, every voxel whose closed cube meets a triangle (grown by kFixedSlack); keeps what is set.
+  /// Sets, in `out`, every voxel whose closed cube meets a triangle (grown by kFixedSlack), and keeps the set ones.
   /// Triangles may reach outside the box. Exact in integers; [SS10].
   virtual void voxelize(std::span<const FixedTriangle> triangles, BitBox& out) = 0;
 
-  /// Appends the crossings of the tile's columns that lie in the tile, in any order; see lib/voxel/winding.h.
+  /// Appends the crossings of the tile's columns that lie in the tile, in any order (lib/voxel/winding.h).
   virtual void find_crossings(std::span<const FixedTriangle> triangles, const VoxelBox& tile,
                               std::vector<Crossing>& out) = 0;
-  /// fill_winding in lib/voxel/winding.h, for the tile that `bits` is.
+  /// Does what fill_winding() in lib/voxel/winding.h does, for the tile of `bits`.
   virtual void fill_winding(std::vector<Crossing>& crossings, std::span<const std::uint64_t> skip,
                             std::span<std::int32_t> numbers, BitBox& bits) = 0;
 
-  /// See close_tile in lib/closing/closing.h.
+  /// Does what close_tile() in lib/closing/closing.h does.
   virtual void close(const BitBox& solid, const ScaleLattice& scale, const Halo& halo, const ClosingParams& params,
                      const VoxelBox& interior, BitBox& closed) = 0;
 
-  /// The same where the solid voxels lie on a shelf, all of them in `bricks`. A GPU takes and gives only the bricks
-  /// that are neither empty nor full; by default the tile and its halo are loaded into a box.
+  /// Closes a tile whose solid voxels are on a shelf, all of them in `bricks`. A GPU transfers only bricks that are
+  /// neither empty nor full. By default the tile and its halo are loaded into a box.
   virtual void close_from_shelf(const BrickShelf& solid, const BrickBox& bricks, const ScaleLattice& scale,
                                 const Halo& halo, const ClosingParams& params, const VoxelBox& interior,
                                 BitBox& closed);
 
-  /// weigh_points() in lib/deform/weight_block.h. A GPU leaves points on the cage and outside to the calling thread.
+  /// Does what weigh_points() in lib/deform/weight_block.h does. A GPU leaves points on the cage and outside to the
+  /// calling thread.
   virtual void weigh(const CageCoordinates& coordinates, std::span<const Vec3d> points, bool carry_outside,
                      WeightBlock& out, std::span<CoordinateRows::Place> places) = 0;
 
  private:
-  BitBox loaded_;  ///< of close_from_shelf; kept
+  BitBox loaded_;  ///< box of close_from_shelf(); kept
 };
 
 /// One backend per worker thread. Stages hand tile i to any idle backend.

@@ -5,8 +5,8 @@
 
 namespace bp {
 
-/// A device cannot be used, or failed at its work: the same work may still be done elsewhere (FallbackBackend). Tools
-/// end with the exit code of devices.
+/// Thrown if a device cannot be used, or fails at its work. The same work may still be done elsewhere
+/// (FallbackBackend). Tools end with the exit code for devices.
 class DeviceError : public Error {
  public:
   explicit DeviceError(const std::string& message, Remedies remedies = {Remedy::use_cpu})

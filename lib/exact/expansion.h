@@ -1,13 +1,13 @@
 #pragma once
 #include <cmath>
 
-/// Expansion arithmetic: a number is kept as an unevaluated sum of doubles that do not overlap, smallest first, so the
-/// sign is that of the last one. The error-free transformations are due to Knuth and Dekker, the growing of expansions
-/// to Shewchuk (docs/references.md: [Knu69] [Dek71] [She97]). Exact as long as nothing under- or overflows; needs
-/// rounding to nearest and no contraction of a*b+c.
+/// Expansion arithmetic. A number is an unevaluated sum of doubles that do not overlap, smallest first, so its sign is
+/// that of the last one. The error-free transformations are due to Knuth and Dekker, the growing of expansions to
+/// Shewchuk (docs/references.md: [Knu69] [Dek71] [She97]). The arithmetic is exact if nothing underflows or overflows.
+/// It needs rounding to nearest and no contraction of a*b+c.
 namespace bp {
 
-/// value + error, exactly.
+/// The pair stands for value + error, exactly.
 struct ExactPair {
   double value, error;
 };
@@ -24,11 +24,12 @@ struct ExactPair {
   return {p, std::fma(a, b, -p)};
 }
 
-/// Doubles have bits from 2^-1074 to 2^1023 and components have distinct ones, so no expansion is longer than this.
+/// Bits of doubles range from 2^-1074 to 2^1023, and components have distinct bits, so no expansion is longer than
+/// this.
 constexpr int kAnyLength = 2100;
 
-/// Exact sum of at most `kMax` doubles, or of any number of finite ones if kMax >= kAnyLength. Components are non-zero,
-/// do not overlap, and grow in magnitude.
+/// An exact sum of at most `kMax` doubles, or of any number of finite ones if kMax >= kAnyLength. Components are
+/// non-zero, do not overlap, and grow in magnitude.
 template <int kMax>
 class Expansion {
  public:
@@ -37,7 +38,7 @@ class Expansion {
     int n = 0;
     for (int i = 0; i < n_; ++i) {
       const ExactPair s = two_sum(x, part_[i]);
-      if (s.error != 0) part_[n++] = s.error;  // n <= i: never overwrites a part still to be read
+      if (s.error != 0) part_[n++] = s.error;  // n <= i: it never overwrites a part that is still to be read
       x = s.value;
     }
     if (x != 0) part_[n++] = x;

@@ -6,15 +6,15 @@
 #include "lib/exact/predicates.h"
 
 // Ear clipping (Meisters 1975, [Mei75]). An ear is a corner that turns to the left and whose triangle with its
-// neighbours holds no other corner; a simple polygon always has two. Clipping one leaves a simple polygon. If another
-// corner is in the triangle, one that does not turn to the left is, too: the one nearest to the tip. So only such
-// corners are looked at (blockers_). Clipping makes angles smaller: no corner becomes a blocker.
+// neighbours holds no other corner. A simple polygon always has two ears, and clipping one leaves a simple polygon. If
+// another corner is in the triangle, then one that does not turn to the left is in it, too: the one nearest to the tip.
+// So the search looks only at such corners (blockers_). Clipping makes angles smaller, so no corner becomes a blocker.
 
 namespace bp {
 
 namespace {
 
-/// The sum of the normals of the fan's triangles, each as long as twice its area.
+/// Returns the sum of the normals of the fan's triangles, each as long as twice its area.
 Vec3d newell_normal(std::span<const Vec3d> p) {
   Vec3d n{}, from{};
   for (std::size_t k = 1; k < p.size(); ++k) {
@@ -91,8 +91,8 @@ int PolygonCutter::turn(std::uint32_t a, std::uint32_t b, std::uint32_t c) const
   return orient2d(points_[a], points_[b], points_[c], 2);
 }
 
-/// False if what is left has no ear, or folds. After an ear the corner behind it is passed over, so that not all ears
-/// are thin ones around it. A quad's two triangles are the fan from its second corner.
+/// Clips ears until a triangle is left. Returns false if the rest has no ear, or folds. After an ear, the corner behind
+/// it is passed over; else all ears could be thin ones around that corner. A quad gets the fan from its second corner.
 bool PolygonCutter::clip() {
   triangles_.clear();
   std::uint32_t tip = 1;
@@ -104,7 +104,8 @@ bool PolygonCutter::clip() {
   return turn(first, second, third) >= 0;
 }
 
-/// Clips the first ear from `tip` on; without one, what a double edge or equal corners leave: a corner of no area.
+/// Clips the first ear from `tip` on. If there is none, it clips a corner without area, as a double edge or equal
+/// corners leave.
 bool PolygonCutter::clip_any(std::uint32_t& tip) {
   std::uint32_t found = tip;
   std::size_t tried = 0;
@@ -133,7 +134,7 @@ bool PolygonCutter::is_ear(std::uint32_t tip) {
   return ears_[tip] == Ear::yes;
 }
 
-/// No other corner is in the triangle of the tip, which has an area.
+/// Returns true if no other corner is in the triangle of the tip, which has an area.
 bool PolygonCutter::is_free(std::uint32_t tip) const {
   const std::array<std::uint32_t, 3> ear{before_[tip], tip, after_[tip]};
   const std::size_t across = 1 - along_;
@@ -148,8 +149,8 @@ bool PolygonCutter::is_free(std::uint32_t tip) const {
   return true;
 }
 
-/// A corner in the closed triangle. One that lies on a corner of the triangle, as at both ends of a double edge, does
-/// so only if the outline goes on into the triangle from there.
+/// Returns whether corner `p` lies in the closed triangle. A corner on a corner of the triangle, as at both ends of a
+/// double edge, counts only if the outline goes on into the triangle from there.
 bool PolygonCutter::blocks(std::uint32_t p, const std::array<std::uint32_t, 3>& ear) const {
   if (std::find(ear.begin(), ear.end(), p) != ear.end()) return false;
   for (std::size_t k = 0; k < 3; ++k) {

@@ -8,20 +8,20 @@
 
 #include "lib/core/coords.h"
 
-/// How a polygon is cut into triangles: by every reader of scenes and of meshes, so that all tools see the same ones.
+/// Cuts polygons into triangles. Every reader of scenes and of meshes uses it, so all tools see the same triangles.
 namespace bp {
 
 /// Numbers of corners, in the order in which the polygon has them.
 using CutTriangle = std::array<std::uint32_t, 3>;
 
-/// Triangle i of the fan from the first corner.
+/// Returns triangle i of the fan from the first corner.
 [[nodiscard]] constexpr CutTriangle fan_triangle(std::size_t i) {
   return {0, std::uint32_t(i + 1), std::uint32_t(i + 2)};
 }
 
-/// True only if PolygonCutter gives the fan for this quad: a quick answer for most quads. The axis is that of the
-/// quad's normal. A component of a triangle's normal is off by less than 5 u (|l| + |r|), where l and r are its two
-/// products (predicates.h). Their sum is at most the squares of the three differences.
+/// Returns true only if PolygonCutter gives the fan for this quad. It is a quick answer for most quads. The axis is the
+/// largest component of the quad's normal. A component of a triangle's normal is off by less than 5 u (|l| + |r|),
+/// where l and r are its two products (predicates.h). Their sum is at most the squares of the three differences.
 [[nodiscard]] inline bool is_surely_fan(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) {
   const double ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2];
   const double vx = c[0] - a[0], vy = c[1] - a[1], vz = c[2] - a[2];
@@ -36,23 +36,20 @@ using CutTriangle = std::array<std::uint32_t, 3>;
   return first * second > 0 && std::min(std::abs(first), std::abs(second)) > 6 * 0x1p-53 * squares;
 }
 
-/// Cuts polygons, one after the other. Signs are exact, so the result depends on nothing but the corners.
+/// Cuts one polygon after the other. Signs are exact, so the result depends only on the corners.
 class PolygonCutter {
  public:
-  static constexpr std::size_t kMostCorners = 4096;  ///< of a polygon that is more than a fan: bounds time and memory
+  static constexpr std::size_t kMostCorners = 4096;  ///< of a polygon that is cut by ears: bounds time and memory
 
-  /// The n - 2 triangles of a polygon of n corners; empty: those of its fan. Valid until the next call.
-  ///
+  /// Returns the n - 2 triangles of a polygon of n corners; empty for those of its fan. Valid until the next call.
   /// The polygon is seen along the axis that its normal (Newell's, the sum of the fan's normals) is nearest to. A
-  /// triangle that faces the other way there *folds*. The fan stays if none of its triangles folds; each polygon that
-  /// is convex there keeps it. Else ears are clipped, which gives triangles without folds if the polygon is simple
-  /// there, or has a hole that a double edge leads to. The fan stays, too, if no such triangles are found (the outline
-  /// crosses itself), if there are more than kMostCorners corners, or one is outside of the predicates' domain.
-  ///
-  /// Triangles without folds are those of the polygon: the edges between them cancel, so as many triangles lie over a
-  /// point as the outline winds around it. A simple outline does so once inside, and nowhere else.
-  ///
-  /// Time: n for a fan, at most n² else (4,096 corners: 10 ms at most in the shapes tried).
+  /// triangle *folds* if it faces the other way there. If no triangle of the fan folds, the fan stays, as for each
+  /// polygon that is convex there. Otherwise ears are clipped. That gives triangles without folds if the polygon is
+  /// simple there, or has a hole that a double edge leads to. The fan stays also if no such triangles are found,
+  /// because the outline crosses itself; if there are more than kMostCorners corners; or if a corner is outside of the
+  /// predicates' domain. Triangles without folds cover exactly the polygon: the edges between them cancel, so as many
+  /// triangles lie over a point as the outline winds around it. A simple outline winds once around points inside, and
+  /// around no others. Time: n for a fan, else at most n² (4,096 corners took 10 ms at most in the shapes tried).
   [[nodiscard]] std::span<const CutTriangle> cut(std::span<const Vec3d> corners);
 
  private:
@@ -74,8 +71,8 @@ class PolygonCutter {
   std::vector<std::uint32_t> before_, after_;
   std::vector<Ear> ears_;
   std::vector<bool> removed_;
-  std::vector<std::uint32_t> blockers_;  // corners that are not strictly convex, by their place along along_
-  std::size_t along_ = 0, left_ = 0;     // left_: corners that are not clipped yet
+  std::vector<std::uint32_t> blockers_;  // places along along_ of the corners that are not strictly convex
+  std::size_t along_ = 0, left_ = 0;     // left_: number of corners that are not clipped yet
 };
 
 }  // namespace bp

@@ -1,6 +1,5 @@
-// All terms of the determinant are enumerated and added (expansion.h) rather than refined in stages: a scene seldom
-// comes here, and what does (coplanar faces, shared edges) mostly has exact differences and many zero terms, which cost
-// nothing.
+// All terms of the determinant are added (expansion.h). Refinement in stages was rejected: a scene seldom gets here,
+// and the usual cases (coplanar faces, shared edges) have exact differences and many zero terms, which cost nothing.
 #include "lib/exact/predicates.h"
 
 #include "lib/exact/expansion.h"

@@ -17,17 +17,16 @@
 /// Domain:
 ///   LatticeCoord  |coordinate| <= 2^40. Differences are at most 2^41, the six products of a determinant at most 2^123,
 ///                 their sum below 2^126: a 128-bit integer holds it. (A grid of 2^31 voxels needs 2^37.)
-///   Vec3d         each coordinate zero or between 1e-90 and 1e90 in magnitude. Such a number, hence each difference,
-///   is
-///                 a multiple of 2^-351, each term of a determinant a multiple of 2^-1053 and below 1e272: nothing
-///                 underflows or overflows, so the error-free transformations below are error free. Outside the domain
-///                 the result is some sign; in_predicate_domain() tells.
+///   Vec3d         Each coordinate is zero or between 1e-90 and 1e90 in magnitude. Such a number, hence each
+///                 difference, is a multiple of 2^-351. Each term of a determinant is a multiple of 2^-1053 and below
+///                 1e272. Nothing underflows or overflows, so the transformations below are free of error. Outside the
+///                 domain the sign is arbitrary; in_predicate_domain() tells.
 /// Doubles assume rounding to nearest and no contraction of a*b+c (-ffp-contract=off).
 namespace bp {
 
 __extension__ typedef __int128 int128;
 
-/// True if the predicates are exact for coordinate `x`. False for NaN and infinities.
+/// Returns true if the predicates are exact for coordinate `x`. NaN and infinities give false.
 [[nodiscard]] inline bool in_predicate_domain(double x) {
   const double m = std::abs(x);
   return x == 0 || (m >= 1e-90 && m <= 1e90);
@@ -43,18 +42,18 @@ template <class T>
 
 namespace detail {
 
-/// Expansion arithmetic, the slow and certain way; called when the filter cannot decide.
+/// Decides by expansion arithmetic: slow and certain. It is called if the filter cannot decide.
 [[nodiscard]] int orient3d_exact(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d);
 [[nodiscard]] int orient2d_exact(const Vec3d& a, const Vec3d& b, const Vec3d& c, int axis);
 
-/// True if all of x, y, z are in [-2^20, 2^20): products of three then fit in 64 bits.
+/// Returns true if all of x, y, z are in [-2^20, 2^20). Then products of three fit in 64 bits.
 constexpr bool short_vector(const LatticeCoord& v) {
   constexpr std::int64_t half = std::int64_t(1) << 20;
   return std::uint64_t(v.x + half) < 2 * half && std::uint64_t(v.y + half) < 2 * half &&
          std::uint64_t(v.z + half) < 2 * half;
 }
 
-/// u x v . w, |result| <= 6 max|u| max|v| max|w|.
+/// Returns u x v . w. |result| <= 6 max|u| max|v| max|w|.
 template <class Int>
 constexpr Int triple_product(const LatticeCoord& u, const LatticeCoord& v, const LatticeCoord& w) {
   return (Int(u.y) * v.z - Int(u.z) * v.y) * w.x + (Int(u.z) * v.x - Int(u.x) * v.z) * w.y +
@@ -63,7 +62,7 @@ constexpr Int triple_product(const LatticeCoord& u, const LatticeCoord& v, const
 
 }  // namespace detail
 
-/// The determinant itself: six times the signed volume of the tetrahedron, in cubed lattice units.
+/// Returns the determinant itself: six times the signed volume of the tetrahedron, in cubed lattice units.
 [[nodiscard]] constexpr int128 orient3d_value(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoord& c,
                                               const LatticeCoord& d) {
   return detail::triple_product<int128>(b - a, c - a, d - a);
@@ -82,7 +81,7 @@ constexpr Int triple_product(const LatticeCoord& u, const LatticeCoord& v, const
   return sign_of(int128(b[i] - a[i]) * (c[j] - a[j]) - int128(b[j] - a[j]) * (c[i] - a[i]));
 }
 
-/// The plane of three points, for questions about many: side(d) is orient3d(a, b, c, d), exactly.
+/// The plane of three points, for many queries: side(d) is orient3d(a, b, c, d), exactly.
 template <class P>
 class PlaneOf {
  public:
@@ -93,11 +92,11 @@ class PlaneOf {
   P a_, b_, c_;
 };
 
-/// Filter. Each of the six terms of the computed determinant passes through at most 8 roundings (three differences, two
-/// products, the difference of two products, two additions), so with u = 2^-53
+/// The filter. Each of the six terms of the computed determinant passes through at most 8 roundings (three differences,
+/// two products, the difference of two products, two additions). So with u = 2^-53
 ///   |computed - exact| <= ((1 + u)^8 - 1) * (sum of the exact |terms|) <= ((1 + u)^8 - 1) / (1 - u)^8 * permanent
-/// for the permanent as computed; that factor is below 8.00001 u, and 9 u also covers the rounding of the bound. Where
-/// the bound underflows (permanent below 2^-1000), the terms are multiples of 2^-1053 with at most 53 bits and the
+/// for the permanent as computed. That factor is below 8.00001 u, and 9 u also covers the rounding of the bound. If the
+/// bound underflows (permanent below 2^-1000), the terms are multiples of 2^-1053 with at most 53 bits, and the
 /// determinant is computed without any error.
 template <>
 class PlaneOf<Vec3d> {
@@ -128,7 +127,8 @@ class PlaneOf<Vec3d> {
   return PlaneOf<Vec3d>(a, b, c).side(d);
 }
 
-/// Filter: as above with 4 roundings a term (two differences, a product, an addition); 5 u covers the bound's own.
+/// The filter is the one above, with 4 roundings a term (two differences, a product, an addition). 5 u also covers the
+/// rounding of the bound.
 [[nodiscard]] inline int orient2d(const Vec3d& a, const Vec3d& b, const Vec3d& c, int axis) {
   const std::size_t i = std::size_t(axis + 1) % 3, j = std::size_t(axis + 2) % 3;
   const double l = (b[i] - a[i]) * (c[j] - a[j]), r = (b[j] - a[j]) * (c[i] - a[i]);
@@ -139,7 +139,7 @@ class PlaneOf<Vec3d> {
   return detail::orient2d_exact(a, b, c, axis);
 }
 
-/// True if a, b, c lie on one line (or coincide): a triangle of exactly zero area.
+/// Returns true if a, b, c lie on one line or coincide: the triangle has exactly zero area.
 template <class P>
 [[nodiscard]] bool collinear(const P& a, const P& b, const P& c) {
   return orient2d(a, b, c, 2) == 0 && orient2d(a, b, c, 0) == 0 && orient2d(a, b, c, 1) == 0;

@@ -2,13 +2,13 @@
 #include "lib/exact/predicates.h"
 
 /// Exact intersection tests of closed triangles (edges and corners belong to them), for Vec3d and LatticeCoord alike.
-/// Every coincidence is decided, not avoided: touching counts as meeting, in whichever way it happens. The domain is
-/// that of the predicates.
+/// Every coincidence is decided, not avoided: touching counts as meeting, however it happens. The domain is that of the
+/// predicates.
 namespace bp {
 
 namespace detail {
 
-/// An axis whose removal does not flatten triangle t; t has positive area.
+/// Returns an axis whose removal does not flatten triangle t, which has positive area.
 template <class P>
 [[nodiscard]] int projection_axis(const P t[3], int& orientation) {
   for (int axis = 2; axis > 0; --axis)
@@ -17,7 +17,7 @@ template <class P>
   return 0;
 }
 
-/// True if an edge of t has all `n` points strictly on its outer side, in the projection along `axis`.
+/// Returns true if an edge of t has all `n` points strictly on its outer side, in the projection along `axis`.
 template <class P>
 [[nodiscard]] bool edge_separates(const P t[3], int orientation, int axis, const P* points, int n) {
   for (int e = 0; e < 3; ++e) {
@@ -28,8 +28,8 @@ template <class P>
   return false;
 }
 
-/// Segment pq and triangle t in one plane. Compact convex figures in the plane are disjoint iff a line along an edge of
-/// one of them leaves the other strictly on its far side.
+/// Returns whether segment pq meets triangle t in the same plane. Compact convex figures in a plane are disjoint iff a
+/// line along an edge of one of them leaves the other strictly on its far side.
 template <class P>
 [[nodiscard]] bool coplanar_segment_meets_triangle(const P& p, const P& q, const P t[3]) {
   int orientation = 0;
@@ -44,16 +44,16 @@ template <class P>
 [[nodiscard]] bool coplanar_triangles_intersect(const P a[3], const P b[3]) {
   int orientation_a = 0, orientation_b = 0;
   const int axis = projection_axis(a, orientation_a);
-  orientation_b = orient2d(b[0], b[1], b[2], axis);  // same plane: not flattened either
+  orientation_b = orient2d(b[0], b[1], b[2], axis);  // the same plane, so the axis does not flatten it either
   return !edge_separates(a, orientation_a, axis, b, 3) && !edge_separates(b, orientation_b, axis, a, 3);
 }
 
-/// Segment pq and triangle t, given the sides of p and q of the plane of t.
+/// Returns whether segment pq meets triangle t, given the sides of p and q of the plane of t.
 template <class P>
 [[nodiscard]] bool segment_meets_triangle(const P& p, const P& q, const P t[3], int side_p, int side_q) {
   if (side_p * side_q > 0) return false;
   if (side_p == 0 && side_q == 0) return coplanar_segment_meets_triangle(p, q, t);
-  // pq meets the plane in one point, which is in t iff the line pq passes all three edges on one side.
+  // The line pq meets the plane in one point, which is in t iff pq passes all three edges on one side.
   const int s0 = orient3d(p, q, t[0], t[1]);
   const int s1 = orient3d(p, q, t[1], t[2]);
   if (s0 * s1 < 0) return false;
@@ -70,15 +70,15 @@ template <class P>
   return false;
 }
 
-/// Sides of the corners of a of the plane of b. False if all lie strictly on one side.
+/// Computes the sides of the corners of `a` of the plane of `b`. Returns false if all lie strictly on one side.
 template <class P>
 [[nodiscard]] bool reaches_plane(const P a[3], const PlaneOf<P>& b, int side[3]) {
   for (int i = 0; i < 3; ++i) side[i] = b.side(a[i]);
   return side[0] == 0 || side[0] != side[1] || side[0] != side[2];
 }
 
-/// The corner of a triangle that a plane parts from the other two, given the sides of all three, and its side, in which
-/// the others do not lie. Where the plane only touches it, the two others lie on one side.
+/// The corner of a triangle that a plane separates from the other two, and its side. The other two do not lie on that
+/// side. If the plane only touches the corner, the other two lie on one side.
 struct Apart {
   int corner, side;
 };
@@ -91,14 +91,15 @@ struct Apart {
   return {0, 0};  // not reached if the plane meets the triangle but does not hold it
 }
 
-/// Triangles that meet each other's plane, in the line of both planes: whether their parts of this line meet. Turned so
-/// that the corner apart is a positive one of both planes, each part runs in the same direction from the edge after
-/// that corner to the edge before it, and orientations of corners tell which end comes first ([GD03]).
+/// Returns whether two triangles, which meet each other's plane, meet in the line of both planes, that is, whether
+/// their parts of this line meet. The triangles are turned so that each separate corner lies on the positive side of
+/// the other's plane. Then each part of the line runs in the same direction, from the edge after that corner to the
+/// edge before it, and orientations of corners tell which end comes first ([GD03]).
 template <class P>
 [[nodiscard]] bool parts_of_line_meet(const P a[3], const P b[3], const int side_a[3], const int side_b[3]) {
   const Apart in_a = corner_apart(side_a), in_b = corner_apart(side_b);
   const auto corner = [](const P t[3], int first, int k) -> const P& { return t[(first + k) % 3]; };
-  // The other triangle, turned around, has the corner apart on the positive side.
+  // Turning the other triangle around puts the separate corner on the positive side.
   const int step_a = in_b.side > 0 ? 1 : 2, step_b = in_a.side > 0 ? 1 : 2;
   const P &pa = corner(a, in_a.corner, 0), &qa = corner(a, in_a.corner, step_a),
           &ra = corner(a, in_a.corner, 3 - step_a);
@@ -109,14 +110,14 @@ template <class P>
 
 }  // namespace detail
 
-/// True if segment pq (possibly a point) meets triangle t, which must have positive area.
+/// Returns true if segment pq (possibly a point) meets triangle t, which must have positive area.
 template <class P>
 [[nodiscard]] bool segment_meets_triangle(const P& p, const P& q, const P t[3]) {
   return detail::segment_meets_triangle(p, q, t, orient3d(t[0], t[1], t[2], p), orient3d(t[0], t[1], t[2], q));
 }
 
-/// True if two triangles have a point in common. Both must have positive area. `plane_b`: of b. 3 to 8 orientations,
-/// more if they lie in one plane.
+/// Returns true if two triangles have a point in common. Both must have positive area. `plane_b` is the plane of b.
+/// Takes 3 to 8 orientations, more if the triangles lie in one plane.
 template <class P>
 [[nodiscard]] bool triangles_intersect(const P a[3], const P b[3], const PlaneOf<P>& plane_b) {
   int side_a[3], side_b[3];
@@ -130,16 +131,16 @@ template <class P>
   return triangles_intersect(a, b, PlaneOf<P>(b[0], b[1], b[2]));
 }
 
-/// True if a triangle of zero area (a segment, or a point) meets triangle b, which must have positive area.
+/// Returns true if a triangle of zero area (a segment, or a point) meets triangle b, which must have positive area.
 template <class P>
 [[nodiscard]] bool degenerate_triangle_meets(const P a[3], const P b[3]) {
   int side[3];
   return detail::reaches_plane(a, PlaneOf<P>(b[0], b[1], b[2]), side) && detail::any_edge_meets(a, b, side);
 }
 
-/// Triangles that share corner a[shared_a] == b[shared_b]: true if they have any other point in common. Seen from the
-/// shared corner both are stars, so a common point lies on a ray that leaves each through its far edge; the nearer of
-/// the two exits is common to both. Hence: iff the far edge of one meets the other.
+/// Returns true if triangles that share corner a[shared_a] == b[shared_b] have any other point in common. Seen from the
+/// shared corner both are stars, so a common point lies on a ray that leaves each through its far edge, and the nearer
+/// of the two exits is common to both. Hence they meet iff the far edge of one meets the other.
 template <class P>
 [[nodiscard]] bool triangles_meet_beyond_shared_vertex(const P a[3], int shared_a, const P b[3], int shared_b) {
   const P &a1 = a[(shared_a + 1) % 3], &a2 = a[(shared_a + 2) % 3];
@@ -147,8 +148,8 @@ template <class P>
   return segment_meets_triangle(a1, a2, b) || segment_meets_triangle(b1, b2, a);
 }
 
-/// Triangles (u, v, a) and (u, v, b) with a common edge: true if they have any point beyond it in common, that is, if
-/// one is folded onto the other: coplanar, with both apexes on the same side of uv.
+/// Returns true if triangles (u, v, a) and (u, v, b) have any point beyond their common edge in common. That is so if
+/// one is folded onto the other: they are coplanar, with both apexes on the same side of uv.
 template <class P>
 [[nodiscard]] bool triangles_meet_beyond_shared_edge(const P& u, const P& v, const P& a, const P& b) {
   if (orient3d(u, v, a, b) != 0) return false;
@@ -158,9 +159,9 @@ template <class P>
   return orient2d(u, v, b, axis) == orientation;
 }
 
-/// Triangles given by the indices of their corners in `points`: true if they intersect anywhere but in the corner or
-/// the edge that the indices say they share. The same three indices always meet. This is the test of an embedded
-/// surface.
+/// Returns true if two triangles, given by the indices of their corners in `points`, intersect anywhere but in the
+/// corner or edge that the indices say they share. Triangles of the same three indices always meet. This is the test of
+/// an embedded surface.
 template <class P, class Index>
 [[nodiscard]] bool triangles_meet_beyond_shared(const P* points, const std::array<Index, 3>& a,
                                                 const std::array<Index, 3>& b) {

@@ -10,11 +10,11 @@ namespace bp {
 
 namespace {
 
-constexpr double kCellGrowth = 1e-9;        // of a cell, in its edges
-constexpr double kPointRounding = 0x1p-50;  // of a point in doubles beside one of the triangle, in its coordinates
-constexpr double kNear = 1e-12;             // the same, in edges of the cell
+constexpr double kCellGrowth = 1e-9;        // of a cell, as a share of its edges
+constexpr double kPointRounding = 0x1p-50;  // of a point in doubles, as a share of its coordinates
+constexpr double kNear = 1e-12;             // of a point in doubles, as a share of the cell's edges
 
-/// The determinant of orient3d and a bound of its error (lib/exact/predicates.h, "Filter").
+/// The determinant of orient3d() and a bound of its error (lib/exact/predicates.h, "Filter").
 struct Side {
   double value, error;
 };
@@ -31,11 +31,11 @@ Side side_of(const TriangleD& t, const Vec3d& p) {
   return {std::abs(value), 16 * 0x1p-53 * permanent};
 }
 
-/// The hull of boxes, relative to a corner of the cell.
+/// The convex hull of boxes, relative to a corner of the cell.
 using Hull = std::vector<Bounds3d>;
 
-/// Bounds of where segment pq, which meets triangle t, crosses the plane of t: by the ratio of the distances of its
-/// ends. All of pq if it lies in the plane.
+/// Adds bounds of the place where segment pq, which meets triangle t, crosses the plane of t. They follow from the
+/// ratio of the distances of its ends. If pq lies in the plane, it adds all of pq.
 void add_crossing(const Vec3d& p, const Vec3d& q, const TriangleD& t, const Vec3d& corner, Hull& hull) {
   const Side a = side_of(t, p), b = side_of(t, q);
   const double a_lo = std::max(a.value - a.error, 0.0), a_hi = a.value + a.error;
@@ -59,7 +59,7 @@ void add_crossings(const TriangleD& a, const TriangleD& b, const Vec3d& corner, 
   }
 }
 
-/// The least and the largest value of x·a on a box, or a bit beyond.
+/// Returns the least and the largest value of x·a on a box, or a bit beyond.
 std::array<double, 2> extent(const Bounds3d& box, const Vec3d& a) {
   double lo = 0, hi = 0, sum = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -80,8 +80,8 @@ bool separated(const Hull& hull, const Bounds3d& box, const Vec3d& axis) {
   return below || above;
 }
 
-/// True unless an axis surely tells the hull from the box. There is one for every segment that misses the box: an axis
-/// of the box, or one across the segment and an axis of the box.
+/// Returns true unless an axis surely separates the hull from the box. For every segment that misses the box there is
+/// one: an axis of the box, or an axis across the segment and an axis of the box.
 bool may_meet(const Hull& hull, const Bounds3d& box) {
   if (hull.empty()) return true;
   for (std::size_t i = 0; i < 3; ++i) {

@@ -10,16 +10,16 @@ namespace {
 
 constexpr int kLeastExponent = -1074;  // every finite double is a whole multiple of 2^-1074
 
-/// A whole number of any size.
+/// A whole number of any size, as a sign and a magnitude.
 class Wide {
  public:
   Wide() = default;
-  /// x in units of 2^-1074.
+  /// Makes x in units of 2^-1074.
   explicit Wide(double x) : negative_(x < 0) {
     int exponent = 0;
     auto mantissa = std::uint64_t(std::ldexp(std::frexp(std::abs(x), &exponent), 53));
     int shift = exponent - 53 - kLeastExponent;
-    if (shift < 0) mantissa >>= -shift, shift = 0;  // denormal: these bits are 0
+    if (shift < 0) mantissa >>= -shift, shift = 0;  // denormal: the bits shifted out are 0
     const auto first = std::size_t(shift) / 32;
     const int rest = shift % 32;
     const std::uint64_t low = mantissa << rest;
@@ -62,12 +62,12 @@ class Wide {
   void trim() {
     while (!digits_.empty() && digits_.back() == 0) digits_.pop_back();
   }
-  /// In magnitude.
+  /// Compares magnitudes.
   static bool is_less(const Wide& a, const Wide& b) {
     if (a.digits_.size() != b.digits_.size()) return a.digits_.size() < b.digits_.size();
     return std::lexicographical_compare(a.digits_.rbegin(), a.digits_.rend(), b.digits_.rbegin(), b.digits_.rend());
   }
-  /// Of magnitudes, with the sign of a.
+  /// Adds magnitudes, and takes the sign of a.
   static Wide sum(const Wide& a, const Wide& b) {
     Wide s;
     s.negative_ = a.negative_;
@@ -80,7 +80,7 @@ class Wide {
     s.trim();
     return s;
   }
-  /// The same, a not less than b.
+  /// Subtracts magnitudes, and takes the sign of a. |a| must not be less than |b|.
   static Wide difference(const Wide& a, const Wide& b) {
     Wide d;
     d.negative_ = a.negative_;
@@ -94,11 +94,11 @@ class Wide {
     return d;
   }
 
-  std::vector<std::uint32_t> digits_;  // least first, the last one is not 0
+  std::vector<std::uint32_t> digits_;  // the least digit first; the last one is not 0
   bool negative_ = false;
 };
 
-/// Component `i` of q - p.
+/// Returns component `i` of q - p.
 Wide along(const WidePoint& p, const WidePoint& q, std::size_t i) {
   return Wide(q.at[i]) - Wide(p.at[i]);
 }

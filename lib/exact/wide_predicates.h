@@ -1,9 +1,9 @@
 #pragma once
 #include "lib/core/coords.h"
 
-/// The predicates of predicates.h for points with any finite coordinates, from the least double to the largest. Exact,
-/// in integers of some thousand bits: tens of microseconds each, for the few points beyond in_predicate_domain().
-/// Templates over points (triangle_intersection.h) take them as they are.
+/// The predicates of predicates.h for points with any finite coordinates, from the least double to the largest. They
+/// are exact, in integers of some thousand bits, and take tens of microseconds each. Only the few points beyond
+/// in_predicate_domain() need them. Templates over points (triangle_intersection.h) accept such points.
 namespace bp {
 
 struct WidePoint {

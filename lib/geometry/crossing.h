@@ -4,15 +4,15 @@
 /// Winding numbers by counting crossings.
 namespace bp {
 
-/// Signed crossing of triangle t with the ray from p upwards: +1 where the ray leaves through a face turned upwards, -1
-/// downwards, else 0. Exact within the domain of the predicates. Summed over a closed, oriented surface that p does not
-/// lie on, it is the winding number around p.
+/// Returns the signed crossing of triangle t with the ray from p upwards: +1 if the ray leaves through a face turned
+/// upwards, -1 if downwards, 0 if it misses. Exact within the domain of the predicates. Summed over a closed, oriented
+/// surface that p does not lie on, it is the winding number around p.
 ///
-/// To have no special cases, p is moved by (e, e^2, 0) with e infinitesimal: the ray then passes no edge and no
-/// vertical triangle, and since the signs are antisymmetric in the ends of an edge, exactly one of two triangles on
-/// either side of an edge is hit.
+/// To have no special cases, p is moved by (e, e^2, 0) with e infinitesimal. Then the ray passes no edge and no
+/// vertical triangle. The signs are antisymmetric in the ends of an edge, so exactly one of two triangles on either
+/// side of an edge is hit.
 [[nodiscard]] int crossing_above(const TriangleD& t, const Vec3d& p);
-/// The same, exact for any finite coordinates.
+/// Returns the same crossing, exact for any finite coordinates.
 [[nodiscard]] int crossing_above(const WideTriangle& t, const WidePoint& p);
 
 }  // namespace bp

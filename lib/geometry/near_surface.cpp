@@ -1,7 +1,8 @@
-// A part of a triangle is settled by one point of the surface, if all of its corners are near enough to it, or by one
-// triangle: the distance to a convex set is convex, so its largest value over the part is at a corner. Points do for
-// parts smaller than the limit. Where the triangles of the surface are larger, what lies over one of them is cut out of
-// the part, and the rest goes on: halving would have to go down to the limit along all of their edges.
+// One point of the surface proves a part of a triangle near if all corners of the part are near enough to it. One
+// triangle does, too: the distance to a convex set is convex, so its largest value over the part is at a corner. Points
+// suffice for parts smaller than the limit. Where the triangles of the surface are larger, the piece over one of them
+// is cut out of the part, and the rest goes on. Halving alone would have to go down to the limit along all of their
+// edges.
 #include "lib/geometry/near_surface.h"
 
 #include <cmath>
@@ -13,13 +14,13 @@ namespace bp {
 
 namespace {
 
-constexpr double kSearchBelow = 0.25;     // of the limit: larger parts are halved rather than searched for
+constexpr double kSearchBelow = 0.25;     // of the limit: larger parts are halved before any search
 constexpr double kLeastPart = 1.0 / 128;  // of the limit
 constexpr int kMostParts = 4096;
-constexpr double kMargin = 0.5;      // of the limit: what lies so far beside a triangle counts as over it
-constexpr double kWorthwhile = 0.5;  // of the area, to be cut out
+constexpr double kMargin = 0.5;      // of the limit: a point so far beside a triangle still counts as over it
+constexpr double kWorthwhile = 0.5;  // of the part's area: smaller pieces are not cut out
 
-/// Limits may be roots of squared distances themselves, whose squares need not be as large.
+/// A limit may itself be the root of a squared distance, and its square need not be as large as that.
 bool exceeds(double squared, double limit) {
   return squared > limit * limit && std::sqrt(squared) > limit;
 }
@@ -56,14 +57,15 @@ bool NearSurface::holds(const TriangleD& t, double limit) {
   return true;
 }
 
-/// Leaves parts of it in open_ if that does not settle it.
+/// Tries to prove the part near. If it fails, it leaves pieces of the part in open_.
 NearSurface::Answer NearSurface::examine(const TriangleD& part, double limit) {
   const Vec3d c = centre_of(part);
   const Place& place = place_at(c);
   if (!exceeds(radius_squared(part, place.point), limit)) return Answer::yes;
   const double radius = std::sqrt(radius_squared(part, c));
   std::uint32_t item = place.item;
-  const bool large = area_of(to_.item(item).corners) >= kWorthwhile * area_of(part);  // triangle of the surface
+  // The triangle of the surface is large.
+  const bool large = area_of(to_.item(item).corners) >= kWorthwhile * area_of(part);
   if (radius < limit || large) {
     if (is_beside(part, to_.item(item).corners, limit)) return Answer::yes;
     const bool far = exceeds(distance_squared(c, to_.item(item).corners), limit);
@@ -83,7 +85,7 @@ NearSurface::Answer NearSurface::examine(const TriangleD& part, double limit) {
   return Answer::open;
 }
 
-/// The last try: what is nearest to a corner, of which the limit may be the very distance.
+/// Makes the last try, by the triangles nearest to the corners: the limit may be the very distance of one.
 bool NearSurface::is_beside_any(const TriangleD& part, std::uint32_t guess, double limit) const {
   for (const Vec3d& p : part) {
     if (is_beside(part, to_.item(to_.nearest(p, guess).item).corners, limit)) return true;
@@ -91,7 +93,8 @@ bool NearSurface::is_beside_any(const TriangleD& part, std::uint32_t guess, doub
   return false;
 }
 
-/// Whether what lies over `nearest`, or a little beside it, is settled by it and worth it; the rest is open then.
+/// Cuts out the piece over `nearest`, or a little beside it, if the triangle proves it near and it is large enough. The
+/// rest goes to open_. Returns whether it did.
 bool NearSurface::cut_out(const TriangleD& part, const TriangleD& nearest, double limit) {
   const std::size_t before = open_.size();
   const Vec3d normal = cross(nearest[1] - nearest[0], nearest[2] - nearest[0]);

@@ -5,30 +5,30 @@
 
 namespace bp {
 
-/// Are triangles near a surface? For many questions about the same places: what is found near a place is kept, and most
-/// parts of later triangles are settled by it, without a search. Not thread-safe.
+/// Answers whether triangles are near a surface. It is made for many questions about the same places: the surface found
+/// near a place is kept, and proves most parts of later triangles near, without a search. Not thread-safe.
 class NearSurface {
  public:
   static constexpr std::size_t kBytesPerPlace = 32;
 
-  /// Keeps a reference to `to`, which must not be empty. `place`: edge of the cubes that share what is kept, scene
-  /// units: half of the limits that are asked about serves well, or half of a triangle of `to`, if these are larger.
-  /// `places`: how many are kept, kBytesPerPlace each.
+  /// Keeps a reference to `to`, which must not be empty. `place`: edge of the cubes that share a kept result, scene
+  /// units. Half of the usual limit serves well, or half of a triangle of `to` if that is larger. `places`: how many
+  /// cubes are kept, kBytesPerPlace each.
   NearSurface(const TriangleBvh& to, double place, std::size_t places);
 
-  /// Distance from p to the surface; where that is at most `enough`, anything from it to `enough`.
+  /// Returns the distance from p to the surface. If that is at most `enough`, it returns anything from it to `enough`.
   [[nodiscard]] double distance(const Vec3d& p, double enough = 0);
 
-  /// True only if no point of `t` is farther from the surface than `limit` > 0, in floating point. False also for
-  /// triangles that come within about 1 % of it, or need thousands of parts: the search for a proof ends there, and
-  /// where it does may depend on what was asked before.
+  /// Returns true only if no point of `t` is farther from the surface than `limit` > 0, in floating point. It also
+  /// returns false for triangles that come within about 1 % of the limit, or need thousands of parts: the search for a
+  /// proof ends there. Where it ends may depend on earlier questions.
   [[nodiscard]] bool holds(const TriangleD& t, double limit);
 
  private:
   struct Place {
-    std::uint32_t mark = 0;  // tells places that share an entry apart, mostly; 0: none was here
-    std::uint32_t item = 0;  // of to_, near the place
-    Vec3d point{};           // on it
+    std::uint32_t mark = 0;  // tells places that share an entry apart, mostly; 0: the entry is empty
+    std::uint32_t item = 0;  // item of to_ near the place
+    Vec3d point{};           // a point on that item
   };
   static_assert(sizeof(Place) == kBytesPerPlace);
   enum class Answer { yes, no, open };
@@ -40,8 +40,8 @@ class NearSurface {
 
   const TriangleBvh& to_;
   double places_per_unit_;
-  std::vector<Place> places_;  // by hash of where they are
-  std::uint32_t last_ = 0;     // item that was found last
+  std::vector<Place> places_;  // by hash of their coordinates
+  std::uint32_t last_ = 0;     // the item that was found last
   std::vector<TriangleD> open_;
 };
 

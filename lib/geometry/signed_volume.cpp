@@ -8,8 +8,8 @@ namespace bp {
 
 namespace {
 
-constexpr double kLeftOver = 1e-9;   // of the area: what is left over of a closed surface, at most
-constexpr double kOfNormal = 2e-15;  // of its edges' product, beside which a thin triangle's area may be nothing
+constexpr double kLeftOver = 1e-9;   // of the area: the area vectors of a closed surface add up to at most this
+constexpr double kOfNormal = 2e-15;  // of the product of a triangle's edges: its area may be rounding below that
 
 }  // namespace
 

@@ -17,24 +17,24 @@ constexpr std::int64_t kGrain = 512;     // triangles per work item
 constexpr double kMeanPieces = 256;      // pieces along the diagonal, for the mean
 constexpr double kRelativeError = 1e-3;  // of the largest distance
 constexpr double kSmallestError = 1e-7;  // of the diagonal
-constexpr double kRounding = 0x1p-46;    // of the largest coordinate: some ten units in its last place
+constexpr double kRounding = 0x1p-46;    // of the largest coordinate: some ten units in the last place
 
-/// Lengths below it are lost in the rounding of coordinates: nothing is halved down to them.
+/// Returns a length below which rounding of coordinates decides. Nothing is halved further.
 double least_length(const Bounds3d& bounds) {
   double reach = 0;
   for (std::size_t i = 0; i < 3; ++i) reach = std::max({reach, std::abs(bounds.min[i]), std::abs(bounds.max[i])});
   return kRounding * reach;
 }
 
-/// A part of a triangle and what is known of the distances of its points.
+/// A part of a triangle, and bounds of the distances of its points.
 struct Part {
   TriangleD corners;
-  double at_most = 0, at_least = 0;  // of the largest distance of its points
-  Vec3d where{};                     // as far as at_least
-  std::uint32_t nearest = 0;         // to its centre; where the next search starts
+  double at_most = 0, at_least = 0;  // bounds of the largest distance of its points
+  Vec3d where{};                     // a point at the distance at_least
+  std::uint32_t nearest = 0;         // item nearest to its centre; the next search starts there
 };
 
-/// `bar`: parts that surely lie below it are of no interest.
+/// Bounds the distances of the part. `bar`: parts that surely lie below it need no sharp bounds.
 Part examine(const TriangleD& t, const TriangleBvh& to, std::uint32_t guess, double bar) {
   Part part;
   part.corners = t;
@@ -55,17 +55,17 @@ Part examine(const TriangleD& t, const TriangleBvh& to, std::uint32_t guess, dou
   if (part.at_most <= bar) return part;
   const double there = std::sqrt(to.nearest(*farthest, found.item).distance_squared);
   if (there > part.at_least) part.at_least = there, part.where = *farthest;
-  part.at_most = std::max(part.at_most, part.at_least);  // of rounding
+  part.at_most = std::max(part.at_most, part.at_least);  // rounding may have swapped them
   return part;
 }
 
-/// What lies over the triangle nearest to a part is cut out if that settles it (`bar`: see examine()): there, corners
-/// bound the distance best. Appends the rest to `out` and returns the bound of what is settled; nothing if that is
-/// little, or the part so thin that rounding would decide.
+/// Cuts out the piece over the triangle nearest to a part, if `bar` settles that piece (see examine()): there, corners
+/// bound the distance best. Appends the rest to `out` and returns the bound of the piece. Returns nothing if the piece
+/// is small, or the part so thin that rounding would decide.
 std::optional<double> cut_out(const TriangleD& part, const TriangleD& nearest, double bar,
                               std::vector<TriangleD>& out) {
   constexpr double kThin = 1e-6;                  // area over the longest edge squared
-  constexpr double kWorthwhileInside = 1.0 / 16;  // of the area
+  constexpr double kWorthwhileInside = 1.0 / 16;  // of the part's area
   const std::size_t apex = apex_of(part);
   const double whole = area_of(part);
   if (whole <= kThin * length_squared(part[(apex + 1) % 3], part[(apex + 2) % 3])) return std::nullopt;
@@ -86,7 +86,7 @@ std::optional<double> cut_out(const TriangleD& part, const TriangleD& nearest, d
   return std::nullopt;
 }
 
-/// Sum of distance times area over `t`, in pieces no longer than `step`.
+/// Returns the sum of distance times area over `t`, in pieces no longer than `step`.
 double integral(const TriangleD& t, const TriangleBvh& to, double step, std::uint32_t& guess) {
   double sum = 0;
   std::vector<TriangleD> stack{t};
@@ -110,7 +110,7 @@ struct Chunk {
   double integral = 0, area = 0;
 };
 
-/// `step`: of the integrals; 0: none.
+/// `step`: of the integrals; 0: no integrals.
 std::vector<Chunk> examine_all(const std::vector<TriangleD>& from, const TriangleBvh& to, double step) {
   const auto n = std::int64_t(from.size());
   std::vector<Chunk> chunks(std::size_t((n + kGrain - 1) / kGrain));
@@ -125,7 +125,7 @@ std::vector<Chunk> examine_all(const std::vector<TriangleD>& from, const Triangl
         chunk.integral += integral(from[i], to, step, guess_mean);
         chunk.area += area_of(from[i]);
       }
-      if (part.at_most <= at_least) continue;  // cannot hold the largest
+      if (part.at_most <= at_least) continue;  // the part cannot hold the largest distance
       at_least = std::max(at_least, part.at_least);
       chunk.parts.push_back(std::move(part));
     }
@@ -133,7 +133,8 @@ std::vector<Chunk> examine_all(const std::vector<TriangleD>& from, const Triangl
   return chunks;
 }
 
-/// Best first, in rounds: the parts of a round are split in parallel. Rounds do not depend on the number of threads.
+/// Splits the best parts first, in rounds; the parts of a round are split in parallel. Rounds do not depend on the
+/// number of threads.
 class Search {
  public:
   Search(const TriangleBvh& to, SurfaceDistance& result, double smallest, const SearchEffort& effort)
@@ -189,10 +190,10 @@ class Search {
   }
 
  private:
-  /// In one part.
+  /// The pieces that were found in one part.
   struct Found {
     std::vector<Part> parts;
-    double settled = 0;  // bound for the rest of it
+    double settled = 0;  // bound of the pieces that need no further look
   };
   static constexpr auto kLess = [](const Part& a, const Part& b) { return a.at_most < b.at_most; };
 
@@ -200,7 +201,7 @@ class Search {
   [[nodiscard]] bool done() const {
     return open_.empty() || !(open_.front().at_most > bar()) || result_.at_least > effort_.enough;
   }
-  /// Of half the open parts, those that are bounded best. The answer will be no sharper than their bound.
+  /// Gives up half of the open parts: those with the smallest bounds. The answer will be no sharper than their bound.
   void let_go() {
     const auto half = open_.begin() + std::ptrdiff_t(open_.size() / 2);
     std::nth_element(open_.begin(), half, open_.end(), [](const Part& a, const Part& b) { return kLess(b, a); });
@@ -218,7 +219,7 @@ class Search {
 
   const TriangleBvh& to_;
   SurfaceDistance& result_;
-  double smallest_, settled_ = 0;  // least error of interest; bound of all parts that are not open
+  double smallest_, settled_ = 0;  // the least error of interest; a bound of all parts that are not open
   const SearchEffort effort_;
   std::vector<Part> open_;  // a heap
 };

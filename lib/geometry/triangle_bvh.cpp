@@ -1,6 +1,6 @@
-// Top-down build, splits chosen by the surface area heuristic over bins (docs/references.md: [Wald07]). The upper
-// levels are split one after the other, then the subtrees are built in parallel and appended in order: where they start
-// depends on n alone, so the tree does not depend on the number of threads.
+// The build goes top down. The surface area heuristic over bins chooses the splits (docs/references.md: [Wald07]). The
+// upper levels are split one after the other. Then the subtrees are built in parallel and appended in order. Their
+// places depend on n alone, so the tree does not depend on the number of threads.
 #include "lib/geometry/triangle_bvh.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace bp {
 namespace {
 
 constexpr int kBins = 16;
-constexpr int kMaxHeuristicDepth = 58;  // below it the median halves the count: 31 more levels at most
+constexpr int kMaxHeuristicDepth = 58;  // below it the median halves the count, which adds 31 levels at most
 
 double half_area(const Bounds3d& b) {
   if (b.empty()) return 0;
@@ -24,14 +24,14 @@ double half_area(const Bounds3d& b) {
 
 typedef double DoublePair __attribute__((vector_size(16)));
 
-/// Edges of a triangle, and what they tell of a point: one at a time with T = double, two with DoublePair.
+/// The edges of a triangle seen from a point. T is double for one triangle, DoublePair for two at once.
 template <class T>
 struct Edges {
   using Vec = std::array<T, 3>;
-  Vec along, to_point;  // from where each begins
+  Vec along, to_point;  // edge vectors, and vectors from the start of each edge to the point
 
   static T dot(const Vec& a, const Vec& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-  /// 0 or more where the point is on the triangle's side of the plane along the edge; `n`: the triangle's normal.
+  /// Returns 0 or more if the point is on the triangle's side of the plane along the edge. `n`: the triangle's normal.
   [[nodiscard]] T inwards(const Vec3d& n) const {
     const auto& [x, y, z] = along;
     const auto& [u, v, w] = to_point;
@@ -106,7 +106,7 @@ Vec3d nearest_point(const Vec3d& p, const TriangleD& t) {
 }
 
 double along_segment(const Vec3d& start, const Vec3d& direction, const TriangleD& t) {
-  constexpr double kSlack = 1e-9;  // of a side: no ray passes between two triangles
+  constexpr double kSlack = 1e-9;  // of a side, so that no ray passes between two triangles
   const Vec3d u = t[1] - t[0], v = t[2] - t[0], p = cross(direction, v);
   const double det = dot(u, p);
   if (det == 0) return NAN;
@@ -154,13 +154,13 @@ struct TriangleBvh::Builder {
     return b;
   }
 
-  /// Where to divide [begin, end), which is reordered; strictly inside.
+  /// Divides [begin, end), which is reordered, and returns the place, strictly inside.
   std::uint32_t split(std::uint32_t begin, std::uint32_t end, int depth) {
     Vec3d low, high;
     centre_range(begin, end, low, high);
     const Vec3d extent = high - low;
     const std::size_t axis = std::size_t(std::max_element(extent.begin(), extent.end()) - extent.begin());
-    // Also taken when the extent is zero (all centres equal) or not finite.
+    // The extent may be zero (all centres are equal) or not finite.
     if (depth >= kMaxHeuristicDepth || !(extent[axis] > 0) || !(kBins / extent[axis] < HUGE_VAL))
       return median(begin, end, axis);
     const double factor = kBins / extent[axis];
@@ -195,7 +195,7 @@ struct TriangleBvh::Builder {
     return middle;
   }
 
-  /// The bin that starts the right side, so that the sum of area times count is least.
+  /// Returns the bin that starts the right side, so that the sum of area times count is least.
   static int best_cut(const Bin (&bins)[kBins]) {
     double right_cost[kBins] = {};
     Bounds3d box;
@@ -216,7 +216,7 @@ struct TriangleBvh::Builder {
     return best;
   }
 
-  /// Builds below `tasks`, leaving those of at most `stop` triangles undone; returns them in the order of their
+  /// Builds below `tasks`, and leaves those of at most `stop` triangles undone. Returns these in the order of their
   /// triangles.
   std::vector<Task> build(std::vector<Node>& nodes, std::vector<Task> tasks, std::uint32_t stop) {
     std::vector<Task> left;

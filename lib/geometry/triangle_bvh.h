@@ -5,8 +5,8 @@
 
 #include "lib/core/box.h"
 
-/// Bounding volume hierarchy over triangles of doubles. A box is the exact bounds of its triangles
-/// (minima and maxima of doubles round nowhere), so no triangle is ever missed.
+/// A bounding volume hierarchy over triangles of doubles. A box is the exact bounds of its triangles, since minima and
+/// maxima of doubles are not rounded. So no triangle is ever missed.
 namespace bp {
 
 [[nodiscard]] inline Bounds3d bounds_of(const TriangleD& t) {
@@ -14,7 +14,7 @@ namespace bp {
   for (const Vec3d& p : t) b.add(p);
   return b;
 }
-/// Closed boxes: touching counts.
+/// Returns whether two closed boxes meet; touching counts.
 [[nodiscard]] inline bool overlap(const Bounds3d& a, const Bounds3d& b) {
   return a.min[0] <= b.max[0] && b.min[0] <= a.max[0] && a.min[1] <= b.max[1] && b.min[1] <= a.max[1] &&
          a.min[2] <= b.max[2] && b.min[2] <= a.max[2];
@@ -27,20 +27,21 @@ class TriangleBvh {
     std::uint32_t id;  ///< position in the vector that the hierarchy was built from
   };
   struct Hit {
-    double along;        ///< the place is start + along * direction; in [0, 1]
-    std::uint32_t item;  ///< for item()
+    double along;        ///< the place is start + along * direction; along is in [0, 1]
+    std::uint32_t item;  ///< number for item()
   };
   struct Nearest {
     double distance_squared;
-    std::uint32_t item;  ///< for item()
+    std::uint32_t item;  ///< number for item()
   };
 
-  /// O(n log n), parallel, the same tree for any number of threads. Coordinates must be finite; at most 2^31 triangles.
+  /// Builds the tree: O(n log n), parallel, the same tree for any number of threads. Coordinates must be finite; at
+  /// most 2^31 triangles.
   explicit TriangleBvh(const std::vector<TriangleD>& triangles);
 
   [[nodiscard]] bool empty() const { return items_.empty(); }
   [[nodiscard]] std::size_t size() const { return items_.size(); }
-  /// In an order of spatial neighbours.
+  /// Returns triangle i in an order of spatial neighbours.
   [[nodiscard]] const Item& item(std::size_t i) const { return items_[i]; }
   [[nodiscard]] std::uint64_t bytes() const { return items_.size() * sizeof(Item) + nodes_.size() * sizeof(Node); }
 
@@ -57,24 +58,24 @@ class TriangleBvh {
     };
     walk(meets, [&](const Item& item) { return f(item), false; });
   }
-  /// The first triangle on the ray from `start`, up to start + most * direction (at most 1), that accept(item, along)
-  /// takes; of several at one place the one that is before(item, item) the others. In floating point; triangles count
-  /// from both sides. Triangles that lie behind the answer may be offered to accept(), too.
+  /// Returns the first triangle on the ray from `start` to start + most * direction (`most` is at most 1) that
+  /// accept(item, along) takes. If several are at one place, it is the one that is before(item, item) the others. In
+  /// floating point; triangles count from both sides. accept() may also be asked about triangles behind the answer.
   template <class Accept, class Before>
   [[nodiscard]] std::optional<Hit> first_along(const Vec3d& start, const Vec3d& direction, double most,
                                                const Accept& accept, const Before& before) const;
-  /// The nearest triangle whose squared distance is at most `most`, and that accept(item) takes; of several the one
-  /// that is before(item, item) the others. In floating point.
+  /// Returns the nearest triangle whose squared distance is at most `most` and that accept(item) takes. If there are
+  /// several, it is the one that is before(item, item) the others. In floating point.
   template <class Accept, class Before>
   [[nodiscard]] std::optional<Nearest> nearest_within(const Vec3d& p, double most, const Accept& accept,
                                                       const Before& before) const;
-  /// The nearest triangle (one of them), in floating point. `guess` is where the search starts: the answer for a point
-  /// close by makes it fast. The distance does not depend on it. Must not be empty.
+  /// Returns the nearest triangle (one of them), in floating point. The search starts at item `guess`: the answer for a
+  /// point close by makes it fast. The distance does not depend on it. The tree must not be empty.
   [[nodiscard]] Nearest nearest(const Vec3d& p, std::uint32_t guess = 0) const { return near_enough(p, -1, guess); }
-  /// The same, but a search ends at the first triangle found whose squared distance is at most `enough`.
+  /// Returns the first triangle found whose squared distance is at most `enough`; if there is none, the nearest one.
   [[nodiscard]] Nearest near_enough(const Vec3d& p, double enough, std::uint32_t guess) const;
 
-  /// Bytes that a hierarchy over n triangles takes, the build included; an upper bound.
+  /// Returns an upper bound of the bytes of a hierarchy over n triangles, the build included.
   [[nodiscard]] static std::uint64_t bytes_needed(std::uint64_t n);
 
  private:
@@ -83,8 +84,8 @@ class TriangleBvh {
 
   struct Node {
     Bounds3d box;
-    std::uint32_t first;  // leaf: its first item; else its first child, the second follows
-    std::uint32_t count;  // leaf: number of items; else 0
+    std::uint32_t first;  // of a leaf: its first item; else its first child, which the second one follows
+    std::uint32_t count;  // of a leaf: the number of its items; else 0
   };
   struct Builder;
 
@@ -109,16 +110,16 @@ class TriangleBvh {
   std::vector<Item> items_;
 };
 
-/// Squares of the distances from p to the closed triangle and box, in floating point.
+/// Return the squared distances from p to the closed triangle and to the closed box, in floating point.
 [[nodiscard]] double distance_squared(const Vec3d& p, const TriangleD& t);
 [[nodiscard]] double distance_squared(const Vec3d& p, const Bounds3d& b);
 
-/// Where the segment from `start` to start + direction meets the triangle: 0 at its start, 1 at its end; NaN if it does
-/// not, or runs along it. In floating point.
+/// Returns where the segment from `start` to start + direction meets the triangle: 0 at its start, 1 at its end.
+/// Returns NaN if it does not meet it, or runs along it. In floating point.
 [[nodiscard]] double along_segment(const Vec3d& start, const Vec3d& direction, const TriangleD& t);
 
-/// Where the segment from `start` along `direction` enters the box, if it does so up to `most`, at most 1; else 2. In
-/// floating point, with some room.
+/// Returns where the segment from `start` along `direction` enters the box, if it does so up to `most`, at most 1; else
+/// 2. In floating point, with some room.
 [[nodiscard]] inline double enters_along(const Vec3d& start, const Vec3d& direction, const Bounds3d& box, double most) {
   double from = 0, to = most;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -169,7 +170,7 @@ std::optional<TriangleBvh::Hit> TriangleBvh::first_along(const Vec3d& start, con
 template <class Accept, class Before>
 std::optional<TriangleBvh::Nearest> TriangleBvh::nearest_within(const Vec3d& p, double most, const Accept& accept,
                                                                 const Before& before) const {
-  constexpr double kRounding = 1 - 1e-12;  // boxes of flat triangles are not farther away than these
+  constexpr double kRounding = 1 - 1e-12;  // boxes of flat triangles are not farther away than the triangles
   struct Entry {
     double distance;
     std::uint32_t node;
@@ -199,9 +200,10 @@ std::optional<TriangleBvh::Nearest> TriangleBvh::nearest_within(const Vec3d& p, 
   return best.item == ~std::uint32_t(0) ? std::nullopt : std::optional(best);
 }
 
-/// The point of the closed triangle nearest to p, in floating point.
+/// Returns the point of the closed triangle nearest to p, in floating point.
 [[nodiscard]] Vec3d nearest_point(const Vec3d& p, const TriangleD& t);
-/// Barycentric coordinates of a point of the triangle, in floating point; its first corner if it has no area.
+/// Returns the barycentric coordinates of a point of the triangle, in floating point; those of the first corner if the
+/// triangle has no area.
 [[nodiscard]] std::array<double, 3> barycentric(const TriangleD& t, const Vec3d& p);
 
 }  // namespace bp

@@ -9,27 +9,28 @@
 #include "lib/core/triangle_source.h"
 #include "lib/geometry/signed_volume.h"
 
-/// Sums over a triangle soup: what a summary of a mesh tells.
+/// Sums over a triangle soup, for summaries of meshes.
 namespace bp {
 
 struct TriangleTotals {
   std::uint64_t triangles = 0;
-  Bounds3d bounds;                     ///< of the finite corners
+  Bounds3d bounds;                     ///< of all finite corners
   double area = 0;                     ///< scene units squared
-  std::optional<double> volume = 0.0;  ///< enclosed; none if it is open (SignedVolume)
+  std::optional<double> volume = 0.0;  ///< enclosed volume; none if the soup is open (SignedVolume)
   std::uint64_t checksum_low = 0, checksum_high = 0;
 
   void add(std::span<const TriangleD> batch);
-  /// 32 hexadecimal digits: of the triangles as a set with multiplicity. Independent of their order, of the corner that
-  /// each begins with, of shared vertices; not of orientation. The sum modulo 2^128 of the XXH3-128 of the nine
-  /// doubles of each triangle, turned to begin with its smallest corner, -0 taken as 0.
+  /// Returns 32 hexadecimal digits for the triangles as a set with multiplicity. They do not depend on the order of
+  /// triangles, on the corner that each begins with, or on shared vertices, but on orientation. They are the sum modulo
+  /// 2^128 of the XXH3-128 of the nine doubles of each triangle, turned to begin with its smallest corner, with -0
+  /// taken as 0.
   [[nodiscard]] std::string checksum() const;
 
  private:
-  SignedVolume sum_;  ///< from the first corner
+  SignedVolume sum_;  ///< its origin is the first corner
 };
 
-/// Of all corners. Reads the scene once, from its start.
+/// Returns the bounds of all corners. Reads the scene once, from its start.
 [[nodiscard]] Bounds3d bounds_of(TriangleSource& scene);
 
 }  // namespace bp

@@ -8,7 +8,7 @@ namespace bp {
 
 namespace {
 
-/// The halves of an edge follow each other in the order of these.
+/// One half of an edge. Sorted by these, the halves of an edge follow each other.
 struct EdgeSide {
   std::uint32_t low, high, half_edge;
   bool up;

@@ -8,7 +8,7 @@
 
 namespace bp {
 
-/// Triangles by numbers of places: corners at the same place have the same number.
+/// Triangles as numbers of places. Corners at the same place have the same number.
 struct WeldedTriangles {
   std::vector<Vec3d> places;                            ///< distinct, in ascending order
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< as many as were given, in their order

@@ -4,18 +4,18 @@
 
 #include "lib/core/box.h"
 
-/// A dense box of voxels as bits: the working set of a tile. One layout on host and device.
+/// A dense box of voxels as bits, the working set of a tile. It has one layout on host and device.
 namespace bp {
 
-/// x fastest, 64 voxels to a word (bit i of a word is voxel x0 + i, so the 32-bit view is little-endian too), rows of
-/// whole words, then y, then z. The box is aligned to words: min.x and max.x are multiples of 64. Voxels outside are
-/// empty.
+/// Voxels lie x fastest, 64 to a word: bit i of a word is voxel x0 + i, so the 32-bit view is little-endian, too. Rows
+/// have whole words and are ordered by y, then z. The box is aligned to words: min.x and max.x are multiples of 64.
+/// Voxels outside are empty.
 class BitBox {
  public:
   BitBox() = default;
-  /// All empty. Grows `box` to whole words in x.
+  /// Makes an empty box. Grows `box` to whole words in x.
   explicit BitBox(const VoxelBox& box) { reset(box); }
-  void reset(const VoxelBox& box);  ///< as constructed; keeps the allocation
+  void reset(const VoxelBox& box);  ///< makes it like a new one, but keeps the allocation
 
   [[nodiscard]] const VoxelBox& box() const { return box_; }
   [[nodiscard]] std::int32_t words_per_row() const { return words_per_row_; }
@@ -23,7 +23,7 @@ class BitBox {
   [[nodiscard]] std::uint64_t* data() { return words_.data(); }
   [[nodiscard]] const std::uint64_t* data() const { return words_.data(); }
 
-  /// First word of the row of voxels (min.x .. max.x, y, z).
+  /// Returns the first word of the row of voxels (min.x .. max.x, y, z).
   [[nodiscard]] std::uint64_t* row(std::int32_t y, std::int32_t z) { return words_.data() + row_index(y, z); }
   [[nodiscard]] const std::uint64_t* row(std::int32_t y, std::int32_t z) const {
     return words_.data() + row_index(y, z);
@@ -38,7 +38,7 @@ class BitBox {
     const std::int32_t i = p.x - box_.min.x;
     row(p.y, p.z)[i >> 6] |= std::uint64_t(1) << (i & 63);
   }
-  [[nodiscard]] std::uint64_t count() const;  ///< occupied voxels
+  [[nodiscard]] std::uint64_t count() const;  ///< number of occupied voxels
   friend bool operator==(const BitBox&, const BitBox&) = default;
 
  private:
@@ -50,7 +50,7 @@ class BitBox {
   std::vector<std::uint64_t> words_;
 };
 
-/// Copies the voxels that both boxes hold, overwriting `to`. Word-aligned by construction: no shifts.
+/// Copies the voxels that both boxes hold, overwriting `to`. Both are aligned to words, so nothing is shifted.
 void copy_voxels(const BitBox& from, BitBox& to);
 
 }  // namespace bp

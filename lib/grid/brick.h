@@ -9,23 +9,23 @@ namespace bp {
 
 constexpr std::size_t kBrickWords = std::size_t(kBrickEdge) * kBrickEdge;  ///< one 64-bit word per row of voxels in x
 
-/// Word z * 64 + y holds the row (0..63, y, z); bit x of it is voxel (x, y, z).
+/// Word z * 64 + y holds the row (0..63, y, z). Bit x of it is voxel (x, y, z).
 using BrickBits = std::array<std::uint64_t, kBrickWords>;
 
-/// What a brick holds, so that the common cases need no bits. An empty brick is not stored at all.
+/// The content of a brick, so that the common cases need no bits. An empty brick is not stored at all.
 enum class BrickFill : std::uint8_t { empty = 0, full = 1, mixed = 2 };
 
-/// Which set of voxels a brick belongs to. A stream carries one or both.
+/// The set of voxels that a brick belongs to. A stream carries one or both.
 enum class Layer : std::uint8_t { solid = 0, closing = 1 };  ///< the input, filled; its closing
 
 struct Brick {
   BrickCoord coord;
   Layer layer = Layer::solid;
   BrickFill fill = BrickFill::empty;
-  BrickBits bits{};  ///< all ones if full; meaningful for each fill
+  BrickBits bits{};  ///< all ones if the brick is full; valid for each fill
 };
 
-/// Which of the three cases `bits` is.
+/// Returns which of the three cases `bits` is.
 [[nodiscard]] BrickFill classify(const BrickBits& bits);
 
 }  // namespace bp

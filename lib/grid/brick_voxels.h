@@ -5,7 +5,7 @@
 
 namespace bp {
 
-/// visit(p) for each occupied voxel of the brick at `coord`: z, then y, then x, the fastest.
+/// Calls visit(p) for each occupied voxel of the brick at `coord`, in the order of memory: x is the fastest.
 template <class Visit>
 void for_each_voxel(const BrickBits& bits, BrickCoord coord, const Visit& visit) {
   const VoxelCoord first = first_voxel(coord);

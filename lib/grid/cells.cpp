@@ -4,21 +4,22 @@ namespace bp {
 
 namespace {
 
-// A closing reaches one voxel beyond what it closes, and reductions round outwards.
+// A closing reaches one voxel beyond the voxels that it closes, and reductions round outwards.
 constexpr std::int64_t kMarginVox = 2;
 
-/// Where cells may begin along an axis: `zero` voxels below the scene's own origin, and every `apart` voxels from
-/// there.
+/// The places where cells may begin along an axis: `zero` voxels below the scene's own origin, and every `apart` voxels
+/// from there.
 struct Places {
   std::int64_t margin, apart, zero;
-  /// The last one that leaves the margin to what begins at `low`.
+  /// Returns the last place that leaves the margin to a scene that begins at `low`.
   [[nodiscard]] std::int64_t below(std::int64_t low) const {
     return floor_div(low - margin + zero, apart) * apart - zero;
   }
 };
 
-/// At most half a cell of level 0 apart, where all levels have whole voxels, so that the ground lies in the lower part
-/// of a cell. 0, next to which it lies as a rule, is between two of them. `n`, `step`: of aligned_to_cells().
+/// Returns the places upright. They are at most half a cell of level 0 apart, where all levels have whole voxels, so
+/// that the ground lies in the lower part of a cell. The height 0, near which the ground usually lies, is between two
+/// places. `n`, `step`: as aligned_to_cells() computes them.
 Places places_upright(std::int32_t edge_vox, int n, std::int64_t step) {
   const std::int64_t unit = std::int64_t(1) << n, half = edge_vox / 2;
   const std::int64_t apart = std::clamp(half / unit * unit, unit, step << n);

@@ -2,8 +2,8 @@
 #include "lib/core/box.h"
 #include "lib/core/grid_frame.h"
 
-/// Cells: a grid cut into cubes, so that eight cells of one level of detail (whose voxels are twice those of the level
-/// before, lib/volume/reduce.h) are one cell of the next: an octree without a list.
+/// Cells: a grid cut into cubes. The voxels of a level of detail are twice those of the level before
+/// (lib/volume/reduce.h), and eight cells of one level are one cell of the next. That is an octree without a list.
 namespace bp {
 
 using CellCoord = Coord3<struct CellSpace, std::int32_t>;  ///< cell of a level: voxels [edge c, edge c + edge)
@@ -24,7 +24,7 @@ struct Cells {
   return {floor_div(c.x, 2), floor_div(c.y, 2), floor_div(c.z, 2)};
 }
 
-/// The voxels of twice the size that hold a voxel of `box`; their grid has the same origin.
+/// Returns the voxels of twice the size that hold a voxel of `box`. Their grid has the same origin.
 [[nodiscard]] inline VoxelBox halved(const VoxelBox& box) {
   VoxelBox half;
   for (int axis = 0; axis < 3; ++axis) {
@@ -34,30 +34,30 @@ struct Cells {
   return half;
 }
 
-/// Cells from `first` to `last`.
+/// The box of cells from `first` to `last`.
 struct CellSpan {
   CellCoord first{}, last{};
   [[nodiscard]] CellCoord size() const { return {last.x - first.x + 1, last.y - first.y + 1, last.z - first.z + 1}; }
   [[nodiscard]] std::uint64_t count() const {
     return std::uint64_t(size().x) * std::uint64_t(size().y) * std::uint64_t(size().z);
   }
-  /// Of a cell in the span, among those of the span in their order.
+  /// Returns the number of a cell of the span, in the span's order.
   [[nodiscard]] std::uint64_t index(CellCoord c) const {
     const CellCoord at = c - first;
     return (std::uint64_t(at.x) * std::uint64_t(size().y) + std::uint64_t(at.y)) * std::uint64_t(size().z) +
            std::uint64_t(at.z);
   }
 };
-/// Cells that a box of voxels, which is not empty, or of bricks, meets.
+/// Returns the cells that a box of voxels (not empty), or of bricks, meets.
 [[nodiscard]] CellSpan cells_spanned(const Cells& cells, const VoxelBox& box);
 [[nodiscard]] CellSpan cells_spanned(const Cells& cells, const BrickBox& bricks);
 
-/// The frame with its origin moved down so that cells of all levels fall on voxels and on each other. n is the least
-/// number of reductions that bring the scene into one cell, and a step 64 voxels, or half of a smaller cell. The origin
-/// is a multiple of 2^n steps from the scene's own origin, at least 2^(n+1) voxels below the bounds: a scene that grows
-/// a little keeps its cells. If n > 0, it is a multiple of 2^n voxels upright, at most half a cell and half of 2^n
-/// below the ground, which is on top where up is a negative axis. So no level is cut closely above the ground, unless
-/// 2^n is more than half a cell.
+/// Returns the frame with its origin moved down so that cells of all levels fall on voxels and on each other. Let n be
+/// the least number of reductions that bring the scene into one cell, and let a step be 64 voxels, or half of a smaller
+/// cell. The origin is a multiple of 2^n steps from the scene's own origin, at least 2^(n+1) voxels below the bounds,
+/// so a scene that grows a little keeps its cells. If n > 0, it is a multiple of 2^n voxels upright, at most half a
+/// cell and half of 2^n below the ground (which is on top if up is a negative axis). So no level is cut closely above
+/// the ground, unless 2^n is more than half a cell.
 [[nodiscard]] GridFrame aligned_to_cells(const GridFrame& frame, const Bounds3d& bounds, std::int32_t edge_vox);
 
 }  // namespace bp

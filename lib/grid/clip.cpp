@@ -10,7 +10,7 @@ VoxelBox voxels_of(BrickCoord c) {
   return bp::voxels_of(BrickBox{c, {c.x + 1, c.y + 1, c.z + 1}});
 }
 
-/// Places along an axis of a brick, [begin, end), not empty or [0, 0).
+/// A range of places along an axis of a brick, [begin, end), not empty or [0, 0).
 struct BrickRange {
   std::int32_t begin = 0, end = 0;
   [[nodiscard]] bool holds(std::int32_t i) const { return i >= begin && i < end; }
@@ -21,7 +21,7 @@ BrickRange within(std::int32_t first, std::int32_t min, std::int32_t max) {
   return range.begin < range.end ? range : BrickRange{};
 }
 
-/// Rows of a brick that meet a box, and their voxels in it.
+/// The rows of a brick that meet a box, and their voxels in it.
 struct Rows {
   BrickRange y, z;
   std::uint64_t mask = 0;

@@ -5,7 +5,7 @@
 
 namespace bp {
 
-/// For hash tables of grid coordinates. All 64 bits are mixed: parts of them may choose a shard.
+/// Hashes grid coordinates for hash tables. All 64 bits are mixed, since some of them may choose a shard.
 struct CoordHash {
   template <class Space>
   std::size_t operator()(const Coord3<Space, std::int32_t>& c) const {

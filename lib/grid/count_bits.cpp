@@ -9,11 +9,11 @@ namespace {
 
 constexpr std::size_t kBlockBytes = 128;
 
-/// Of at most a block: a loop that vectorizes.
+/// Counts the bits of at most a block. The loop vectorizes.
 std::uint64_t count_block(const std::byte* bytes, std::size_t n) {
   std::array<std::uint64_t, kBlockBytes / 8> words{};
   std::memcpy(words.data(), bytes, n);
-  std::uint64_t counts = 0;  // eight counts of a byte, each at most 16 * 8
+  std::uint64_t counts = 0;  // eight counts of a byte each, at most 16 * 8
   for (std::uint64_t w : words) {
     w -= (w >> 1) & 0x5555555555555555;
     w = (w & 0x3333333333333333) + ((w >> 2) & 0x3333333333333333);

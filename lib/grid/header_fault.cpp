@@ -11,14 +11,14 @@ namespace {
 
 constexpr std::int64_t kMaxOrigin = std::int64_t(1) << 47;
 
-/// Significant bits of a normal number.
+/// Returns the number of significant bits of a normal number.
 int bits_of(double x) {
   int exponent = 0;
   const auto mantissa = std::uint64_t(std::ldexp(std::frexp(x, &exponent), 53));
   return 53 - std::countr_zero(mantissa);
 }
 
-/// True if every lattice point of the grid, and of what lies kExactMarginVox around it, is a double.
+/// Returns true if every lattice point of the grid, and of the kExactMarginVox voxels around it, is a double.
 bool is_exact(const GridFrame& frame, const BrickBox& bricks) {
   std::int64_t farthest = 0;  // voxels from the scene's own origin
   for (int i = 0; i < 3; ++i) {
@@ -40,7 +40,7 @@ bool holds(const StreamHeader& h) {
 }
 
 const char* bounds_fault(const StreamHeader& h) {
-  if (h.bounds == Bounds3d{}) return nullptr;  // no scene
+  if (h.bounds == Bounds3d{}) return nullptr;  // there is no scene
   for (std::size_t i = 0; i < 3; ++i) {
     if (!std::isfinite(h.bounds.min[i]) || !std::isfinite(h.bounds.max[i]) || h.bounds.min[i] > h.bounds.max[i])
       return "the bounds are inside out or not finite";

@@ -3,7 +3,7 @@
 
 namespace bp {
 
-/// The plane across `axis` between the voxels at - 1 and at, about which voxels and lattice points are mirrored.
+/// The plane across `axis` between the voxels at - 1 and at. Voxels and lattice points are mirrored about it.
 struct MirrorPlane {
   int axis = 0;
   std::int32_t at = 0;

@@ -11,8 +11,8 @@
 // closing places at p. In erase mode the paper calls phi with s = s_base; so does the radius of full effect.
 // A stroke along a path takes the distance to the path. Rules without a support are not in the paper.
 //
-// Why the scale changes by at most the slope per unit of length: s + slope t and s - slope t do, and the larger and the
-// smaller of two such functions do.
+// The scale changes by at most the slope per unit of length, because s + slope t and s - slope t do, and so do the
+// larger and the smaller of two such functions.
 #include "lib/grid/scale_field.h"
 
 #include <algorithm>
@@ -29,8 +29,8 @@ namespace {
 using NodeCoord = decltype(ScaleLattice::origin);
 using Range = ScaleField::Range;
 constexpr double kMaxScaleVoxels = 4095;
-constexpr double kRounding = 1e-9;  // of distances and scales, relative
-constexpr std::int32_t kBlock = 8;  // nodes along one side of a block that shares one culled list: 64 voxels
+constexpr double kRounding = 1e-9;  // relative, of distances and scales
+constexpr std::int32_t kBlock = 8;  // nodes along one side of a block whose nodes share one list of rules: 64 voxels
 
 double distance(const Vec3d& a, const Vec3d& b) {
   return length(a - b);
@@ -49,7 +49,7 @@ double distance_to_box(const Vec3d& p, const Vec3d& min, const Vec3d& max) {
   return length(d);
 }
 
-/// From p to the shape, its radius not counted.
+/// Returns the distance from p to the shape, without the radius.
 double distance_to(const ScaleRule& rule, const Vec3d& p) {
   const std::vector<Vec3d>& q = rule.points;
   if (rule.shape == ScaleShape::box) return distance_to_box(p, q[0], q[1]);
@@ -58,7 +58,7 @@ double distance_to(const ScaleRule& rule, const Vec3d& p) {
   return d;
 }
 
-/// gamma at distance t of the shape.
+/// Returns gamma at distance t of the shape.
 double falloff(const ScaleRule& rule, double t) {
   if (t < rule.radius || t == 0) return 1;
   if (!(t < rule.radius + rule.support)) return 0;
@@ -66,8 +66,8 @@ double falloff(const ScaleRule& rule, double t) {
   return v * v;
 }
 
-/// What a rule makes of a scale, at distance t of its shape. Grows with the scale. Stays between the scale and the goal
-/// to the last bit, so that upper_bound() is one.
+/// Returns the scale after a rule, at distance t of its shape. It grows with the scale before. It stays between that
+/// scale and the goal to the last bit, so that upper_bound() is a bound.
 double applied(const ScaleField& field, const ScaleRule& rule, double t, double before) {
   const double goal = rule.mode == ScaleMode::erase ? field.base : rule.scale;
   double s = before;
@@ -83,21 +83,23 @@ double applied(const ScaleField& field, const ScaleRule& rule, double t, double 
   return rule.mode == ScaleMode::decrease ? std::min(s, before) : s;
 }
 
-/// Distances of the points of a ball to the shape.
+/// Returns the distances of the points of a ball to the shape.
 Range distances_to(const ScaleRule& rule, const Vec3d& centre, double radius) {
   const double t = distance_to(rule, centre), slack = kRounding * (t + radius);
   return {std::max(t - radius - slack, 0.0), t + radius + slack};
 }
 
-/// Each rule moves scales one way as the distance grows: towards what they were, or a view upwards.
+/// Returns the range after a rule. As the distance grows, a rule moves scales one way: back to the scale before; a view
+/// moves them upwards.
 Range applied(const ScaleField& field, const ScaleRule& rule, const Range& t, const Range& s) {
   const auto at = [&](double distance, double before) { return applied(field, rule, distance, before); };
   return {std::min(at(t.least, s.least), at(t.most, s.least)), std::max(at(t.least, s.most), at(t.most, s.most))};
 }
 
-/// Nowhere in the ball does the rule change a scale of this range.
+/// Returns true if the rule changes no scale of this range anywhere in the ball.
 bool is_idle(const ScaleField& field, const ScaleRule& rule, const Range& t, const Range& s) {
-  if (rule.shape != ScaleShape::view && rule.support == ScaleRule::kNoSupport) {  // the farther, the less it asks
+  // The farther, the less such a rule changes.
+  if (rule.shape != ScaleShape::view && rule.support == ScaleRule::kNoSupport) {
     const double goal = rule.mode == ScaleMode::erase ? field.base : rule.scale;
     const double give = field.slope * std::max(t.least - rule.radius, 0.0);
     if (goal - give <= s.least && goal + give >= s.most) return true;
@@ -110,7 +112,7 @@ bool is_idle(const ScaleField& field, const ScaleRule& rule, const Range& t, con
   return true;
 }
 
-/// What a rule makes of the range of S in a ball. False if it changes nothing there.
+/// Replaces the range of S in a ball by the range after a rule. Returns false if the rule changes nothing there.
 bool move_range(const ScaleField& field, const ScaleRule& rule, const Vec3d& centre, double radius, Range& s) {
   const Range t = distances_to(rule, centre, radius);
   if (is_idle(field, rule, t, s)) return false;
@@ -119,7 +121,7 @@ bool move_range(const ScaleField& field, const ScaleRule& rule, const Vec3d& cen
   return true;
 }
 
-/// body(rule) for each rule that may change S in the ball, in order. Returns S after the last one.
+/// Calls body(rule) for each rule that may change S in the ball, in order. Returns S after the last rule.
 template <class Body>
 Range follow(const ScaleField& field, const Vec3d& centre, double radius, const Body& body) {
   Range s{field.base, field.base};
@@ -129,13 +131,13 @@ Range follow(const ScaleField& field, const Vec3d& centre, double radius, const 
   return s;
 }
 
-/// Centre of the voxel that node `n` samples, scene units.
+/// Returns the centre of the voxel that node `n` samples, scene units.
 Vec3d node_world(const GridFrame& frame, std::int64_t x, std::int64_t y, std::int64_t z) {
   const std::int64_t step = std::int64_t(kScaleStep) * kLatticePerVoxel, half = kLatticePerVoxel / 2;
   return frame.world({x * step + half, y * step + half, z * step + half});
 }
 
-/// The part of `field` that matters on these nodes.
+/// Returns the part of `field` that matters on these nodes.
 ScaleField near_nodes(const ScaleField& field, const GridFrame& frame, NodeCoord first, NodeCoord count) {
   const Vec3d a = node_world(frame, first.x, first.y, first.z),
               b = node_world(frame, std::int64_t(first.x) + count.x - 1, std::int64_t(first.y) + count.y - 1,
@@ -279,7 +281,7 @@ bool ScaleField::reaches_along(const Vec3d& a, const Vec3d& b, double scale, dou
 }
 
 ScaleLattice ScaleField::sample(const GridFrame& frame, const VoxelBox& box) const {
-  (void)upper_bound(frame);  // refuses what has no samples
+  (void)upper_bound(frame);  // refuses a field that cannot be sampled
   ScaleLattice lattice;
   lattice.min = lattice.max = scale_of(base, frame);
   if (box.empty()) return lattice;

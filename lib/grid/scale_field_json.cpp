@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Reads one JSON value, knowing where it is: "strokes[3].support".
+/// Reads one JSON value and knows its place, such as "strokes[3].support", for messages.
 class Node {
  public:
   Node(const Json& json, std::string path, const std::string& name)
@@ -64,7 +64,7 @@ class Node {
     if (!json_.is_string()) refuse("is not a text");
     return json_.get<std::string>();
   }
-  /// For people to read.
+  /// Returns a text that people can read.
   [[nodiscard]] std::string plain_text() const {
     const std::string x = text();
     if (std::any_of(x.begin(), x.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }))
@@ -90,7 +90,7 @@ ScaleMode mode_of(const Node& node) {
   return ScaleMode(found - std::begin(kModeNames));
 }
 
-/// One point, or a list of them.
+/// Returns one point, or a list of points.
 std::vector<Vec3d> points_of(const Node& node) {
   if (node.list_size() == 0) node.refuse("is an empty list");
   if (node.item(0).is_number()) return {node.point()};
@@ -105,7 +105,7 @@ void check_box(const Node& node, const ScaleRule& box) {
   }
 }
 
-/// The one key that says where the rule is.
+/// Returns the one key that gives the place of the rule.
 std::string place_key(const Node& node) {
   std::string found;
   for (const char* key : {"at", "box", "node", "view", "thickness", "gap"}) {
@@ -134,7 +134,7 @@ class RuleReader {
       node.refuse(fmt::format("is no length: {}", e.what()));
     }
   }
-  /// What closes; nothing of a scene is farther apart than its diagonal.
+  /// Returns a length for openings. Nothing of a scene is farther apart than its diagonal.
   [[nodiscard]] double within_scene(const Node& node) const {
     const double found = length(node);
     if (context_.diagonal > 0 && found > context_.diagonal)
@@ -164,7 +164,7 @@ class RuleReader {
     push(rule);
   }
 
-  /// As earlier versions wrote them: their scale jumps at the sides.
+  /// Adds a box as earlier versions wrote them: its scale jumps at the sides.
   void add_old_box(const Node& node) {
     node.expect_keys({"min", "max", "scale"});
     const ScaleRule box = box_rule(node.at("min").point(), node.at("max").point(), node.at("scale").length());
@@ -189,7 +189,7 @@ class RuleReader {
     plan_.entries.emplace_back();
   }
 
-  /// Name, mode and scale.
+  /// Returns a rule with name, mode and scale.
   [[nodiscard]] ScaleRule start(const Node& node) const {
     ScaleRule rule;
     if (node.has("name")) rule.name = node.at("name").plain_text();
@@ -249,7 +249,7 @@ void for_each_of(const Node& root, const char* key, const Add& add) {
   for (std::size_t i = 0; i < list.list_size(); ++i) add(list.item(i));
 }
 
-/// nlohmann keeps the last of two equal keys without a word; we refuse them.
+/// Refuses repeated keys. nlohmann would keep the last of two equal keys without a word.
 Json parse_without_repeats(const std::string& text, const std::string& name) {
   constexpr int kMostLevels = 6;
   std::vector<std::set<std::string>> keys;

@@ -7,7 +7,7 @@
 /// Streams that begin or end on shelves, so that passes run one after the other in one process.
 namespace bp {
 
-/// Puts the bricks of each layer onto its shelf; bricks of a layer without one are passed over.
+/// Puts the bricks of each layer onto its shelf. Bricks of a layer without a shelf are dropped.
 class ShelfSink final : public BrickSink {
  public:
   explicit ShelfSink(BrickShelf* solid, BrickShelf* closing = nullptr) : shelves_{solid, closing} {}
@@ -20,7 +20,7 @@ class ShelfSink final : public BrickSink {
   std::array<BrickShelf*, 2> shelves_;
 };
 
-/// The bricks of one or two shelves in slab order.
+/// Reads the bricks of one or two shelves in slab order.
 class ShelfSource final : public BrickSource {
  public:
   enum class Keep { all, solid };  ///< solid: bricks of the closing leave their shelf as they are read

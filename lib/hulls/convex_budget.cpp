@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kFewestOfBulk = 8;  // corners
 constexpr double kNextToNothing = 0.001;  // of the volume, for fewer corners
-constexpr std::size_t kTried = 6;         // steps of a hull, of which the cheapest for a corner is taken
+constexpr std::size_t kTried = 6;         // steps of a hull that are tried; the cheapest for a corner is taken
 
 /// A hull with fewer corners around another one.
 struct Next {
@@ -24,11 +24,11 @@ struct Next {
   double price = HUGE_VAL;  // volume for a corner
 };
 
-/// `leaves`: out of the room, where there is no other way.
+/// Returns the next hull. `leaves`: it may leave the room if there is no other way.
 Next next_of(const ConvexHull& hull, const LatticeBox& room, bool leaves) {
   Next next;
   if (hull.vertices.size() <= 4) return next;
-  std::optional<ConvexHull> rough;  // the cheapest with a sliver
+  std::optional<ConvexHull> rough;  // the cheapest one with a sliver
   const double volume6 = volume6_of(hull), slivers = slivers_of(hull);
   const auto price_of = [&](const ConvexHull& made) {
     return (volume6_of(made) - volume6) / double(hull.vertices.size() - made.vertices.size());

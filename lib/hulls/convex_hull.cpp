@@ -13,15 +13,15 @@ namespace {
 
 constexpr std::uint32_t kNone = ~std::uint32_t(0);
 
-/// Quickhull [BDH96] with exact signs instead of thick facets. A face that a new point lies on the plane of is kept: a
-/// point outside of the hull always sees some other face, and no new face is degenerate, since a horizon edge in line
-/// with the point would lie in the plane of the seen face beside it.
+/// Quickhull [BDH96] with exact signs instead of thick facets. A face stays if a new point lies on its plane. A point
+/// outside of the hull always sees some other face. No new face is degenerate, since a horizon edge in line with the
+/// point would lie in the plane of the seen face next to it.
 class Quickhull {
  public:
   explicit Quickhull(std::span<const LatticeCoord> points)
       : points_(points), next_(points.size(), kNone), face_from_(points.size(), kNone) {}
 
-  /// False if all points lie in a plane.
+  /// Returns false if all points lie in a plane.
   bool run() {
     if (!begin()) return false;
     while (!waiting_.empty()) {
@@ -32,7 +32,7 @@ class Quickhull {
     return true;
   }
 
-  /// Corners of the hull: three of their edges or more lie between faces of different planes.
+  /// Returns the corners of the hull: at least three of their edges lie between faces of different planes.
   [[nodiscard]] std::vector<LatticeCoord> corners() const {
     std::vector<std::uint32_t> sharp(points_.size(), 0);
     for (std::uint32_t f = 0; f < faces_.size(); ++f) {
@@ -41,7 +41,7 @@ class Quickhull {
         const Face& beside = faces_[faces_[f].beside[k]];
         for (const std::uint32_t v : beside.v) {
           if (side(faces_[f], v) == 0) continue;
-          ++sharp[faces_[f].v[k]];  // its other end counts it from the other face
+          ++sharp[faces_[f].v[k]];  // its other end counts the edge from the other face
           break;
         }
       }
@@ -77,7 +77,7 @@ class Quickhull {
     std::array<std::uint32_t, 3> v;
     std::array<std::uint32_t, 3> beside;  // across the edge from v[k] to v[k + 1]
     LatticeCoord normal;
-    std::uint32_t outside = kNone;  // first of the points that it sees, and no face before it
+    std::uint32_t outside = kNone;  // first of the points that it sees, and no face before it sees
     bool alive = true;
   };
 
@@ -90,7 +90,7 @@ class Quickhull {
     return std::uint32_t(faces_.size() - 1);
   }
 
-  /// The point that is farthest from a face that it is outside of; rounding only changes the order of work.
+  /// Returns the point that is farthest from a face that it sees. Rounding only changes the order of work.
   [[nodiscard]] std::uint32_t farthest(const Face& face) const {
     std::uint32_t best = face.outside;
     double most = -1;
@@ -103,7 +103,7 @@ class Quickhull {
     return best;
   }
 
-  /// A tetrahedron of points far apart.
+  /// Begins with a tetrahedron of points far apart.
   bool begin() {
     const auto n = std::uint32_t(points_.size());
     if (n < 4) return false;
@@ -141,7 +141,7 @@ class Quickhull {
     return true;
   }
 
-  /// Of the first four faces: each edge is once there in either direction.
+  /// Links the first four faces: each edge is there once in either direction.
   void link(std::initializer_list<std::uint32_t> faces) {
     for (const std::uint32_t f : faces) {
       for (const std::uint32_t g : faces) {
@@ -164,7 +164,8 @@ class Quickhull {
     }
   }
 
-  /// Faces that p sees, found from `first` on; then a new face over each edge around them.
+  /// Adds a point: removes the faces that p sees, found from `first` on, and makes a new face over each edge around
+  /// them.
   void add(std::uint32_t p, std::uint32_t first) {
     seen_.assign(1, first);
     fresh_.clear();
@@ -206,8 +207,8 @@ class Quickhull {
 
   std::span<const LatticeCoord> points_;
   std::vector<Face> faces_;
-  std::vector<std::uint32_t> next_;       // per point: the next one of its face
-  std::vector<std::uint32_t> face_from_;  // per point: the new face whose edge to the hull begins there
+  std::vector<std::uint32_t> next_;       // by point: the next one of its face
+  std::vector<std::uint32_t> face_from_;  // by point: the new face whose edge to the hull begins there
   std::vector<std::uint32_t> waiting_, seen_, fresh_;
 };
 
@@ -216,7 +217,7 @@ class Quickhull {
 std::optional<ConvexHull> hull_of(std::span<const LatticeCoord> points) {
   if (points.empty()) return {};
   const LatticeBox box = box_of(points);
-  constexpr std::int64_t kReach = std::int64_t(1) << 29;  // normal_of() and side_along() are exact
+  constexpr std::int64_t kReach = std::int64_t(1) << 29;  // within this reach normal_of() and side_along() are exact
   for (int i = 0; i < 3; ++i) {
     if (box.max[i] - box.min[i] >= kReach) fail(ErrorCode::bad_argument, "points too far apart for a convex hull");
   }
@@ -225,7 +226,7 @@ std::optional<ConvexHull> hull_of(std::span<const LatticeCoord> points) {
   ConvexHull hull = all.hull();
   const std::vector<LatticeCoord> corners = all.corners();
   if (corners.size() == hull.vertices.size()) return hull;
-  Quickhull sparse(corners);  // without points on the edges and sides
+  Quickhull sparse(corners);  // without points on edges and sides
   (void)sparse.run();
   return sparse.hull();
 }

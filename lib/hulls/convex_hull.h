@@ -15,18 +15,19 @@ struct ConvexHull {
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< outward, closed, 2-manifold
 };
 
-/// The hull of points that span less than 2^29 lattice units along each axis; nothing if they lie in a plane. Points
-/// may repeat. Quickhull [BDH96]: O(n log n) in practice, and some 100 bytes a face. The same for the same points in
-/// the same order. Throws bad_argument if they span more.
+/// Returns the hull of points that span less than 2^29 lattice units along each axis; nothing if they lie in a plane.
+/// Points may repeat. Quickhull [BDH96]: O(n log n) in practice, and some 100 bytes a face. The same points in the same
+/// order give the same hull. Throws bad_argument if they span more.
 [[nodiscard]] std::optional<ConvexHull> hull_of(std::span<const LatticeCoord> points);
 
-constexpr double kNearlyConvex = 0.02;  ///< of a solid's volume: a hull with no more than that above it is as good
-/// How far a step that simplifies a hull may move corners out of the box of what it begins with, in shares of the box's
-/// longest side.
-constexpr double kNearBox = 0.03;  ///< nobody sees it
-constexpr double kFarOut = 1;      ///< and farther, where there is no other way
+/// A share of a solid's volume: a hull that has at most this much more is as good as the solid.
+constexpr double kNearlyConvex = 0.02;
+/// Shares of a box's longest side: a step that simplifies a hull may move corners so far out of the box that the hull
+/// had at first.
+constexpr double kNearBox = 0.03;  ///< the usual limit, which nobody sees
+constexpr double kFarOut = 1;      ///< the limit where there is no other way
 
-/// Six times its volume, rounded. Linear.
+/// Returns six times its volume, rounded. Linear.
 [[nodiscard]] double volume6_of(const ConvexHull& hull);
 
 }  // namespace bp

@@ -21,7 +21,7 @@ namespace {
 
 using Face = std::array<std::uint32_t, 3>;
 
-/// The part of `mesh` made of these faces, with only the vertices that they use, in the order of first use.
+/// Returns the part of `mesh` made of these faces, with only the vertices that they use, in the order of first use.
 LatticeMesh part_of(const LatticeMesh& mesh, const std::vector<Face>& faces) {
   LatticeMesh part;
   part.frame = mesh.frame;
@@ -42,7 +42,8 @@ constexpr double kSmall = 2e-3;            // of the volume: what a hull may hav
 constexpr double kGrowth = 0.01;           // of a hull's volume, for fewer corners
 constexpr std::uint64_t kFewestFaces = 4;  // of a closed surface
 constexpr std::size_t kFacesOfBox = 12;
-constexpr std::size_t kCellsPerHull = 4;  // what is joined again knows more than what was cut first
+// Joining knows more than the first cuts do, so more cells are cut than hulls are wanted.
+constexpr std::size_t kCellsPerHull = 4;
 
 LatticeMesh mesh_of(const LatticeMesh& mesh, ConvexHull hull) {
   LatticeMesh made;
@@ -59,7 +60,7 @@ void append(LatticeMesh& mesh, const LatticeMesh& other) {
   for (const auto& [a, b, c] : other.triangles) mesh.triangles.push_back({first + a, first + b, first + c});
 }
 
-/// Outer shells with the cavities in them. A cavity that is not found to lie in any is filled.
+/// Returns outer shells with the cavities in them. A cavity that is not found to lie in any shell is filled.
 std::vector<SolidCell> solids_of(const LatticeMesh& mesh) {
   std::vector<LatticeMesh> outer, cavities;
   for (LatticeMesh& part : components_of(mesh)) (volume6_of(part) > 0 ? outer : cavities).push_back(std::move(part));
@@ -82,7 +83,7 @@ double volume6_of(const std::vector<ConvexHull>& hulls) {
   return sum;
 }
 
-/// Hulls, and which of them are as they were given.
+/// Hulls, with marks for those that are as they were given.
 struct Hulls {
   std::vector<ConvexHull> hulls;
   std::vector<char> given;
@@ -105,8 +106,8 @@ void set_apart(Hulls& made) {
   set_corners_apart(made.hulls);
 }
 
-/// Hulls around `wrapped` with no more faces than are wanted, as far as they can without reaching out of their boxes; a
-/// single one in any case.
+/// Returns hulls around `wrapped` with no more faces than are wanted, as far as that is possible without reaching out
+/// of their boxes. A single hull may always reach out.
 Hulls simplified(const std::vector<Wrapped>& wrapped, const HullLimits& limits, bool& short_of_faces) {
   Hulls made;
   for (const Wrapped& w : wrapped) made.hulls.push_back(w.hull), made.given.push_back(char(w.given));
@@ -130,9 +131,9 @@ Hulls simplified(const std::vector<Wrapped>& wrapped, const HullLimits& limits, 
   return made;
 }
 
-/// The number of hulls that leaves least volume within the faces, at most limits.hulls.
+/// Returns the number of hulls, at most limits.hulls, that leaves the least volume within the faces.
 Hulls few_hulls(const std::vector<Wrapped>& wrapped, const HullLimits& limits, double small6, bool& short_of_faces) {
-  constexpr double kWorse = 1.03;  // volume at which fewer hulls are not tried any more
+  constexpr double kWorse = 1.03;  // relative volume at which fewer hulls are not tried any more
   Hulls best;
   double least6 = std::numeric_limits<double>::infinity();
   for (std::size_t count = limits.hulls; count > 0;) {
@@ -140,7 +141,8 @@ Hulls few_hulls(const std::vector<Wrapped>& wrapped, const HullLimits& limits, d
     count = std::min(count, joined.size());
     Hulls made = simplified(joined, limits, short_of_faces);
     if (!short_of_faces) return made;
-    if (face_count(made.hulls) > limits.faces && count > 1) {  // there are too few for each, unless all are boxes
+    // There are too few faces for each hull, unless all are boxes.
+    if (face_count(made.hulls) > limits.faces && count > 1) {
       count = std::max(count * 3 / 4, std::min(count - 1, std::size_t(limits.faces) / kFacesOfBox));
       continue;
     }
@@ -152,7 +154,7 @@ Hulls few_hulls(const std::vector<Wrapped>& wrapped, const HullLimits& limits, d
   return best;
 }
 
-/// The hulls of what each cell has of its solid, and those that are given, each as a solid of its own.
+/// Returns the hull of each cell's part of its solid, and the given hulls, each as a solid of its own.
 std::vector<Wrapped> wrap(const std::vector<SolidCell>& cells, const std::vector<ConvexHull>& given) {
   std::vector<std::optional<ConvexHull>> found(cells.size());
   parallel_for(std::int64_t(cells.size()), [&](std::int64_t i) {
@@ -163,14 +165,14 @@ std::vector<Wrapped> wrap(const std::vector<SolidCell>& cells, const std::vector
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const std::uint32_t solid = numbers.emplace(cells[i].solid(), std::uint32_t(numbers.size())).first->second;
     if (found[i])
-      wrapped.push_back({std::move(*found[i]), cells[i].volume6(), solid});  // a cell may have nothing of the solid
+      wrapped.push_back({std::move(*found[i]), cells[i].volume6(), solid});  // a cell may have no part of the solid
   }
   auto solid = std::uint32_t(numbers.size());
   for (const ConvexHull& hull : given) wrapped.push_back({hull, volume6_of(hull), solid++, true});
   return wrapped;
 }
 
-/// With limits.hulls above 0; `volume6`: of all that the hulls are around.
+/// Makes the parts; limits.hulls must be above 0. `volume6`: of everything that the hulls are around.
 ConvexParts parts_within(const LatticeMesh& mesh, const std::vector<SolidCell>& solids, const HullLimits& limits,
                          const std::vector<ConvexHull>& given, double volume6) {
   ConvexParts parts;
@@ -220,8 +222,8 @@ double volume_of(const ConvexParts& parts) {
 }
 
 ConvexParts convex_parts(const LatticeMesh& mesh, const HullLimits& limits, const std::vector<ConvexHull>& given) {
-  constexpr double kLoose = 1.5;         // volume over the solid's: more hulls and faces may be worth their cost
-  constexpr double kClearlyLess = 0.85;  // of the volume: they are
+  constexpr double kLoose = 1.5;  // volume over the solid's: above it, more hulls and faces may be worth their cost
+  constexpr double kClearlyLess = 0.85;  // of the volume: below it, they are
   const std::vector<SolidCell> solids = solids_of(mesh);
   const double volume6 = double(volume6_of(mesh)) + volume6_of(given);
   HullLimits within = limits;

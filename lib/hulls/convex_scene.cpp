@@ -25,10 +25,11 @@ namespace {
 using PartFace = std::array<std::uint32_t, 3>;
 
 constexpr std::size_t kMostCornersOfPart = 4096;
-constexpr double kAsWhole = 1e-6;    // of the volume: a part with more than its hull winds around itself
-constexpr double kFlatSides = 5e-4;  // of the volume, for fewer corners: flat sides are flat to a rounding only
+constexpr double kAsWhole = 1e-6;    // of the volume: a part that has more than its hull winds around itself
+constexpr double kFlatSides = 5e-4;  // of the volume, for fewer corners: flat sides are flat only up to rounding
 
-/// Unites faces across edges that exactly two have, in opposite directions: walls that touch along an edge stay apart.
+/// Unites faces across edges that exactly two have, in opposite directions. So walls that touch along an edge stay
+/// apart.
 DisjointSets joined_faces(const WeldedTriangles& mesh) {
   const std::vector<std::uint32_t> twins = twins_of(mesh.triangles);
   DisjointSets joined(mesh.triangles.size());
@@ -38,7 +39,7 @@ DisjointSets joined_faces(const WeldedTriangles& mesh) {
   return joined;
 }
 
-/// The triangles of each connected part, parts in the order of their first triangles.
+/// Returns the triangles of each connected part; parts are in the order of their first triangles.
 std::vector<std::vector<std::uint32_t>> scene_parts(const WeldedTriangles& mesh) {
   constexpr std::uint32_t kNone = ~std::uint32_t(0);
   DisjointSets joined = joined_faces(mesh);
@@ -55,7 +56,7 @@ std::vector<std::vector<std::uint32_t>> scene_parts(const WeldedTriangles& mesh)
   return parts;
 }
 
-/// Whether each edge is there once in either direction. Triangles with two corners at a place have none.
+/// Returns whether each edge is there once in either direction. Triangles with two corners at one place count no edge.
 bool is_closed(const WeldedTriangles& mesh, const std::vector<std::uint32_t>& part) {
   std::vector<std::array<std::uint32_t, 2>> edges;
   for (const std::uint32_t f : part) {
@@ -70,10 +71,10 @@ bool is_closed(const WeldedTriangles& mesh, const std::vector<std::uint32_t>& pa
   });
 }
 
-/// A part on a lattice of its own that is far finer than any frame's.
+/// A part on a lattice of its own, which is far finer than any frame's.
 struct FinePart {
-  std::vector<std::uint32_t> places;   // of the part
-  std::vector<LatticeCoord> vertices;  // of these
+  std::vector<std::uint32_t> places;   // places of the part
+  std::vector<LatticeCoord> vertices;  // the same places on the lattice
   std::vector<PartFace> triangles;
   double unit = 0;  // scene units
 
@@ -95,7 +96,7 @@ struct FinePart {
   }
 };
 
-/// The corners and the volume of a convex part. No corners: it is none.
+/// The corners and the volume of a convex part. Without corners, the part is not convex.
 struct Found {
   std::vector<Vec3d> corners;
   double volume = 0;

@@ -6,7 +6,7 @@
 
 namespace bp {
 
-/// Orthographic: x to the right and y down in samples, depth away from the viewer in samples too.
+/// An orthographic camera: x to the right and y down in samples; depth away from the viewer, in samples, too.
 class Camera {
  public:
   explicit Camera(const RenderOptions& o) : axes_(o.up) {
@@ -16,15 +16,15 @@ class Camera {
     up_ = {-std::sin(a) * std::sin(e), std::cos(a) * std::sin(e), std::cos(e)};
   }
 
-  /// Point of the scene that the following are relative to; keeps precision far from the scene's origin.
+  /// Sets the point of the scene that all results are relative to. It keeps precision far from the scene's origin.
   void look_at(const Vec3d& p) { origin_ = p; }
 
-  /// Right, up, forward of a point of the scene, in scene units from the point looked at.
+  /// Returns right, up, forward of a point of the scene, in scene units from the point of look_at().
   [[nodiscard]] Vec3d seen(const Vec3d& p) const {
     return along_axes({p[0] - origin_[0], p[1] - origin_[1], p[2] - origin_[2]});
   }
 
-  /// Shows what lies within these bounds of seen() in width x height samples, with a margin.
+  /// Fits these bounds of seen() into width x height samples, with a margin.
   void fit(const Bounds3d& bounds, int width, int height) {
     const double w = bounds.max[0] - bounds.min[0], h = bounds.max[1] - bounds.min[1];
     const double scale = 0.92 * std::min(width / w, height / h);
@@ -33,7 +33,7 @@ class Camera {
     middle_x_ = width / 2.0, middle_y_ = height / 2.0;
   }
 
-  /// After fit(): that many times as large, with `centre`, a point of the scene, in the middle.
+  /// Enlarges by `factor`, after fit(), with `centre`, a point of the scene, in the middle.
   void zoom(double factor, const std::optional<Vec3d>& centre) {
     scale_ *= factor;
     if (centre) centre_ = seen(*centre);
@@ -45,7 +45,7 @@ class Camera {
             scale_ * (d[2] - centre_[2])};
   }
 
-  /// The point of the scene that is projected there.
+  /// Returns the point of the scene that is projected to p.
   [[nodiscard]] Vec3d unproject(const Vec3d& p) const {
     const Vec3d d{centre_[0] + (p[0] - middle_x_) / scale_, centre_[1] + (middle_y_ - p[1]) / scale_,
                   centre_[2] + p[2] / scale_};
@@ -55,7 +55,7 @@ class Camera {
     return {origin_[0] + v[0], origin_[1] + v[1], origin_[2] + v[2]};
   }
 
-  /// Right, down, away from the viewer of a direction, at its length.
+  /// Returns right, down, away from the viewer of a direction, at its length.
   [[nodiscard]] Vec3d turned(const Vec3d& direction) const {
     const Vec3d d = along_axes(direction);
     return {d[0], 0 - d[1], d[2]};

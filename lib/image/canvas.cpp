@@ -11,15 +11,15 @@ namespace bp {
 
 namespace {
 
-constexpr int kSubBits = 8;  // corners snap to 1/256 sample: edges are then decided in integers, without cracks
+constexpr int kSubBits = 8;  // corners snap to 1/256 sample, so that edges are decided in integers, without cracks
 constexpr double kSub = 1 << kSubBits;
 constexpr double kMaxCoordinate = 1 << 22;       // samples; products of two differences stay below 2^63
-constexpr double kClipped = kMaxCoordinate / 2;  // where what reaches beyond that is cut off
+constexpr double kClipped = kMaxCoordinate / 2;  // parts beyond that are cut off
 constexpr int kBand = 32;                        // rows per work item
 
 double shade(const Vec3d& n) {
-  // Key light from the upper left, fill light from the right, both from the viewer's side; a normal turned away is
-  // turned.
+  // A key light comes from the upper left, a fill light from the right, both from the viewer's side. A normal that
+  // faces away is turned.
   const double s = n[2] > 0 ? -1 : 1;
   const double key = s * (-0.41 * n[0] - 0.62 * n[1] - 0.67 * n[2]);
   const double fill = s * (0.74 * n[0] - 0.12 * n[1] - 0.66 * n[2]);
@@ -32,7 +32,7 @@ std::uint8_t to_byte(double x) {
 Color scaled(Color c, double s) {
   return {to_byte(c.r * s), to_byte(c.g * s), to_byte(c.b * s)};
 }
-/// Of linear light, as in lib/core/color.h.
+/// Converts linear light, as lib/core/color.h does.
 Color shown(double r, double g, double b) {
   static const std::vector<std::uint8_t> table = [] {
     std::vector<std::uint8_t> t(65536 / 16);
@@ -58,7 +58,7 @@ bool drawable(const TriangleD& t) {
   return drawable(t[0]) && drawable(t[1]) && drawable(t[2]);
 }
 
-/// The plain colour of a clipped triangle, or its own ones.
+/// Return the colour of a clipped triangle: the plain one, or its own.
 Color color_of_part(const ClippedTriangle&, Color color) {
   return color;
 }
@@ -72,23 +72,23 @@ std::vector<ClippedTriangle> clipped(const TriangleD& t, const TriangleColors& c
   return clip(t, colors, kClipped);
 }
 
-/// Right or below the edge counts as inside, so that samples on a shared edge belong to one triangle.
+/// Returns whether samples on an edge belong to the triangle. Exactly one of the two triangles at an edge owns them.
 bool owns_its_samples(std::int64_t dx, std::int64_t dy) {
   return dy > 0 || (dy == 0 && dx < 0);
 }
 
 }  // namespace
 
-/// A triangle made ready: snapped corners in counter-clockwise order on the screen, colour, depth as a plane.
+/// A triangle ready to be drawn: snapped corners in counter-clockwise order on the screen, colour, depth as a plane.
 struct Canvas::Shaded {
   std::int32_t x[3], y[3];
   int x_min = 0, x_max = -1, y_min = 0, y_max = -1;  // samples whose centres may be inside; empty if x_max < x_min
   double z, dz_dx, dz_dy;                            // depth at sample (0, 0), clamped to [z_low, z_high]
   float z_low, z_high;
   Color color;
-  bool varies = false;  // the colour over the triangle: linear light as planes, and the shade
+  bool varies = false;  // whether the colour varies: linear light as planes, and the shade
   double light[3]{}, dl_dx[3]{}, dl_dy[3]{}, s = 1;
-  std::uint32_t material = TriangleTexture::kNoMaterial;  // of the image on it; its place as planes
+  std::uint32_t material = TriangleTexture::kNoMaterial;  // of the image on the triangle; its place is given by planes
   double uv[2], duv_dx[2], duv_dy[2];
 
   Shaded() = default;
@@ -101,21 +101,21 @@ struct Canvas::Shaded {
       if (varies) set_plane(t, {light[i], channel(colors[1], i), channel(colors[2], i)}, light[i], dl_dx[i], dl_dy[i]);
     }
   }
-  /// The linear function with these values at the corners: at sample (0, 0), and its steps.
+  /// Computes the linear function with these values at the corners: its value at sample (0, 0), and its steps.
   static void set_plane(const TriangleD& t, const Vec3d& at, double& first, double& d_dx, double& d_dy) {
     const double ux = t[1][0] - t[0][0], uy = t[1][1] - t[0][1], vx = t[2][0] - t[0][0], vy = t[2][1] - t[0][1];
     const double du = at[1] - at[0], dv = at[2] - at[0];
     d_dx = (du * vy - dv * uy) / (ux * vy - uy * vx), d_dy = (dv * ux - du * vx) / (ux * vy - uy * vx);
     first = at[0] + (0.5 - t[0][0]) * d_dx + (0.5 - t[0][1]) * d_dy;
   }
-  /// `t`: the triangle, of which this may be a part.
+  /// Lays an image on the part. `t`: the whole triangle.
   void lay(const TriangleTexture& texture, const TriangleD& t) {
     if (x_min > x_max) return;
     material = texture.material;
     for (std::size_t i = 0; i < 2; ++i)
       set_plane(t, {texture.uv[0][i], texture.uv[1][i], texture.uv[2][i]}, uv[i], duv_dx[i], duv_dy[i]);
   }
-  /// Linear light, before the shade.
+  /// Returns linear light, before the shade.
   [[nodiscard]] std::array<double, 3> light_at(int px, int py) const {
     const auto at = [&](int i) { return light[i] + px * dl_dx[i] + py * dl_dy[i]; };
     return {at(0), at(1), at(2)};
@@ -147,12 +147,12 @@ struct Canvas::Shaded {
     y_min = std::max(0, sample_at_or_after(y0)), y_max = std::min(height - 1, sample_at_or_before(y1));
   }
 
-  /// Sample i has its centre at (i + 1/2) * 256.
+  /// Returns the first sample at or after c. Sample i has its centre at (i + 1/2) * 256.
   static int sample_at_or_after(std::int32_t c) { return (c + (1 << (kSubBits - 1)) - 1) >> kSubBits; }
   static int sample_at_or_before(std::int32_t c) { return (c - (1 << (kSubBits - 1))) >> kSubBits; }
 };
 
-/// Images on triangles; null: there are none.
+/// Paints images on triangles; null: there are none.
 class Canvas::Painter {
  public:
   Painter() = default;
@@ -175,7 +175,7 @@ class Canvas::Painter {
       glow_ = painter.images_->get(surface.emission.image);
       glows_ = surface.emission_factor != std::array<float, 3>{} && (glow_ != nullptr || !surface.emission.is_there());
     }
-    /// False at a hole; alpha in between is one from a half on.
+    /// Returns the colour; false at a hole. An alpha between 0 and 1 is a hole below a half.
     bool color_at(int x, int y, Color& color) const {
       if (image_ == nullptr && !glows_) {
         color = t_.color_at(x, y);
@@ -208,7 +208,7 @@ class Canvas::Painter {
     const TextureMaterial* material_ = nullptr;
     std::shared_ptr<const MipImage> image_, glow_;
     bool glows_ = false;
-    double area_ = 0;  // of a pixel, in the image
+    double area_ = 0;  // area of a pixel in the image
   };
 
  private:
@@ -266,8 +266,8 @@ void Canvas::draw_shaded(std::span<const TriangleD> triangles, const ColorOf& co
 }
 
 void Canvas::fill(const Shaded& t, Row rows, const Painter& painter) {
-  // Twice the signed areas of (edge, sample centre), stepped from sample to sample. Inside: positive, or zero on an
-  // edge that owns its samples.
+  // Twice the signed areas of (edge, sample centre) are stepped from sample to sample. A sample is inside if all are
+  // positive, or zero on an edge that owns its samples.
   std::int64_t row_value[3], step_x[3], step_y[3];
   const int y_begin = std::max(t.y_min, rows.begin), y_end = std::min(t.y_max + 1, rows.end);
   for (int e = 0; e < 3; ++e) {
@@ -292,7 +292,8 @@ void Canvas::fill(const Shaded& t, Row rows, const Painter& painter) {
   }
 }
 
-/// The farthest of the samples around: a steep face next to its own edge then hides nothing.
+/// Returns whether a point is hidden. The farthest of the samples around it counts, so that a steep face does not hide
+/// its own edge.
 bool Canvas::hidden(double x, double y, double depth) const {
   const int cx = int(std::floor(x)), cy = int(std::floor(y));
   float farthest = -std::numeric_limits<float>::infinity();
@@ -320,7 +321,7 @@ void Canvas::draw_line(const std::array<Vec3d, 2>& line, Color color, double hal
   const int y_begin = std::max(rows.begin, int(std::floor(std::min(p[1], q[1]) - reach)));
   const int y_end = std::min(rows.end, int(std::ceil(std::max(p[1], q[1]) + reach)));
   for (int y = y_begin; y < y_end; ++y) {
-    // Part of the line within reach of this row, as parameters along it.
+    // The part of the line within reach of this row, as parameters along it.
     double t0 = 0, t1 = 1;
     if (dy != 0) {
       const double a = (y + 0.5 - reach * 1.5 - p[1]) / dy, b = (y + 0.5 + reach * 1.5 - p[1]) / dy;

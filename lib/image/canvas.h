@@ -11,25 +11,25 @@
 namespace bp {
 
 /// Samples with depth. Triangles and lines come in sample coordinates: x to the right, y down, z away from the viewer.
-/// Which triangle wins at equal depth is decided by their order, so the picture does not depend on threads.
+/// The order of triangles decides between equal depths, so the picture does not depend on threads.
 class Canvas {
  public:
   Canvas(int width, int height, Color background);
 
-  /// Flat shaded, facing either way. Triangles are cut off far beyond the canvas (2^21 samples); those with coordinates
-  /// that are not finite are left out. Parallel.
+  /// Draws triangles flat shaded, facing either way. Triangles are cut off far beyond the canvas (2^21 samples), and
+  /// left out if coordinates are not finite. Parallel.
   void draw(std::span<const TriangleD> triangles, Color color);
-  /// The same with colours of their own, one for each triangle; and with images on them, unless `images` is null.
+  /// Draws triangles with colours of their own, one for each, and with images on them, unless `images` is null.
   void draw(std::span<const TriangleD> triangles, std::span<const TriangleColors> colors,
             std::span<const TriangleTexture> textures = {}, ImageCache* images = nullptr);
 
-  /// Antialiased, where nothing lies in front. Parallel.
+  /// Draws antialiased lines where nothing lies in front. Parallel.
   void draw_lines(std::span<const std::array<Vec3d, 2>> lines, Color color, double half_width);
 
-  /// Distance from the viewer of what is seen in a sample; none: nothing is.
+  /// Returns the distance from the viewer of the surface in a sample; nothing if there is none.
   [[nodiscard]] std::optional<double> depth(int x, int y) const;
 
-  /// Mean of each 2 x 2 samples, copied into `image` with the upper left corner at (x, y).
+  /// Averages each 2 x 2 samples, and copies the result into `image` with the upper left corner at (x, y).
   void resolve(Image& image, int x, int y) const;
 
  private:

@@ -1,4 +1,4 @@
-// Sutherland and Hodgman, Reentrant Polygon Clipping, 1974: one side of the square after the other.
+// Source: Sutherland and Hodgman, Reentrant Polygon Clipping, 1974. One side of the square is cut after the other.
 #include "lib/image/clip.h"
 
 #include <cmath>
@@ -14,7 +14,7 @@ struct Corner {
   std::array<double, 3> light;
 };
 
-/// A side of the square: the axis that it crosses, and the direction of what lies beyond it.
+/// A side of the square: the axis that it crosses, and the outward direction.
 struct Side {
   std::size_t axis;
   double sign;
@@ -26,7 +26,7 @@ bool inside(const Vec3d& p, Side side, double limit) {
 }
 
 Corner crossing(const Corner& a, const Corner& b, Side side, double limit) {
-  if (b.p < a.p) return crossing(b, a, side, limit);  // the same point for the triangle on the edge's other side
+  if (b.p < a.p) return crossing(b, a, side, limit);  // gives the same point for the triangle on the edge's other side
   const double at = side.sign * limit, s = (at - a.p[side.axis]) / (b.p[side.axis] - a.p[side.axis]);
   Corner c;
   for (std::size_t i = 0; i < 3; ++i) {

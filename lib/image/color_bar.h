@@ -6,10 +6,11 @@
 /// Numbers as colours.
 namespace bp {
 
-/// From dark blue for 0 to yellow for 1; lighter all the way, so that it shows in grey, too. Clamps; NaN is 0.
+/// Returns a colour from dark blue for 0 to yellow for 1. It gets lighter all the way, so that it shows in grey, too.
+/// Clamps; NaN is 0.
 [[nodiscard]] Color color_on_bar(double t);
 
-/// The numbers at the ends of the bar that a panel shows; both empty: it shows none.
+/// The numbers at the ends of the bar of a panel. If both are empty, the panel shows no bar.
 struct ColorBar {
   std::string low, high;
 };

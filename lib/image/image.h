@@ -9,7 +9,7 @@ struct Color {
   friend bool operator==(const Color&, const Color&) = default;
 };
 
-/// Rows from top to bottom, pixels from left to right.
+/// Pixels by rows from top to bottom, and from left to right.
 struct Image {
   int width = 0, height = 0;
   std::vector<Color> pixels;

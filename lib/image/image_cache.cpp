@@ -7,7 +7,7 @@
 
 namespace bp {
 
-/// The share of the memory at which an image of so many bytes fits, and each other image.
+/// Returns the share of the memory at which an image of so many bytes fits, as well as each other image.
 std::uint64_t ImageCache::share_for(std::uint64_t image_bytes) const {
   for (std::uint32_t i = 0; i < images_->image_count(); ++i) {
     const std::array<int, 2> size = images_->size(i);

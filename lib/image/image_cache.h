@@ -10,20 +10,20 @@
 
 namespace bp {
 
-/// Images that are decoded when they are first wanted. Thread-safe.
+/// Decodes images when they are first wanted. Thread-safe.
 class ImageCache {
  public:
-  /// Of all images of a scene that was read; null: it has none. Those in the cache take at most `memory`; those that
-  /// someone holds come on top.
+  /// Holds images of a scene that was read; null: it has none. Images in the cache take at most `memory`. Images that
+  /// left it and are held by someone come on top.
   ImageCache(std::shared_ptr<const TextureSet> images, const MemoryShare& memory)
       : images_(std::move(images)),
         memory_(memory),
         kept_(memory.bytes, images_ == nullptr ? 0 : 2 * images_->image_count()) {}
 
   [[nodiscard]] const TextureMaterial& material(std::uint32_t i) const { return images_->material(i); }
-  /// Null if the image is missing or broken. Throws NeedsMemory if it alone is too large.
+  /// Returns null if the image is missing or broken. Throws NeedsMemory if it alone is too large.
   [[nodiscard]] std::shared_ptr<const MipImage> get(std::uint32_t image, MipImage::Kind kind = MipImage::Kind::color);
-  /// What is wrong with those that are null; in the order of their numbers.
+  /// Returns the faults of the images that are null, in the order of their numbers.
   [[nodiscard]] std::vector<std::string> faults() const;
 
  private:

@@ -27,7 +27,7 @@ int lines_height(std::size_t lines, int size) {
   return int(lines) * size * 7 / 5;
 }
 
-/// Without its first character.
+/// Returns the text without its first character.
 std::string_view shortened(std::string_view text) {
   std::size_t n = 1;
   while (n < text.size() && (static_cast<unsigned char>(text[n]) & 0xC0) == 0x80) ++n;  // UTF-8
@@ -69,7 +69,7 @@ void Legend::draw_axes(Image& image, int x, int y, const std::array<Vec3d, 3>& d
   std::array<std::size_t, 3> order{0, 1, 2};
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return directions[a][2] > directions[b][2];
-  });  // farthest first
+  });  // the farthest first
   for (const std::size_t i : order) {
     const Vec3d end{centre + reach * directions[i][0], centre + reach * directions[i][1], 0};
     const std::array<Vec3d, 2> line{Vec3d{centre, centre, 0}, end};
@@ -120,7 +120,7 @@ bool Legend::fits(const std::string& text) const {
   return typeface_->width(text, size_) <= width_ - axes_side() - size_;
 }
 
-/// The word, or as much of its end as the panel holds.
+/// Returns the word, or as much of its end as the panel holds.
 std::string Legend::end_of(std::string_view word) const {
   std::string shown(word);
   while (!word.empty() && !fits(shown)) {

@@ -7,10 +7,10 @@ namespace bp {
 
 namespace {
 
-/// The nearest 8-bit values, by thresholds between them: no pow() for a texel.
+/// Finds the nearest 8-bit values by thresholds between them, without pow() for a texel.
 struct SrgbTables {
   std::array<float, 256> linear{};
-  std::array<std::uint8_t, 4096> first{};  // of each interval of linear light, the least byte
+  std::array<std::uint8_t, 4096> first{};  // the least byte of each interval of linear light
   SrgbTables() {
     const auto linear_of = [](double s) { return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4); };
     for (std::size_t i = 0; i < 256; ++i) linear[i] = float(linear_of(double(i) / 255));
@@ -45,7 +45,7 @@ LinearTexel linear_of(const TextureImage::Texel& t, MipImage::Kind kind) {
   return {table[t[0]], table[t[1]], table[t[2]], float(t[3]) / 255};
 }
 
-/// Colours count as far as they cover.
+/// A sum in which colours count as far as they cover.
 struct Sum {
   LinearTexel sum{}, plain{};
   float weight = 0;
@@ -71,7 +71,7 @@ TextureImage halved(const TextureImage& image, MipImage::Kind kind) {
   TextureImage half(std::max(1, image.width / 2), std::max(1, image.height / 2));
   for (int y = 0; y < half.height; ++y) {
     for (int x = 0; x < half.width; ++x) {
-      Sum sum;  // an odd last row or column goes with the one before
+      Sum sum;  // an odd last row or column is joined with the one before
       const int last_x = x + 1 == half.width ? image.width - 1 : 2 * x + 1;
       const int last_y = y + 1 == half.height ? image.height - 1 : 2 * y + 1;
       for (int j = 2 * y; j <= last_y; ++j) {

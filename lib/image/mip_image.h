@@ -6,20 +6,20 @@
 
 namespace bp {
 
-/// Red, green, blue in linear light and alpha, from 0 to 1; not multiplied by it.
+/// Red, green and blue in linear light, and alpha, from 0 to 1; not multiplied by alpha.
 using LinearTexel = std::array<float, 4>;
 
-/// An image and its smaller copies, each half as large: a mean over some of its texels is one look at a copy.
+/// An image and its smaller copies, each half as large. A mean over some of its texels is one look at a copy.
 class MipImage {
  public:
-  /// What the image's numbers are: colours as sRGB with alpha, or plain numbers, whose alpha means nothing.
+  /// The meaning of the numbers: colours as sRGB with alpha, or plain numbers, whose alpha is ignored.
   enum class Kind : std::uint8_t { color, numbers };
   explicit MipImage(TextureImage image, Kind kind = Kind::color);
 
   [[nodiscard]] int width() const { return levels_.front().width; }
   [[nodiscard]] int height() const { return levels_.front().height; }
   [[nodiscard]] std::uint64_t bytes() const;
-  /// Around (u, v), which may be anything, over about `texels` texels along each side.
+  /// Returns the mean around (u, v), which may be any numbers, over about `texels` texels along each side.
   [[nodiscard]] LinearTexel at(double u, double v, double texels, const std::array<TextureWrap, 2>& wrap) const;
 
  private:
@@ -29,7 +29,7 @@ class MipImage {
   Kind kind_;
 };
 
-/// 8-bit sRGB to linear light, and back to the nearest.
+/// Convert 8-bit sRGB to linear light, and back to the nearest.
 [[nodiscard]] float linear_of_byte(std::uint8_t srgb);
 [[nodiscard]] std::uint8_t byte_of_linear(float linear);
 

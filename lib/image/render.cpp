@@ -16,7 +16,7 @@ namespace {
 constexpr int kSamples = 2;  // per pixel and direction
 constexpr std::size_t kBatch = 1 << 15;
 
-/// Triangle t of the mesh; false if it names a vertex that does not exist.
+/// Gets triangle t of the mesh. Returns false if it names a vertex that does not exist.
 bool corners_of(const IndexedMesh& mesh, std::size_t t, TriangleD& corners) {
   for (std::size_t k = 0; k < 3; ++k) {
     if (mesh.triangles[t][k] >= mesh.vertices.size()) return false;
@@ -25,7 +25,7 @@ bool corners_of(const IndexedMesh& mesh, std::size_t t, TriangleD& corners) {
   return true;
 }
 
-/// f(p) for each finite corner of all that is to be drawn.
+/// Calls f(p) for each finite corner of all triangles to be drawn.
 template <class F>
 void for_each_corner(std::span<const View> views, const F& f) {
   TriangleD corners;
@@ -50,11 +50,11 @@ std::vector<Vec3d> corners_of(const Bounds3d& b) {
   return corners;
 }
 
-/// Aims at the given bounds or, without them, at what there is. False if that is nothing.
+/// Aims at the given bounds or, without them, at all triangles. Returns false if there are none.
 bool aim(Camera& camera, std::span<const View> views, const Bounds3d& bounds, const RenderOptions& options) {
   Bounds3d seen;
   const auto see = [&](const Vec3d& p) {
-    if (seen.empty()) camera.look_at(options.look_at.value_or(p));  // any point of the scene will do
+    if (seen.empty()) camera.look_at(options.look_at.value_or(p));  // any point of the scene suffices
     seen.add(camera.seen(p));
   };
   if (bounds.empty()) {
@@ -73,7 +73,7 @@ class PanelPainter {
  public:
   PanelPainter(const Camera& camera, Canvas& canvas, Color color) : camera_(camera), canvas_(canvas), color_(color) {}
 
-  /// corner(i) -> TriangleD in scene units, for i in [0, n). colors, textures: one for each, or none.
+  /// corner(i) returns a TriangleD in scene units, for i in [0, n). `colors`, `textures`: one for each, or none.
   template <class Corners>
   void paint(std::size_t n, const Corners& corners, std::span<const TriangleColors> colors = {},
              std::span<const TriangleTexture> textures = {}, ImageCache* images = nullptr) {
@@ -102,7 +102,7 @@ class PanelPainter {
 };
 
 TriangleD corners_or_nothing(const IndexedMesh& mesh, std::size_t t) {
-  TriangleD corners{};  // no area: draws nothing
+  TriangleD corners{};  // it has no area, so it draws nothing
   if (!corners_of(mesh, t, corners)) corners = {};
   return corners;
 }
@@ -151,7 +151,7 @@ void paint_faces(const View& view, const Camera& camera, Canvas& canvas) {
   if (view.source != nullptr) paint_source(view, painter);
 }
 
-/// Each edge once, in lexicographic order of its ends on the screen.
+/// Returns each edge once, in lexicographic order of its ends on the screen.
 std::vector<std::array<Vec3d, 2>> edges_of(const View& view, const Camera& camera) {
   std::vector<std::array<Vec3d, 2>> edges;
   const auto add = [&](const TriangleD& t, std::span<const std::uint8_t> inner_edges, std::size_t i) {
@@ -169,7 +169,7 @@ std::vector<std::array<Vec3d, 2>> edges_of(const View& view, const Camera& camer
   return edges;
 }
 
-/// Axes, ruler and label of panel i.
+/// Draws axes, ruler and label of panel i.
 void draw_legend(Image& image, const Legend& legend, const View& view, const Camera& camera, std::size_t i,
                  const RenderOptions& options) {
   const int x = int(i) * options.panel_width, below = options.panel_height;
@@ -181,7 +181,7 @@ void draw_legend(Image& image, const Legend& legend, const View& view, const Cam
   legend.write(image, x, below, legend.lines(view.label));
 }
 
-/// Where one panel ends and the next one begins; a part in detail fills its panel.
+/// Draws lines between panels; a part in detail fills its panel.
 void draw_borders(Image& image, const RenderOptions& options) {
   constexpr Color kBorder{205, 208, 214};
   for (int x = options.panel_width; x < image.width; x += options.panel_width)
@@ -196,7 +196,7 @@ void check_size(const RenderOptions& options, int columns) {
          kLeastPanelSide, kMostImageSide);
 }
 
-/// Of a panel; `common` is that of all.
+/// Returns the camera of a panel; `common` is that of all panels.
 Camera camera_of(const Camera& common, std::span<const View> views, std::size_t i, const RenderOptions& options) {
   Camera camera = common;
   if (!views[i].bounds.empty()) aim(camera, views.subspan(i, 1), views[i].bounds, options);
@@ -242,7 +242,7 @@ std::optional<Vec3d> point_behind(std::span<const View> views, const RenderOptio
   Canvas canvas(w * kSamples, h * kSamples, options.background);
   const Camera camera = camera_of(common, views, i, options);
   paint_faces(views[i], camera, canvas);
-  std::optional<Vec3d> nearest;  // of the samples of the pixel
+  std::optional<Vec3d> nearest;  // nearest of the samples of the pixel
   for (int sample = 0; sample < kSamples * kSamples; ++sample) {
     const int sx = x % w * kSamples + sample % kSamples, sy = y * kSamples + sample / kSamples;
     const std::optional<double> depth = canvas.depth(sx, sy);

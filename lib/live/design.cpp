@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Rules are flat; a deep text would overflow the stack where it is written again.
+/// Rules are flat. A deep text would overflow the stack when it is written again, so it is refused.
 Json parse_flat(const std::string& text, const std::string& name) {
   constexpr int kMostLevels = 8;
   const auto watch = [&](int depth, Json::parse_event_t, Json&) {

@@ -17,7 +17,8 @@ VoxelBox voxels_of_brick(BrickCoord c) {
   return voxels_of(BrickBox{c, {c.x + 1, c.y + 1, c.z + 1}});
 }
 
-/// The voxels of a brick in which two shelves differ, as a box of the whole brick's rows and slices; empty: none do.
+/// Returns the voxels of a brick in which two shelves differ, as a box of whole rows and slices of the brick; empty if
+/// they agree.
 VoxelBox differing(const BrickShelf& a, const BrickShelf& b, BrickCoord brick) {
   BrickBits of_a, of_b;
   const BrickFill fill_a = a.get(brick, of_a), fill_b = b.get(brick, of_b);
@@ -110,7 +111,7 @@ void LiveClosing::work() {
       continue;
     } catch (const std::exception& e) {
       error = e.what();
-      closing_.reset();  // all pieces are made again, for some may be of this request
+      closing_.reset();  // all pieces are made again, because some may be of this request
       lattices_.clear();
     }
     lock.lock();
@@ -139,7 +140,7 @@ void LiveClosing::close(const ScalePlan& plan, std::uint64_t revision, Clock::ti
 
 std::vector<LiveClosing::Change> LiveClosing::changes(const BrickShelf& closing, const ScaleField& field) {
   std::set<BrickCoord> there;
-  std::map<BrickCoord, bool> changed;  // whether voxels did
+  std::map<BrickCoord, bool> changed;  // whether its voxels changed; else only its scales did
   for (const BrickCoord c : closing.coords()) there.insert(c);
   std::set<BrickCoord> all = there;
   if (closing_ != nullptr) {
@@ -174,7 +175,7 @@ void LiveClosing::make_pieces(const BrickShelf& closing, const ScaleField& field
     static const ScaleLattice none;
     const auto found = lattices_.find(brick);
     const ScaleLattice& lattice = found == lattices_.end() ? none : found->second;
-    const auto old = pieces_.find(brick);  // only this thread changes them
+    const auto old = pieces_.find(brick);  // only this thread changes the pieces
     made[std::size_t(i)] = std::make_shared<const SurfacePiece>(voxels || old == pieces_.end()
                                                                     ? piece_of(closing, brick, lattice)
                                                                     : with_scales(*old->second.surface, lattice));

@@ -11,11 +11,11 @@
 #include "lib/live/surface_piece.h"
 #include "lib/pass/context.h"
 
-/// The closing of a scene while its rules change: each request replaces the one before, whose work is given up. Only
+/// The closing of a scene while its rules change. Each request replaces the one before, whose work is given up. Only
 /// the pieces of the surface that changed are made again.
 namespace bp {
 
-/// What is closed. The closing is that of `bpvox | bpscale | bpclose` with these rules, voxel for voxel.
+/// The scene to be closed. Its closing is that of `bpvox | bpscale | bpclose` with these rules, voxel for voxel.
 struct LiveScene {
   StreamHeader header;                ///< of bpvox
   std::unique_ptr<BrickShelf> solid;  ///< with bricks of the header
@@ -27,32 +27,34 @@ class LiveClosing {
  public:
   /// A piece of the surface, ready to be sent.
   struct Piece {
-    std::uint64_t generation = 0;  ///< of the surface in which it changed last
+    std::uint64_t generation = 0;  ///< generation of the surface in which the piece changed last
     std::shared_ptr<const SurfacePiece> surface;
   };
   struct Status {
-    std::uint64_t asked = 0, shown = 0;  ///< revisions of the design: the last request, and the surface; 0: none
-    std::uint64_t generation = 0;        ///< of the surface: rises when pieces change
-    std::uint64_t voxels = 0;            ///< of the closing
+    std::uint64_t asked = 0, shown = 0;  ///< revisions of the design: of the last request, and of the surface; 0: none
+    std::uint64_t generation = 0;        ///< generation of the surface; rises when pieces change
+    std::uint64_t voxels = 0;            ///< voxels of the closing
     double seconds = 0;                  ///< from the request to the surface
-    std::string error;                   ///< why the last request failed; empty: it did not
+    std::string error;                   ///< why the last request failed; empty: it did not fail
     [[nodiscard]] bool busy() const { return asked != shown && error.empty(); }
   };
 
-  /// changed: called after each request that was not replaced, on a thread of this object.
+  /// `changed` is called after each request that was not replaced, on a thread of this object.
   LiveClosing(LiveScene scene, Backends& backends, std::function<void()> changed);
-  ~LiveClosing();  ///< gives up what is at work
+  ~LiveClosing();  ///< gives up the work that is going on
   LiveClosing(const LiveClosing&) = delete;
   LiveClosing& operator=(const LiveClosing&) = delete;
 
   [[nodiscard]] const LiveScene& scene() const { return scene_; }
-  /// Returns at once. A revision is one plan: that of the last request, unless it has failed, is not closed again.
+  /// Asks for the closing of a plan, and returns at once. A revision is one plan: the revision of the last request is
+  /// not closed again, unless it has failed.
   void request(ScalePlan plan, std::uint64_t revision);
-  void wait();  ///< until the last request is done, or has failed
+  void wait();  ///< waits until the last request is done, or has failed
   [[nodiscard]] Status status() const;
-  /// The pieces that changed after a generation of the surface, with those that became empty; by brick.
+  /// Returns the pieces that changed after a generation of the surface, by brick. Pieces that became empty are among
+  /// them.
   [[nodiscard]] std::vector<Piece> since(std::uint64_t generation) const;
-  /// The closing of the last request; not while one is at work.
+  /// Returns the closing of the last request. Do not call it while a request is at work.
   [[nodiscard]] const BrickShelf* closing() const { return closing_.get(); }
 
  private:
@@ -60,7 +62,7 @@ class LiveClosing {
   void work();
   void close(const ScalePlan& plan, std::uint64_t revision, Clock::time_point begin);
   void make_pieces(const BrickShelf& closing, const ScaleField& field);
-  /// A brick whose piece may have changed since closing_: where voxels near it did, or only the scales in it.
+  /// A brick whose piece may have changed since closing_, because voxels near it did, or only the scales in it.
   struct Change {
     BrickCoord brick;
     bool voxels = false;
@@ -73,17 +75,17 @@ class LiveClosing {
 
   mutable std::mutex mutex_;
   std::condition_variable wake_, done_;
-  std::unique_ptr<ScalePlan> next_;  ///< asked for, not begun
+  std::unique_ptr<ScalePlan> next_;  ///< requested, not begun
   Clock::time_point asked_at_;
   bool ends_ = false;
   Status status_;
   std::map<BrickCoord, Piece> pieces_;
 
-  // Of the working thread.
-  std::atomic<bool> stop_{false};                ///< what is at work is given up
-  std::unique_ptr<BrickShelf> closing_;          ///< of the surface
-  std::map<BrickCoord, ScaleLattice> lattices_;  ///< of the pieces
-  std::thread thread_;                           ///< last: it begins when all else is there
+  // The rest is used by the working thread.
+  std::atomic<bool> stop_{false};                ///< gives up the work that is going on
+  std::unique_ptr<BrickShelf> closing_;          ///< closing that the surface shows
+  std::map<BrickCoord, ScaleLattice> lattices_;  ///< scales that the pieces show
+  std::thread thread_;                           ///< the last member: the thread begins when all others exist
 };
 
 }  // namespace bp

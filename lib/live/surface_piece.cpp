@@ -14,7 +14,7 @@ namespace {
 constexpr int kCorners = kBrickEdge + 1;
 constexpr std::uint32_t kNone = ~std::uint32_t(0);
 
-/// Corners of a face across `axis`, counter-clockwise seen from its greater side, as steps from its least corner.
+/// The corners of a face across `axis`, counter-clockwise seen from its greater side, as steps from its least corner.
 constexpr std::array<std::array<std::array<int, 3>, 4>, 3> kFace{{
     {{{0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}}},
     {{{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}}},
@@ -41,7 +41,7 @@ class PieceMaker {
   }
 
  private:
-  /// The 64 voxels of a row of the brick, moved by one voxel along x.
+  /// Returns the 64 voxels of a row of the brick, moved by one voxel along x.
   [[nodiscard]] std::uint64_t word(int y, int z, int moved = 0) const {
     const std::uint64_t* const row = solid_.row(first_.y + y, first_.z + z);
     const int i = (first_.x - solid_.box().min.x) >> 6;
@@ -90,7 +90,7 @@ class PieceMaker {
     for (std::size_t i = 0; i < 3; ++i) {
       constexpr float kMost = SurfacePiece::kMostMoved;
       const float step = square > 1e-8F ? (0.5F - level.value) * g[i] / square : 0;
-      // Rounded before the corner is added: a corner on the side of two bricks moves alike in both.
+      // The move is rounded before the corner is added, so that a corner on the side of two bricks moves alike in both.
       const long moved = std::lround(std::clamp(step, -kMost, kMost) * float(SurfacePiece::kPerVoxel));
       out.position[i] =
           std::uint16_t((std::array{x, y, z}[i] + SurfacePiece::kOrigin) * SurfacePiece::kPerVoxel + int(moved));
@@ -104,7 +104,7 @@ class PieceMaker {
   VoxelCoord first_;
   BitBox solid_;
   BlurredBox field_;
-  std::vector<std::uint32_t> numbers_;  ///< of the vertices, by corner
+  std::vector<std::uint32_t> numbers_;  ///< number of the vertex at each corner
   const ScaleLattice* scale_ = nullptr;
   bool blurred_ = false;
 };

@@ -6,38 +6,39 @@
 #include "lib/grid/scale_field.h"
 #include "lib/grid/stream.h"
 
-/// Surfaces of voxels to look at: smooth, not stairs. For pictures only; no vertex of a proxy comes from here.
+/// Surfaces of voxels to look at: smooth, without stairs. They are for pictures only; no vertex of a proxy comes from
+/// here.
 ///
-/// Each corner of the voxels' surface moves to the level of one half of the blurred occupancy, and by at most
-/// kMostMoved along each axis; the gradient there is its normal. [CB17] §5.1 keeps the corners, and filters normals of
-/// voxels; moved corners have smooth outlines, too.
+/// Each corner of the voxels' surface moves to the level of one half of the blurred occupancy, by at most kMostMoved
+/// along each axis. The gradient there is its normal. [CB17] §5.1 keeps the corners and filters normals of voxels;
+/// moved corners have smooth outlines, too.
 namespace bp {
 
-/// The faces of the occupied voxels of one brick, laid out as a GPU takes them.
+/// The faces of the occupied voxels of one brick, laid out for a GPU.
 struct SurfacePiece {
   static constexpr float kMostMoved = 0.5F;  ///< voxels
-  static constexpr int kPerVoxel = 256;      ///< steps of a position
-  static constexpr int kOrigin = 8;          ///< voxels that are added to a position, so that it is not negative
+  static constexpr int kPerVoxel = 256;      ///< steps of a position in a voxel
+  static constexpr int kOrigin = 8;          ///< voxels that are added to a position, so that it is never negative
 
   struct Vertex {
     std::array<std::uint16_t, 3> position;  ///< from the brick's first voxel, less kOrigin; 1/256 voxel
-    Scale scale;                            ///< of the closing there
+    Scale scale;                            ///< of the closing at the vertex
     std::array<std::int8_t, 4> normal;      ///< outwards, 127 is 1; the last is 0
   };
   static_assert(sizeof(Vertex) == 12);
   BrickCoord brick;
   std::vector<Vertex> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<VoxelCoord> corners;  ///< of the voxels, that the vertices come from; they are not drawn
+  std::vector<VoxelCoord> corners;  ///< corners of voxels that the vertices come from; they are not drawn
 };
 
-/// Voxels around a brick that its piece depends on.
+/// Returns how many voxels around a brick its piece depends on.
 [[nodiscard]] std::int32_t piece_apron();
 
-/// The piece of a brick of `shelf`; empty if it has no face. `scale` has samples for the brick, grown by one voxel.
-/// Neighbours agree on the vertices that they share.
+/// Returns the piece of a brick of `shelf`; empty if the brick has no face. `scale` has samples for the brick, grown by
+/// one voxel. Neighbours agree on the vertices that they share.
 [[nodiscard]] SurfacePiece piece_of(const BrickShelf& shelf, BrickCoord brick, const ScaleLattice& scale);
-/// The same piece where only scales have changed.
+/// Returns the piece with new scales, for a brick where only scales have changed.
 [[nodiscard]] SurfacePiece with_scales(SurfacePiece piece, const ScaleLattice& scale);
 
 }  // namespace bp

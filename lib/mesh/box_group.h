@@ -10,14 +10,14 @@
 /// Boxes of lattice points, one by one and eight side by side.
 namespace bp {
 
-/// Closed box of lattice points.
+/// A closed box of lattice points.
 struct LatticeBox {
   LatticeCoord min{}, max{};
   [[nodiscard]] bool meets(const LatticeBox& b) const {
     return min.x <= b.max.x && b.min.x <= max.x && min.y <= b.max.y && b.min.y <= max.y && min.z <= b.max.z &&
            b.min.z <= max.z;
   }
-  /// Strictly inside: not on the boundary.
+  /// Returns whether `p` lies strictly inside, not on the boundary.
   [[nodiscard]] bool holds_inside(const LatticeCoord& p) const {
     return min.x < p.x && p.x < max.x && min.y < p.y && p.y < max.y && min.z < p.z && p.z < max.z;
   }
@@ -41,7 +41,7 @@ struct LatticeBox {
   return box;
 }
 
-/// Around points, one or more.
+/// Returns the box around one or more points.
 [[nodiscard]] inline LatticeBox box_of(std::span<const LatticeCoord> points) {
   LatticeBox box{points.front(), points.front()};
   for (const LatticeCoord& p : points) box.add(p);
@@ -52,7 +52,7 @@ struct LatticeBox {
           {std::min(a.max.x, b.max.x), std::min(a.max.y, b.max.y), std::min(a.max.z, b.max.z)}};
 }
 
-/// A box relative to a point near it, clamped. Clamping keeps the order, so no meeting is missed.
+/// A box relative to a point near it, clamped to 32 bits. Clamping keeps the order, so no meeting is missed.
 struct SmallBox {
   std::array<std::int32_t, 3> min, max;
 };
@@ -64,7 +64,7 @@ struct SmallBox {
           {clamp(b.max.x - base.x), clamp(b.max.y - base.y), clamp(b.max.z - base.z)}};
 }
 
-/// A box that groups are compared with: each coordinate in all lanes.
+/// A box that groups are compared with; each coordinate is in all lanes.
 struct BoxQuery {
   FourInts min[3], max[3];
   explicit BoxQuery(const SmallBox& b) {
@@ -75,12 +75,13 @@ struct BoxQuery {
   }
 };
 
-/// Eight boxes side by side, all relative to the same point; none at first.
+/// Eight boxes side by side, all relative to the same point. A new group has none.
 struct BoxGroup {
   static constexpr std::uint32_t kWidth = 8;
-  /// Meets nothing: it is beyond all that relative_to() returns.
+  /// A box that meets nothing: it lies beyond everything that relative_to() returns.
   static constexpr SmallBox kNothing{{INT32_MAX, INT32_MAX, INT32_MAX}, {INT32_MIN, INT32_MIN, INT32_MIN}};
-  /// n . p < limit only for points p, relative to the same point, strictly on the inner side.
+  /// The inner side of a plane: n . p < limit holds only for points p strictly on it. p is relative to the group's
+  /// point.
   struct InnerSide {
     std::array<float, 3> n;
     float limit;
@@ -91,7 +92,7 @@ struct BoxGroup {
   BoxGroup() {
     for (std::uint32_t k = 0; k < kWidth; ++k) set(k, kNothing);
   }
-  /// Bit k: box k meets `b`.
+  /// Returns a mask. Bit k says that box k meets `b`.
   [[nodiscard]] std::uint32_t meeting(const BoxQuery& b) const {
     // Instruction sets have "greater than" for integers, but not its opposite.
     const auto misses = [&](std::size_t half) {
@@ -100,7 +101,7 @@ struct BoxGroup {
     };
     return bits_of(misses(0), misses(1)) ^ 0xff;
   }
-  /// Bit k: box k, if it is there, lies on the inner side.
+  /// Returns a mask. Bit k says that box k lies on the inner side; it is undefined if box k is not set.
   [[nodiscard]] std::uint32_t inside(const InnerSide& side) const {
     const auto below = [&](std::size_t half) {
       FourFloats far{};

@@ -27,14 +27,14 @@ void BoxTree::build(std::span<const LatticeBox> boxes, std::vector<std::uint32_t
   build_levels();
 }
 
-/// By the centres of the boxes.
+/// Sorts the items by the centres of their boxes.
 void BoxTree::sort_in_space(std::span<const LatticeBox> boxes) {
   order_ = space_order(
       order_.size(), [this](std::size_t i) { return order_[i]; },
       [&](std::uint32_t item) { return boxes[item].min + boxes[item].max; });
 }
 
-/// From the groups of items up to one root.
+/// Builds all levels, from the groups of items up to one root.
 void BoxTree::build_levels() {
   levels_.assign(1, 0);
   for (auto count = std::uint32_t(groups_.size()); count > 1; count = (count + kWidth - 1) / kWidth) {
@@ -50,8 +50,9 @@ void BoxTree::reach(const SmallBox& b) {
     reach_ = std::max({reach_, std::abs(double(b.min[i])), std::abs(double(b.max[i]))});
 }
 
-/// Floats: each of the three terms of n . p passes through at most 6 roundings (n, p, the product, three sums), the
-/// limit through 2: together less than 16 roundings of reach or offset. Clamped boxes may reach further.
+/// The limit covers all rounding of floats. Each of the three terms of n . p passes through at most 6 roundings (n, p,
+/// the product, three sums), and the limit through 2: together less than 16 roundings of reach or offset. Clamped boxes
+/// may reach further.
 BoxGroup::InnerSide BoxTree::inner_side(const Plane& plane) const {
   const double size = length(plane.normal);
   if (!(size > 0) || reach_ >= INT32_MAX - 1) return {{0, 0, 0}, -1};
@@ -62,7 +63,7 @@ BoxGroup::InnerSide BoxTree::inner_side(const Plane& plane) const {
   return {{float(n[0]), float(n[1]), float(n[2])}, float(offset - slack)};
 }
 
-/// In the order of walk(): of the children of a group the last one comes first.
+/// Visits groups in the order of walk(): the last child of a group comes first.
 void BoxTree::gather(const LatticeBox& box, Nearby& nearby) const {
   constexpr std::size_t kMost = 256;
   nearby.groups_.clear();

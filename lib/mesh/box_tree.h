@@ -11,25 +11,26 @@
 /// A bounding volume hierarchy over boxes of lattice points: the broad phase of all exact tests.
 namespace bp {
 
-/// Items lie in the order of a space-filling curve; eight in a row are a group, the boxes of eight groups a group of
-/// the next level, and so on. The boxes of a group are compared at once, and what is where follows from numbers: no
-/// pointers, about 32 bytes an item.
+/// Items lie in the order of a space-filling curve. Eight in a row are a group, the boxes of eight groups are a group
+/// of the next level, and so on. The boxes of a group are compared at once. Places follow from numbers, so there are no
+/// pointers: about 32 bytes an item.
 class BoxTree {
  public:
-  /// Item i has the box boxes[i]; only those listed in `items` are in the tree. Linear.
+  /// Builds the tree. Item i has the box boxes[i]; only the items of `items` are in the tree. Linear.
   void build(std::span<const LatticeBox> boxes, std::vector<std::uint32_t> items);
-  /// A changed item: its own box is exact again, those above it only grow, build() makes them tight. O(depth).
+  /// Gives an item a new box. The item's own box is exact, the boxes above it only grow; build() makes them tight.
+  /// O(depth).
   void update(std::uint32_t item, const LatticeBox& box);
-  /// The item is not found any more, nor may it be changed, until the next build(). O(1).
+  /// Takes an item out until the next build(). It must not be updated until then. O(1).
   void remove(std::uint32_t item);
-  [[nodiscard]] std::size_t size() const { return order_.size(); }  ///< when built
+  [[nodiscard]] std::size_t size() const { return order_.size(); }  ///< number of items when the tree was built
 
-  /// visit(item) for every item whose box meets `box`; stops when visit returns false, and returns false then.
+  /// Calls visit(item) for every item whose box meets `box`. Stops when visit returns false, and returns false then.
   template <class Visit>
   bool query(const LatticeBox& box, Visit&& visit) const {
     return query_places(box, [&](std::uint32_t place) { return visit(order_[place]); });
   }
-  /// The same, by their places in order().
+  /// Does the same with the items' places in order().
   template <class Visit>
   bool query_places(const LatticeBox& box, Visit&& visit) const {
     const BoxQuery query(to_small(box));
@@ -42,14 +43,14 @@ class BoxTree {
                 });
   }
 
-  /// Its inner side is the open half-space that the normal points away from. `normal`: of any length, each component
-  /// to a rounding.
+  /// A plane whose inner side is the open half-space that the normal points away from. `normal` has any length, and
+  /// each component is right to a rounding.
   struct Plane {
     LatticeCoord point;
     Vec3d normal;
   };
-  /// The same, without some that lie wholly on the inner side of `plane`, and eight at a time: visit(first, hits) means
-  /// the items order()[first + k] for the bits k of `hits`.
+  /// Does the same, but may leave out items that lie wholly on the inner side of `plane`. It visits eight at a time:
+  /// visit(first, hits) means the items order()[first + k] for the bits k of `hits`.
   template <class Visit>
   bool query_groups(const LatticeBox& box, const Plane& plane, Visit&& visit) const {
     const BoxQuery query(to_small(box));
@@ -61,7 +62,7 @@ class BoxTree {
                 });
   }
 
-  /// Groups of items that meet a box, with their boxes: for several questions about boxes within it.
+  /// The groups of items that meet a box, with their boxes. It serves several queries of boxes within that box.
   class Nearby {
    public:
     [[nodiscard]] bool complete() const { return complete_; }
@@ -69,12 +70,12 @@ class BoxTree {
    private:
     friend BoxTree;
     std::vector<std::uint32_t> groups_;  // in the order in which a query visits them
-    std::vector<BoxGroup> boxes_;        // around them
+    std::vector<BoxGroup> boxes_;        // the boxes of the groups
     bool complete_ = false;
   };
-  /// Not complete, after some work in vain, if the box meets hundreds of groups.
+  /// Fills `nearby`. If the box meets hundreds of groups, it gives up and leaves `nearby` incomplete.
   void gather(const LatticeBox& box, Nearby& nearby) const;
-  /// The same as without `nearby`, which is complete, of a box around this one.
+  /// Does the same as the query without `nearby`, which must be complete and of a box around this one.
   template <class Visit>
   bool query_groups(const Nearby& nearby, const LatticeBox& box, const Plane& plane, Visit&& visit) const {
     const BoxQuery query(to_small(box));
@@ -89,7 +90,7 @@ class BoxTree {
     }
     return true;
   }
-  /// Items, those near in space near each other; changes with build() only.
+  /// Returns the items, neighbours in space near each other. Only build() changes the order.
   [[nodiscard]] std::span<const std::uint32_t> order() const { return order_; }
   [[nodiscard]] const LatticeCoord& base() const { return base_; }  ///< a point near the items
 
@@ -106,7 +107,7 @@ class BoxTree {
       __builtin_prefetch(reinterpret_cast<const char*>(&group) + at);
   }
 
-  /// visit(first, hits) for the groups of `lowest` level that are reached through the children hits(group).
+  /// Calls visit(first, hits) for the groups of the lowest level that are reached through the children hits(group).
   template <class Hits, class Visit>
   bool walk(Hits&& hits_of, Visit&& visit, std::uint32_t lowest = 0) const {
     if (levels_.empty()) return true;
@@ -138,10 +139,10 @@ class BoxTree {
 
   LatticeCoord base_{};
   double reach_ = 0;                     // largest coordinate of a box since build(), relative to base_
-  std::vector<BoxGroup> groups_;         // all groups of items, then those of the groups, ... the root last
+  std::vector<BoxGroup> groups_;         // the groups of items, then the groups of groups, ... and the root last
   std::vector<std::uint32_t> levels_;    // where each level begins in groups_
-  std::vector<std::uint32_t> order_;     // items; group g holds those from 8 g on
-  std::vector<std::uint32_t> place_of_;  // per item: in order_
+  std::vector<std::uint32_t> order_;     // items; group g holds those from place 8 g on
+  std::vector<std::uint32_t> place_of_;  // place of each item in order_
 };
 
 }  // namespace bp

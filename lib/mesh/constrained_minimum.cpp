@@ -1,7 +1,7 @@
-// Sources: [Se91] Seidel, small-dimensional linear programming, incremental: if the optimum of the first i constraints
-// violates constraint i + 1, the new optimum lies on its boundary, where the problem has one variable less. It carries
-// over to convex quadratic objectives, whose minimum over a convex set is on the boundary of the violated constraint
-// for the same reason. Constraints are few (about 10), so their order is kept as given: deterministic, no shuffling.
+// Source: [Se91] Seidel, small-dimensional linear programming, incremental. If the optimum of the first i constraints
+// violates constraint i + 1, the new optimum lies on its boundary, where the problem has one variable less. The same
+// holds for convex quadratic objectives, whose minimum over a convex set then lies on that boundary, too. Constraints
+// are few (about 10), so they are taken in the given order: deterministic, no shuffling.
 #include "lib/mesh/constrained_minimum.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ constexpr double kEps = 1e-7;  // lattice units; far below the rounding of 1/2 u
 Vec3d at(const Vec3d& p, double s, const Vec3d& u) {
   return {p[0] + s * u[0], p[1] + s * u[1], p[2] + s * u[2]};
 }
-/// Minimum on the line p + s u within the half-spaces.
+/// Returns the minimum on the line p + s u within the half-spaces.
 std::optional<Vec3d> on_line(const Quadric& q, const Vec3d& p, const Vec3d& u,
                              std::span<const PlaneConstraint> constraints) {
   double low = -1e300, high = 1e300;
@@ -37,7 +37,7 @@ std::optional<Vec3d> on_line(const Quadric& q, const Vec3d& p, const Vec3d& u,
   return at(p, std::clamp(s, low, std::max(low, high)), u);
 }
 
-/// Minimum on the plane n . x = d within the half-spaces.
+/// Returns the minimum on the plane n . x = d within the half-spaces.
 std::optional<Vec3d> on_plane(const Quadric& q, const PlaneConstraint& plane,
                               std::span<const PlaneConstraint> constraints) {
   const Vec3d& n = plane.n;

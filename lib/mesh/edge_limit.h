@@ -5,10 +5,11 @@
 
 namespace bp {
 
-/// True if an edge may run from a to b, or back: no longer than the limit anywhere along it. Empty: any edge may.
+/// Returns true if an edge may run between a and b: it is nowhere longer than the limit there. An empty function allows
+/// any edge.
 using EdgeLimit = std::function<bool(const LatticeCoord& a, const LatticeCoord& b)>;
 
-/// The same limit everywhere, lattice units.
+/// Returns a limit that is the same everywhere, lattice units.
 [[nodiscard]] inline EdgeLimit edges_up_to(double longest) {
   return [longest](const LatticeCoord& a, const LatticeCoord& b) { return length(to_double(b - a)) <= longest; };
 }

@@ -2,8 +2,8 @@
 #include "lib/mesh/box_tree.h"
 #include "lib/mesh/half_edge_mesh.h"
 
-/// The tree of a mesh's live faces, which follows the mesh as it changes: changed faces grow their nodes' boxes; when
-/// half of the faces are gone the tree is rebuilt, so its cost stays that of a fresh one.
+/// The tree of a mesh's live faces. It follows the mesh as it changes: changed faces grow the boxes of their nodes.
+/// When half of the faces are gone, the tree is rebuilt, so its cost stays that of a fresh one.
 namespace bp {
 
 class FaceTree {
@@ -12,11 +12,11 @@ class FaceTree {
 
   void update(FaceId f) { tree_.update(f, box_of_face(f)); }  ///< call after the corners of a live face moved
   void remove(FaceId f) { tree_.remove(f); }                  ///< call for every face that dies
-  void rebuild();                                             ///< boxes as tight as the mesh is now
-  void maintain() {                                           ///< rebuilds when half of the faces are dead
+  void rebuild();                                             ///< makes all boxes tight
+  void maintain() {                                           ///< rebuilds the tree if half of the faces are dead
     if (mesh_.face_count() * 2 < tree_.size()) rebuild();
   }
-  /// As BoxTree::query.
+  /// Queries faces, as BoxTree::query() does.
   template <class Visit>
   bool query(const LatticeBox& box, Visit&& visit) const {
     return tree_.query(box, visit);

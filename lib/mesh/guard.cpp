@@ -11,7 +11,7 @@ namespace bp {
 
 namespace {
 
-/// Corners with equal ids, as bits of their places in both faces.
+/// The corners that two faces have in common (equal ids), as bits of their places in both faces.
 struct Shared {
   unsigned a = 0, b = 0;
 };
@@ -28,10 +28,11 @@ Shared shared_corners(const std::array<VertexId, 3>& a, const std::array<VertexI
   return s;
 }
 
-/// Meeting beyond the corners that they share. Exact.
+/// Returns whether two faces meet beyond the corners that they share. Exact.
 bool meet(const NewFace& a, const NewFace& b, Shared s) {
   const LatticeCoord *ta = a.corners.data(), *tb = b.corners.data();
-  constexpr int kFirst[8] = {0, 0, 1, 0, 2, 0, 1, 0};  // of the bits, and then of the bits that are not there
+  // The lowest bit that is set; below, the lowest bit that is not set.
+  constexpr int kFirst[8] = {0, 0, 1, 0, 2, 0, 1, 0};
   if (s.a == 0) return triangles_intersect(ta, tb);
   if (s.a == 1 || s.a == 2 || s.a == 4) return triangles_meet_beyond_shared_vertex(ta, kFirst[s.a], tb, kFirst[s.b]);
   if (s.a == 7) return true;
@@ -52,7 +53,7 @@ double sum_of_sizes(const Vec3d& v) {
   return std::abs(v[0]) + std::abs(v[1]) + std::abs(v[2]);
 }
 
-/// Sum of normals that does not count their lengths, as small integers.
+/// Sums normals without regard to their lengths, as small integers.
 class MeanDirection {
  public:
   void add(const LatticeCoord& normal) {
@@ -71,13 +72,13 @@ class MeanDirection {
   Vec3d sum_{};
 };
 
-/// Seen along a direction, all faces turn the same way around the apex, and once: then the fan is a graph over its
-/// shadow. Exact; sufficient for its faces to meet only where they should.
+/// Returns true if all faces, seen along a direction, turn the same way around the apex, and once in all. Then the fan
+/// is a graph over its shadow, so its faces meet only where they should. Exact. False says nothing.
 bool is_graph(std::span<const NewFace> star, std::span<const LatticeCoord> normals, const LatticeCoord& along) {
   for (const LatticeCoord& n : normals) {
     if (side_along(n, along) <= 0) return false;
   }
-  // The fan crosses a plane that holds the apex and the direction in the same sense once per turn.
+  // The fan crosses a half-plane that holds the apex and the direction, in the same sense, once per turn.
   const LatticeCoord across = along.x != 0 || along.y != 0 ? LatticeCoord{along.y, -along.x, 0} : LatticeCoord{1, 0, 0};
   int turns = 0;
   for (const NewFace& f : star) {
@@ -87,7 +88,7 @@ bool is_graph(std::span<const NewFace> star, std::span<const LatticeCoord> norma
   return turns == 1;
 }
 
-/// Along the mean normal; holds for nearly every star, the others are compared pair by pair.
+/// Tries the mean normal. It works for nearly every star; the others are compared pair by pair.
 bool is_graph(std::span<const NewFace> star, std::span<const LatticeCoord> normals) {
   MeanDirection mean;
   mean.add(normals);
@@ -96,12 +97,12 @@ bool is_graph(std::span<const NewFace> star, std::span<const LatticeCoord> norma
 
 }  // namespace
 
-/// Separating planes of a new face in doubles, with the bound of their rounding: its own plane and, upright on it, one
-/// along each edge. They tell nearly all faces beside it apart; the exact test is for the rest. All four are asked at
-/// once: which of them tells is a guess, and branches cost more than what they save.
+/// Tells a new face from other faces by four separating planes: its own plane and, upright on it, one along each edge.
+/// Doubles with a bound of their rounding decide nearly all faces nearby; the exact test is for the rest. All four
+/// planes are asked at once, because nobody knows which one will separate, and branches would cost more than they save.
 class FaceProbe {
  public:
-  /// Corners of another face, relative to the origin, and the sums of the sizes of their coordinates.
+  /// The corners of another face, relative to the origin, and for each the sum of its coordinates' sizes.
   struct Corners {
     std::array<Vec3d, 3> at;
     std::array<double, 3> size;
@@ -122,9 +123,10 @@ class FaceProbe {
     }
   }
 
-  /// True only if the faces have no point in common but the corners shared.
+  /// Returns true only if the faces have no point in common except the shared corners.
   [[nodiscard]] bool apart(const Corners& corners, Shared shared) const {
-    // Planes of use, by the corners shared: its own, and those along an edge that all of these are on.
+    // The planes that can separate, by the shared corners: the own plane, and planes along an edge that holds all of
+    // these corners.
     constexpr std::array<std::uint32_t, 8> kUseful = {0b1111, 0b1101, 0b1011, 0b1001, 0b1110, 0b1100, 0b1010, 0b1000};
     if (shared.b == 7) return false;
     std::uint32_t beyond = kUseful[shared.a], below = 1u << kOwn;
@@ -139,7 +141,7 @@ class FaceProbe {
 
  private:
   static constexpr std::size_t kOwn = 3;  // place of the face's own plane; the others are along its edges
-  /// Bits of the planes that a point is surely above or below.
+  /// For one point: bits of the planes that it is surely above, and of those that it is surely below.
   struct Sides {
     std::uint32_t above, below;
   };
@@ -151,16 +153,16 @@ class FaceProbe {
     return {bits_of(low > error_low, high > error_high), bits_of(low < -error_low, high < -error_high)};
   }
 
-  /// `size` bounds the sum of sizes of the products that made `normal`. Coordinates are integers below 2^31, exact in
-  /// doubles; a component of `normal` carries at most 4 roundings of products below `size`, the two sums of products
-  /// with points 4 more each: below 16 roundings of size * (|p| + |point|).
+  /// `size` bounds the sum of the sizes of the products that made `normal`. Coordinates are integers below 2^31, exact
+  /// in doubles. A component of `normal` carries at most 4 roundings of products below `size`, and the two sums of
+  /// products with points 4 more each: together below 16 roundings of size * (|p| + |point|).
   void set_plane(std::size_t k, const Vec3d& normal, const Vec3d& point, double size) {
     for (std::size_t i = 0; i < 3; ++i) normal_[i][k / 2][k % 2] = normal[i];
     offset_[k / 2][k % 2] = dot(normal, point);
     slack_[k / 2][k % 2] = 0x1p-49 * size;
   }
 
-  std::array<std::array<TwoDoubles, 2>, 3> normal_;  // of four planes side by side, outside positive
+  std::array<std::array<TwoDoubles, 2>, 3> normal_;  // four planes side by side; outside is positive
   std::array<TwoDoubles, 2> offset_, slack_;
   double reach_ = 0;
 };
@@ -196,15 +198,15 @@ bool Guard::grown_star_is_free(std::span<const NewFace> star, std::span<const Fa
 }
 
 bool Guard::rest_is_free(std::span<const NewFace> star) {
-  if (near_count_ == 0) prepare_probes(star);  // no face has been tested yet
+  if (near_count_ == 0) prepare_probes(star);  // the first test of a face prepares the probes
   return std::all_of(near_.begin() + std::ptrdiff_t(near_count_), near_.end(),
                      [&](FaceId other) { return clear_of_face(star, other); });
 }
 
-/// If all old faces and all new ones face up along some direction, and the new ones are a graph over their shadow, so
-/// are the old ones, over the same. From a point of these straight up one starts outside of the solid, and meets a face
-/// from below only after one from above. So where no face that looks down comes between old and new faces, no other one
-/// does (docs/bounding.md, "The guard"). Then puts those that look down first in near_.
+/// If all old and all new faces look up along some direction, and the new ones are a graph over their shadow, then the
+/// old ones are a graph over the same shadow. A point that moves straight up from an old face begins outside the solid,
+/// and meets a face from below only after one from above. So if no face that looks down lies between old and new faces,
+/// no other face does (docs/bounding.md, "The guard"). The function then puts the faces that look down first in near_.
 bool Guard::look_one_way(std::span<const NewFace> star, std::span<const LatticeCoord> normals_before) {
   MeanDirection mean;
   mean.add(normals_);

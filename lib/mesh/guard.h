@@ -6,12 +6,12 @@
 #include "lib/mesh/half_edge_mesh.h"
 #include "lib/mesh/lattice_geometry.h"
 
-/// The guard: a change of the mesh is taken only if the new faces keep it embedded, decided exactly in integers.
-/// Together with the local constraints it proves that the new proxy contains the old one (docs/bounding.md,
+/// The guard refuses a change of the mesh unless the new faces keep it embedded. It decides exactly, in integers.
+/// Together with the local constraints this proves that the new proxy contains the old one (docs/bounding.md,
 /// "Simplification").
 namespace bp {
 
-/// A face that would replace others.
+/// A face that would replace old ones.
 struct NewFace {
   std::array<VertexId, 3> ids;  ///< counter-clockwise; ids[0] is the apex of a star
   std::array<LatticeCoord, 3> corners;
@@ -24,27 +24,27 @@ class Guard {
   Guard(const HalfEdgeMesh& mesh, const FaceTree& tree);
   ~Guard();
 
-  /// True if the faces of `star`, a closed fan around one apex, meet each other only in the apex and in the edges they
-  /// share, and meet the rest of the mesh, less `replaced`, only in shared corners and edges. Exact. No face may have
-  /// zero area.
+  /// Returns true if the faces of `star`, a closed fan around one apex, meet each other only in the apex and in the
+  /// edges that they share, and meet the rest of the mesh, without `replaced`, only in shared corners and edges. Exact.
+  /// No face may have zero area.
   [[nodiscard]] bool star_is_free(std::span<const NewFace> star, std::span<const FaceId> replaced);
 
-  /// The same for a star that only grows the solid, of a mesh that bounds a solid from outside (its winding number is 0
-  /// or 1 everywhere). It mostly tests only the few faces beside the star that look the other way. True then holds
-  /// under the condition that no face of near() lies between the old faces and the new ones. If one may lie there, ask
-  /// rest_is_free(), too. `before`: the normals of the faces replaced and a box around them.
+  /// Answers the same for a star that only grows the solid. The mesh must bound a solid from outside: its winding
+  /// number is 0 or 1 everywhere. As a rule only the few nearby faces that look the other way are tested. True then
+  /// holds under the condition that no face of near() lies between the old and the new faces. If one may lie there, ask
+  /// rest_is_free(), too. `before`: the normals of the replaced faces and a box around them.
   struct Before {
     std::span<const LatticeCoord> normals;
     LatticeBox box;
   };
   [[nodiscard]] bool grown_star_is_free(std::span<const NewFace> star, std::span<const FaceId> replaced,
                                         const Before& before);
-  /// The faces that may be between the old faces and the new ones now, if any are.
+  /// Returns the faces that may lie between the old and the new faces now, if any do.
   [[nodiscard]] std::span<const FaceId> near() const { return {near_.data(), near_count_}; }
-  [[nodiscard]] const LatticeBox& box_of_both() const { return both_; }  ///< around old faces and new ones
+  [[nodiscard]] const LatticeBox& box_of_both() const { return both_; }  ///< around the old and the new faces
   [[nodiscard]] bool rest_is_free(std::span<const NewFace> star);
 
-  /// The same for any few faces, e.g. the two of a flipped edge.
+  /// Answers the same for any few faces, for example the two faces of a flipped edge.
   [[nodiscard]] bool faces_are_free(std::span<const NewFace> faces, std::span<const FaceId> replaced);
 
  private:
@@ -58,13 +58,13 @@ class Guard {
   const HalfEdgeMesh& mesh_;
   const FaceTree& tree_;
   LatticeCoord origin_;           // a corner of the new faces
-  std::vector<FaceId> near_;      // faces whose boxes meet the one of the question
-  std::size_t near_count_ = 0;    // the first of them need a test
-  LatticeBox box_, both_;         // of all new faces; of the old ones too
+  std::vector<FaceId> near_;      // faces whose boxes meet the box of the question
+  std::size_t near_count_ = 0;    // so many of them, the first ones, need a test
+  LatticeBox box_, both_;         // of all new faces; both_: of the old faces, too
   std::vector<BoxGroup> groups_;  // boxes of the new faces, relative to origin_
   std::vector<LatticeCoord> normals_;
   std::vector<FaceProbe> probes_;
-  std::vector<std::uint32_t> removed_;  // stamp per face
+  std::vector<std::uint32_t> removed_;  // stamp of each face
   std::uint32_t stamp_ = 0;
 };
 

@@ -38,15 +38,16 @@ LatticeBox HalfEdgeMesh::room() const {
   return intersect({box.min - margin, box.max + margin}, cell_);
 }
 
-/// Buckets of half-edges by their lower vertex, sorted by the higher one: no hashing, linear but for the valence's
-/// logarithm.
+/// Finds the twins. Half-edges go to buckets by their lower vertex and are sorted by the higher one: no hashing, linear
+/// but for the logarithm of the valence.
 void HalfEdgeMesh::connect() {
   struct Half {
     VertexId high;  // the higher end
     HalfEdgeId h;
   };
   const auto edges = HalfEdgeId(from_.size());
-  std::vector<std::uint32_t> start(position_.size() + 2, 0);  // one further: it is the cursor while buckets fill
+  // One more than needed: each entry is the cursor while its bucket fills.
+  std::vector<std::uint32_t> start(position_.size() + 2, 0);
   for (HalfEdgeId h = 0; h < edges; ++h) {
     ++start[std::min(from(h), to(h)) + 2];
     out_[from(h)] = h;
@@ -79,7 +80,7 @@ void HalfEdgeMesh::check_fans() {
   for (const VertexId v : from_) ++degree[v];
   for (VertexId v = 0; v < position_.size(); ++v) {
     if (out_[v] == kNoId || locked(v) || std::uint32_t(valence(v)) == degree[v]) continue;
-    locked_[v] = 1;  // a fan that leaves the cell and comes back
+    locked_[v] = 1;  // the fan leaves the cell and comes back
     if (cell_.holds_inside(position_[v])) fail(ErrorCode::failed, "the surface is not 2-manifold at vertex {}", v);
   }
 }
@@ -98,12 +99,12 @@ int128 HalfEdgeMesh::volume6() const {
   return sum;
 }
 
-// The ends have two common neighbours, those of the edge's faces. With an apex of valence 3 they have another one, or
-// else all four vertices are a tetrahedron, and both ends have valence 3 themselves.
+// The ends have two common neighbours: the apices of the edge's faces. If an apex has valence 3, they have another one;
+// or else the four vertices are a tetrahedron, and both ends have valence 3 themselves.
 bool HalfEdgeMesh::can_collapse(HalfEdgeId h) const {
   const VertexId u = from(h), w = to(h);
   if (locked(u) || locked(w) || opposite(h) == opposite(twin(h))) return false;
-  constexpr int kChunk = 16;  // neighbours of u that are looked for in one round about w
+  constexpr int kChunk = 16;  // neighbours of u that one round about w looks for
   VertexId near[kChunk];
   int common = 0, n = 0;
   const auto count_common = [&] {
@@ -125,8 +126,8 @@ void HalfEdgeMesh::collapse(HalfEdgeId h, const LatticeCoord& p) {
   for_each_outgoing(w, [&](HalfEdgeId g) { from_[g] = u; });
   glue(a_left, a_right);  // u -> a and a -> u
   glue(b_left, b_right);
-  // a_right was the twin of w -> a, so it leaves a, and b_left that of b -> w, so it leaves u. The two others are not
-  // there if u is locked and its edge to a or b lies in the rim.
+  // a_right was the twin of w -> a, so it leaves a; b_left was the twin of b -> w, so it leaves u. The two others do
+  // not exist if u is locked and its edge to a or b lies in the rim.
   out_[u] = b_left;
   out_[a] = a_right;
   out_[b] = next(b_left);
@@ -154,11 +155,11 @@ bool HalfEdgeMesh::can_flip(HalfEdgeId h) const {
 }
 
 void HalfEdgeMesh::flip(HalfEdgeId h) {
-  // Faces (u, w, a) and (w, u, b) become (b, a, u)... written so that h runs b -> a and its twin a -> b.
+  // Faces (u, w, a) and (w, u, b) become (b, a, u) and (a, b, w). Then h runs b -> a, and its twin a -> b.
   const HalfEdgeId t = twin(h);
   const VertexId u = from(h), w = to(h), a = opposite(h), b = opposite(t);
   const HalfEdgeId wa = twin(next(h)), au = twin(prev(h)), ub = twin(next(t)),
-                   bw = twin(prev(t));  // outer halves, reversed
+                   bw = twin(prev(t));  // the outer halves, reversed
   from_[h] = b;
   from_[next(h)] = a;
   from_[prev(h)] = u;  // face (b, a, u): halves b->a, a->u, u->b

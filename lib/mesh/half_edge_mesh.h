@@ -7,9 +7,9 @@
 #include "lib/mesh/box_tree.h"
 #include "lib/mesh/lattice_mesh.h"
 
-/// A closed triangle mesh, or a cell's part of one, one can collapse edges, flip edges and move vertices of. Half-edge
-/// h = 3 f + k of face f runs from corner k to corner k + 1; 24 bytes a face, 29 a vertex
-/// (docs/decisions/0002-half-edges.md says why not OpenMesh here).
+/// A closed triangle mesh, or the part of one in a cell, whose edges can collapse and flip and whose vertices can move.
+/// Half-edge h = 3 f + k of face f runs from corner k to corner k + 1. It takes 24 bytes a face and 29 a vertex
+/// (docs/decisions/0002-half-edges.md says why it is not OpenMesh).
 namespace bp {
 
 using VertexId = std::uint32_t;
@@ -19,23 +19,25 @@ constexpr std::uint32_t kNoId = ~std::uint32_t(0);
 
 using Triangle = std::array<VertexId, 3>;
 
-/// No lattice point lies on its boundary: the cell of a whole mesh.
+/// The cell of a whole mesh. No lattice point lies on its boundary.
 constexpr LatticeBox kEverywhere{{-(std::int64_t(1) << 40), -(std::int64_t(1) << 40), -(std::int64_t(1) << 40)},
                                  {std::int64_t(1) << 40, std::int64_t(1) << 40, std::int64_t(1) << 40}};
 
 class HalfEdgeMesh {
  public:
-  /// Differences of coordinates stay below twice this, so that products of two fit in 64 bits.
+  /// Differences of coordinates stay below twice this, so that sums of products of two of them fit in 64 bits.
   static constexpr std::int64_t kMaxSpan = std::int64_t(1) << 29;
 
   /// Throws `failed` if the mesh is not closed, oriented and 2-manifold, or spans kMaxSpan lattice units or more.
   explicit HalfEdgeMesh(const LatticeMesh& mesh) : HalfEdgeMesh(mesh.vertices, mesh.triangles, kEverywhere) {}
 
-  /// Faces of a closed surface: all that have a vertex strictly inside of the box `cell`, and maybe others. Vertices
-  /// with further faces elsewhere are locked: what is around them is unknown. Throws as above.
+  /// Makes the mesh of some faces of a closed surface: all that have a vertex strictly inside of the box `cell`, and
+  /// maybe others. A vertex with further faces elsewhere is locked, because its surroundings are unknown. Throws as
+  /// above.
   HalfEdgeMesh(std::vector<LatticeCoord> vertices, std::span<const Triangle> triangles, const LatticeBox& cell);
 
-  [[nodiscard]] std::size_t vertex_capacity() const { return position_.size(); }  ///< ids below it, dead ones included
+  /// Ids are below it; dead vertices count.
+  [[nodiscard]] std::size_t vertex_capacity() const { return position_.size(); }
   [[nodiscard]] std::size_t face_capacity() const { return from_.size() / 3; }
   [[nodiscard]] std::size_t face_count() const { return face_count_; }
   [[nodiscard]] bool alive(FaceId f) const { return from_[3 * f] != kNoId; }
@@ -53,11 +55,11 @@ class HalfEdgeMesh {
   }  ///< one name for both halves
   [[nodiscard]] HalfEdgeId rotate(HalfEdgeId h) const {
     return twin_[prev(h)];
-  }  ///< next outgoing one, counter-clockwise
+  }  ///< the next outgoing one, counter-clockwise
 
   [[nodiscard]] const LatticeBox& cell() const { return cell_; }
-  /// New vertices belong strictly inside: of the cell, and so near to the mesh as it is that differences of coordinates
-  /// stay below twice kMaxSpan.
+  /// Returns the box that new vertices belong strictly inside of. It lies in the cell, and so near to the mesh that
+  /// differences of coordinates stay below twice kMaxSpan.
   [[nodiscard]] LatticeBox room() const;
   [[nodiscard]] bool locked(VertexId v) const { return locked_[v] != 0; }
   void lock(VertexId v) { locked_[v] = 1; }
@@ -66,7 +68,7 @@ class HalfEdgeMesh {
   [[nodiscard]] const LatticeCoord& corner(FaceId f, int k) const { return position_[from_[3 * f + std::uint32_t(k)]]; }
   void move(VertexId v, const LatticeCoord& p) { position_[v] = p; }
 
-  /// visit(h) for each outgoing half-edge of v, counter-clockwise. Not for locked vertices.
+  /// Calls visit(h) for each outgoing half-edge of v, counter-clockwise. v must not be locked.
   template <class Visit>
   void for_each_outgoing(VertexId v, Visit&& visit) const {
     const HalfEdgeId first = out_[v];
@@ -78,28 +80,32 @@ class HalfEdgeMesh {
     } while (h != first);
   }
   [[nodiscard]] int valence(VertexId v) const;
-  [[nodiscard]] bool are_joined(VertexId v, VertexId w) const;  ///< by an edge; v is not locked
+  [[nodiscard]] bool are_joined(VertexId v, VertexId w) const;  ///< by an edge; v must not be locked
 
-  /// Six times the enclosed volume, lattice units cubed; exact. Of a cell's part, that of the cones from some fixed
-  /// point to its faces: changes in the cell change it by what they add. O(faces).
+  /// Returns six times the enclosed volume, lattice units cubed; exact. For a cell's part it is the volume of the cones
+  /// from some fixed point to the faces, so only its changes have a meaning. O(faces).
   [[nodiscard]] int128 volume6() const;
 
-  /// The link condition: collapsing h leaves a closed 2-manifold of the same genus. False if an end is locked.
+  /// Returns whether the link condition holds: collapsing h leaves a closed 2-manifold of the same genus. False if an
+  /// end is locked.
   [[nodiscard]] bool can_collapse(HalfEdgeId h) const;
-  /// Merges to(h) into from(h), which moves to `p`. Needs the link condition; from(h) may be locked, if it stays.
+  /// Merges to(h) into from(h), and moves from(h) to `p`. Needs the link condition. from(h) may be locked if it does
+  /// not move.
   void collapse(HalfEdgeId h, const LatticeCoord& p);
-  /// Removes a face; to be called for all faces of a connected part.
+  /// Removes a face. Call it for all faces of a connected part.
   void erase(FaceId f);
 
-  /// The edge between the two opposite corners does not exist yet. False if one of the four corners is locked.
+  /// Returns whether the edge between the two opposite corners does not exist yet. False if one of the four corners is
+  /// locked.
   [[nodiscard]] bool can_flip(HalfEdgeId h) const;
   /// Turns the edge inside its two faces; h becomes the new edge. Needs can_flip(h).
   void flip(HalfEdgeId h);
 
-  /// visit(v, i) for each live vertex in id order, i = 0, 1, 2...; returns the live faces in id order, by these i.
+  /// Calls visit(v, i) for each live vertex in the order of ids, with i = 0, 1, 2, ... Returns the live faces in the
+  /// order of ids, by these i.
   template <class Visit>
   [[nodiscard]] std::vector<Triangle> live_faces(Visit&& visit) const;
-  /// Live vertices and faces, in id order.
+  /// Returns the live vertices and faces, in the order of ids.
   [[nodiscard]] LatticeMesh compact(const GridFrame& frame) const;
 
  private:
@@ -111,13 +117,13 @@ class HalfEdgeMesh {
     if (b != kNoId) twin_[b] = a;
   }
   std::vector<LatticeCoord> position_;
-  std::vector<HalfEdgeId> out_;  // per vertex, kNoId when dead
-  std::vector<VertexId> from_;   // per half-edge, kNoId when dead
+  std::vector<HalfEdgeId> out_;  // by vertex, kNoId when dead
+  std::vector<VertexId> from_;   // by half-edge, kNoId when dead
   std::vector<HalfEdgeId> twin_;
-  std::vector<char> locked_;  // per vertex
+  std::vector<char> locked_;  // by vertex
   std::size_t face_count_ = 0;
   LatticeBox cell_;
-  LatticeCoord origin_{};  // of the cones of volume6()
+  LatticeCoord origin_{};  // apex of the cones of volume6()
 };
 
 template <class Visit>

@@ -8,8 +8,8 @@
 
 namespace bp {
 
-/// Calls body(c, d) for each edge that two triangles have, and no third: the corners where it begins in them, as
-/// 3 * triangle + place, c < d. In an order that depends on the triangles only. O(n log n), 36 bytes a triangle.
+/// Calls body(c, d) for each edge that exactly two triangles have. c < d are the corners where the edge begins in each,
+/// as 3 * triangle + place. The order depends on the triangles only. O(n log n), 36 bytes a triangle.
 template <class Body>
 void for_each_inner_edge(std::span<const std::array<std::uint32_t, 3>> triangles, const Body& body) {
   struct HalfEdge {

@@ -3,7 +3,8 @@
 #include <bit>
 #include <cstdint>
 
-/// Numbers side by side, as vectors of GCC and Clang of 16 bytes: one instruction each on all that we build for.
+/// Numbers side by side, as vectors of 16 bytes of GCC and Clang: one instruction each on all processors that we build
+/// for.
 namespace bp {
 
 typedef std::int32_t FourInts __attribute__((vector_size(16)));
@@ -12,8 +13,8 @@ typedef float FourFloats __attribute__((vector_size(16)));
 typedef double TwoDoubles __attribute__((vector_size(16)));
 typedef std::int64_t TwoLongs __attribute__((vector_size(16)));
 
-/// Returns a bit for each lane of two comparisons' results (all ones where true), low four lanes first. It has no
-/// branches: they would be guesses.
+/// Returns a bit for each lane of two comparisons' results (all ones where true), the four lanes of `low` first. It has
+/// no branches, because the processor could only guess them.
 [[nodiscard]] inline std::uint32_t bits_of(FourInts low, FourInts high) {
 #ifdef __SSE__
   const auto signs = [](FourInts lanes) {
@@ -40,7 +41,7 @@ typedef std::int64_t TwoLongs __attribute__((vector_size(16)));
 #endif
 }
 
-/// Whether a comparison holds in any lane.
+/// Returns whether a comparison holds in any lane.
 [[nodiscard]] inline bool any(FourInts lanes) {
   const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(lanes);
   return (halves[0] | halves[1]) != 0;

@@ -1,11 +1,12 @@
 #pragma once
 #include "lib/core/coords.h"
 
-/// Quadrics of [GH97]: sums of squared distances to planes. Everything here is inline: a collapse asks for a dozen.
+/// Quadrics of [GH97]: sums of squared distances to planes. All of it is inline, since a collapse needs a dozen of
+/// them.
 namespace bp {
 
-/// A quadratic form about a point of its own: value(x) = x'Ax + 2 b'x + c, with x relative to that point. Each plane is
-/// weighted by its triangle's area; `weight` sums the areas.
+/// A quadratic form about a point of its own: value(x) = x'Ax + 2 b'x + c, with x relative to that point. Each plane
+/// has the area of its triangle as its weight; `weight` is the sum of the areas.
 struct Quadric {
   double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
   double bx = 0, by = 0, bz = 0;
@@ -29,7 +30,7 @@ struct Quadric {
   [[nodiscard]] Vec3d times(const Vec3d& x) const {  ///< A x
     return {xx * x[0] + xy * x[1] + xz * x[2], xy * x[0] + yy * x[1] + yz * x[2], xz * x[0] + yz * x[1] + zz * x[2]};
   }
-  [[nodiscard]] Vec3d gradient(const Vec3d& x) const {  ///< half of it
+  [[nodiscard]] Vec3d gradient(const Vec3d& x) const {  ///< half of the gradient
     const Vec3d ax = times(x);
     return {ax[0] + bx, ax[1] + by, ax[2] + bz};
   }
@@ -37,7 +38,7 @@ struct Quadric {
     const Vec3d ax = times(x);
     return (ax[0] * x[0] + ax[1] * x[1] + ax[2] * x[2]) + 2 * (bx * x[0] + by * x[1] + bz * x[2]) + c;
   }
-  /// The same function about the point `p` (given relative to the present one).
+  /// Returns the same function about the point `p`, which is relative to the present one.
   [[nodiscard]] Quadric about(const Vec3d& p) const {
     Quadric q = *this;
     const Vec3d g = gradient(p);
@@ -45,7 +46,8 @@ struct Quadric {
     q.c = value(p);
     return q;
   }
-  /// Pulled slightly (a share 1e-3 of the mean eigenvalue) towards `prior`, so that flat directions have one answer.
+  /// Returns the form pulled slightly towards `prior`, by 1e-3 of the mean eigenvalue. Then flat directions have one
+  /// answer.
   [[nodiscard]] Quadric regularised(const Vec3d& prior) const {
     Quadric r = *this;
     const double pull = 1e-3 * (xx + yy + zz) / 3 + 1e-12;
@@ -53,7 +55,7 @@ struct Quadric {
     r.bx -= pull * prior[0], r.by -= pull * prior[1], r.bz -= pull * prior[2];
     return r;
   }
-  /// Where it is least; needs a regular A.
+  /// Returns the point where the form is least. A must be regular.
   [[nodiscard]] Vec3d minimum() const {
     const double a = yy * zz - yz * yz, b = xz * yz - xy * zz, c1 = xy * yz - xz * yy;
     const double det = xx * a + xy * b + xz * c1;
@@ -62,7 +64,7 @@ struct Quadric {
   }
 };
 
-/// Point that minimises `q`, regularised.
+/// Returns the point that minimises `q`, regularised.
 [[nodiscard]] inline Vec3d minimum(const Quadric& q, const Vec3d& prior) {
   return q.regularised(prior).minimum();
 }

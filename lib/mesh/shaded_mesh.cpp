@@ -51,7 +51,7 @@ class Shader {
     groups_.unite(next(a), b);
   }
 
-  /// What makes a corner a copy of its own: its group, chart and colour.
+  /// Returns what makes a corner a separate copy: its group, chart and colour.
   [[nodiscard]] std::array<std::uint64_t, 2> kind_of(Corner c) {
     const std::uint64_t chart = mesh_.texture ? mesh_.texture->chart[c / 3] : 0;
     const LinearColor color = mesh_.colors.empty() ? kWhite : mesh_.colors[c / 3][c % 3];
@@ -96,7 +96,7 @@ class Shader {
   }
 
   const LatticeMesh& mesh_;
-  std::vector<Vec3d> faces_;  // normals, twice the area long
+  std::vector<Vec3d> faces_;  // normals, as long as twice the area
   std::vector<Corner> group_of_copy_;
   DisjointSets groups_;  ///< corners of one vertex that share a normal
   ShadedMesh out_;

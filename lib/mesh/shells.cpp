@@ -7,11 +7,12 @@ namespace bp {
 
 namespace {
 
-/// Crossings of a face by the ray from p towards +z, signed: 1 where it leaves the solid. Edges count half-open, as if
-/// p were moved by infinitesimals in x and y, so no ray meets an edge or a corner; p is not on the face.
+/// Returns the crossing of a face by the ray from p towards +z: 1 if the ray leaves the solid there, -1 if it enters, 0
+/// if it misses. Edges count half-open, as if p were moved by infinitesimals in x and y, so no ray meets an edge or a
+/// corner. p is not on the face.
 int crossings(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoord& c, const LatticeCoord& p) {
   const LatticeCoord* corner[4] = {&a, &b, &c, &a};
-  int turn = 0;  // of the face's shadow around p
+  int turn = 0;  // winding of the face's shadow around p
   for (int i = 0; i < 3; ++i) {
     const LatticeCoord &s = *corner[i], &e = *corner[i + 1];
     if ((s.y <= p.y) == (e.y <= p.y)) continue;
@@ -21,12 +22,12 @@ int crossings(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoord& 
   return turn != 0 && orient3d(a, b, c, p) * turn < 0 ? turn : 0;
 }
 
-/// The shells of a mesh by number: in the order of their first faces.
+/// The shells of a mesh, numbered in the order of their first faces.
 struct Numbered {
   struct Shell {
     FaceId first;
-    int128 volume6;  // positive if it bounds a solid from outside, negative for a cavity
-    bool rim;        // it goes on in other cells
+    int128 volume6;  // positive if the shell bounds a solid from outside, negative for a cavity
+    bool rim;        // the shell goes on in other cells
   };
   explicit Numbered(const HalfEdgeMesh& mesh) : shell_of(mesh.face_capacity(), kNoId) {
     for (FaceId f = 0; f < mesh.face_capacity(); ++f) {
@@ -34,7 +35,7 @@ struct Numbered {
     }
   }
 
-  std::vector<std::uint32_t> shell_of;  // per face
+  std::vector<std::uint32_t> shell_of;  // by face
   std::vector<Shell> shells;
 
  private:
@@ -76,7 +77,7 @@ std::uint64_t erase_faces(HalfEdgeMesh& mesh, const Inner& inner) {
   return erased;
 }
 
-/// Winding number of the other shells around a vertex of this one.
+/// Returns the winding number of the other shells around a vertex of this one.
 int winding(const HalfEdgeMesh& mesh, const FaceTree& tree, const Numbered& numbered, std::uint32_t shell) {
   const LatticeCoord p = mesh.corner(numbered.shells[shell].first, 0);
   int sum = 0;
@@ -122,7 +123,7 @@ std::uint64_t erase_inner_shells(HalfEdgeMesh& mesh, bool inwards, const ShellSe
   const FaceTree tree(mesh);
   std::vector<bool> inner(numbered.shells.size());
   for (std::uint32_t s = 0; s < inner.size(); ++s) {
-    // Around the shell; within it, it is one more, or less.
+    // The winding number just around the shell. Within it, it is one more, or one less.
     const int outside = winding(mesh, tree, numbered, s) + (inwards ? 1 : 0);
     inner[s] = outside != (numbered.shells[s].volume6 > 0 ? 0 : 1);
   }

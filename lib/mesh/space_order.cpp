@@ -6,7 +6,7 @@ namespace bp {
 
 namespace {
 
-/// Bit i of a 10-bit number becomes bit 3 i.
+/// Moves bit i of a 10-bit number to bit 3 i.
 std::uint32_t spread(std::uint32_t v) {
   v = (v | (v << 16)) & 0x030000ff;
   v = (v | (v << 8)) & 0x0300f00f;
@@ -23,7 +23,8 @@ void SpaceOrder::set(std::size_t i, std::uint32_t item, const LatticeCoord& plac
   keys_[i] = std::uint64_t(code) << 32 | item;
 }
 
-/// By code; equal codes stay in order. Counting sort by the bits of an axis, the least first.
+/// Sorts by code, where equal codes keep their order. It is a counting sort by the bits of an axis, the least bits
+/// first.
 std::vector<std::uint32_t> SpaceOrder::take() {
   constexpr std::size_t kDigits = 1 << kBits;
   std::vector<std::uint64_t> sorted(keys_.size());

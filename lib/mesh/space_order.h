@@ -7,30 +7,30 @@
 #include "lib/core/parallel.h"
 #include "lib/mesh/box_group.h"
 
-/// Things in the order of a space-filling curve: those near in space are near each other.
+/// Orders things along a space-filling curve, so that neighbours in space are near each other.
 namespace bp {
 
-/// Along a Morton curve of 2^10 steps an axis; what lies in one step keeps its order.
+/// A Morton curve of 2^10 steps an axis. Things in one step keep their order.
 class SpaceOrder {
  public:
-  /// For n things; `all`: around all places.
+  /// Takes n things; `all` is a box around all places.
   SpaceOrder(std::size_t n, const LatticeBox& all) : low_(all.min), keys_(n) {
     const LatticeCoord size = all.max - all.min;
     shift_ = std::max(0, int(std::bit_width(std::uint64_t(std::max({size.x, size.y, size.z})))) - kBits);
   }
-  /// The i-th of them. At the same time for different ones.
+  /// Sets the i-th thing. Thread-safe for different i.
   void set(std::size_t i, std::uint32_t item, const LatticeCoord& place);
-  /// The items. Linear.
+  /// Returns the items in order. Linear.
   [[nodiscard]] std::vector<std::uint32_t> take();
 
  private:
   static constexpr int kBits = 10;  // per axis
   LatticeCoord low_;
   int shift_;
-  std::vector<std::uint64_t> keys_;  // codes and, in the low 32 bits, their items
+  std::vector<std::uint64_t> keys_;  // codes; the low 32 bits have the items
 };
 
-/// Of the items item(i) for i in [0, n). Parallel: places are asked for at the same time.
+/// Orders the items item(i) for i in [0, n). Parallel: it asks for places on several threads.
 template <class Item, class Place>
 [[nodiscard]] std::vector<std::uint32_t> space_order(std::size_t n, const Item& item, const Place& place) {
   constexpr std::int64_t kAtOnce = 1 << 14;
@@ -55,7 +55,7 @@ template <class Item, class Place>
   return order.take();
 }
 
-/// Of place(i) for i in [0, n).
+/// Orders the numbers 0 to n - 1 by place(i).
 template <class Place>
 [[nodiscard]] std::vector<std::uint32_t> space_order(std::size_t n, const Place& place) {
   return space_order(

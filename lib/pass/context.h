@@ -10,19 +10,19 @@
 
 namespace bp {
 
-/// Thrown by a pass that was told to stop. What it has written until then is incomplete.
+/// Thrown by a pass that was told to stop. Its output is incomplete then.
 struct Cancelled {};
 
-/// What a tool gives to every pass: memory, places for what waits, and who is told of the progress. None of it changes
-/// a result.
+/// The resources that a tool gives to every pass: memory, shelves and scratch, and a receiver of the progress. They
+/// change no result.
 struct PassContext {
-  MemoryShare memory;              ///< for what is at work; what the shelves and stores hold comes on top
+  MemoryShare memory;              ///< for the work itself; the content of shelves and stores comes on top
   PieceMemory pieces;              ///< the same, for surfaces
   ShelfFactory make_shelf;         ///< for bricks that wait
   ScratchFactory make_scratch;     ///< for triangles, crossings and colours that wait
   ResultStore* results = nullptr;  ///< results of jobs are looked up there, and put; null: all are made
-  std::uint64_t turn = 0;          ///< of a job that shares work with others through `results` (lib/pass/turn.h)
-  PassProgress progress;           ///< called now and then; may be empty
+  std::uint64_t turn = 0;  ///< the turn of a job that shares work with others through `results` (lib/pass/turn.h)
+  PassProgress progress;   ///< called now and then; may be empty
   /// Once it is true, the pass throws Cancelled the next time that it would report; null: it is never stopped.
   const std::atomic<bool>* stop = nullptr;
 

@@ -5,10 +5,11 @@
 
 namespace bp {
 
-/// What is done, of how many (0: not known) units. May be empty. Called on any thread, one at a time.
+/// Receives how many units are done, and of how many (0: unknown). It may be empty. It is called on any thread, by one
+/// at a time.
 using PassProgress = std::function<void(const char* pass, const char* unit, std::uint64_t done, std::uint64_t total)>;
 
-/// Steps of one pass. Thread-safe.
+/// The steps of one pass. Thread-safe.
 class PassSteps {
  public:
   /// Keeps a reference to `progress`.

@@ -6,7 +6,7 @@
 
 namespace bp {
 
-/// XXH3-128 of these bytes.
+/// Returns the XXH3-128 of these bytes.
 [[nodiscard]] ResultKey content_hash(std::span<const std::byte> bytes);
 
 /// XXH3-128 of bytes that come in pieces.
@@ -19,7 +19,7 @@ class ContentHash {
 
   void add(std::span<const std::byte> bytes);
   [[nodiscard]] ResultKey value() const;
-  void reset();  ///< as if nothing had been added
+  void reset();  ///< forgets all that was added
 
  private:
   struct State;

@@ -2,13 +2,13 @@
 #include <cstddef>
 #include <type_traits>
 
-/// All members of a struct, in their order. What goes through them cannot forget one: a struct of more than 12 members,
-/// or one that is not an aggregate, does not compile.
+/// Visits all members of a struct, in their order. So code that visits them forgets none: a struct of more than 12
+/// members, or one that is not an aggregate, does not compile.
 namespace bp {
 
 namespace detail {
 
-/// Stands for a member of any type.
+/// Converts to a member of any type.
 struct AnyField {
   template <class T>
   operator T() const;  // NOLINT(google-explicit-constructor)
@@ -28,7 +28,7 @@ constexpr std::size_t field_count() {
 template <class T>
 constexpr std::size_t kFieldCount = detail::field_count<std::remove_const_t<T>>();
 
-/// `act(members...)`; of a std::array its elements. No arrays of the language among them.
+/// Calls act(members...), or act(elements...) for a std::array. Built-in arrays are not allowed among the members.
 template <class T, class Act>
 decltype(auto) with_fields(T& s, Act&& act) {
   static_assert(std::is_aggregate_v<std::remove_const_t<T>>, "only structs without constructors have fields");
@@ -73,7 +73,7 @@ decltype(auto) with_fields(T& s, Act&& act) {
   }
 }
 
-/// `act(member)` for each.
+/// Calls act(member) for each member.
 template <class T, class Act>
 void for_each_field(T& s, Act&& act) {
   with_fields(s, [&](auto&... members) { (act(members), ...); });

@@ -6,7 +6,7 @@
 
 namespace bp {
 
-/// Keeps everything in memory, as it is: for callers that set no bound.
+/// Keeps everything in memory, uncompressed, for callers that set no bound.
 class MemoryScratch : public Scratch {
  public:
   Handle put(std::span<const std::byte> bytes) override {

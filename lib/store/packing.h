@@ -7,8 +7,8 @@
 
 #include "lib/store/fields.h"
 
-/// Values as bytes and back: numbers and enumerators as they lie in memory, strings and vectors with their length,
-/// optional values, structs member by member (fields.h). Little-endian, as all machines that we run on.
+/// Packs values into bytes and back: numbers and enumerators as they lie in memory, strings and vectors with their
+/// length, optional values, structs member by member (fields.h). Little-endian, as all machines that we run on.
 namespace bp {
 
 /// A number or an enumerator.
@@ -46,7 +46,7 @@ void pack(std::string& out, const T& value) {
   }
 }
 
-/// Takes a value off the front of `in`. False if there are too few bytes; `value` may be anything then.
+/// Takes a value off the front of `in`. Returns false if there are too few bytes; `value` is unspecified then.
 template <class T>
 [[nodiscard]] bool unpack(std::string_view& in, T& value) {
   if constexpr (Plain<T>) {

@@ -2,9 +2,9 @@
 #include <cstddef>
 #include <utility>
 
-/// Memory of some ten kilobytes and more, straight from the system and back to it at once. What is made on one thread
-/// and released on another, by the hundred thousand, would leave holes in the heaps of both, and the peak would grow
-/// with their number.
+/// A block of some ten kilobytes or more that comes straight from the system and goes back to it at once. If blocks are
+/// made on one thread and released on another by the hundred thousand, the heap would keep holes for both, and the peak
+/// would grow with their number.
 namespace bp {
 
 class PageBlock {
@@ -30,7 +30,7 @@ class PageBlock {
   void release() noexcept;
   std::byte* data_ = nullptr;
   std::size_t bytes_ = 0;
-  bool mapped_ = false;  ///< else from the heap: small, or the system has no mapping left
+  bool mapped_ = false;  ///< false: from the heap, since the block is small or the system has no mapping left
 };
 
 }  // namespace bp

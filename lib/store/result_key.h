@@ -12,12 +12,12 @@ namespace bp {
 
 class KeyHash {
  public:
-  /// `job`: what is done with the input. source_digest() goes in, too.
+  /// `job` says what is done with the input. source_digest() is added, too.
   explicit KeyHash(std::string_view job);
 
-  /// Numbers, enumerators, texts, optional values, lists of these, structs with all their members (fields.h), and what
-  /// has add_to(KeyHash&). Nothing else compiles. Two sequences of values of the same types have the same key only if
-  /// all values are the same; of numbers their bits.
+  /// Adds values: numbers, enumerators, texts, optional values, lists of these, structs with all their members
+  /// (fields.h), and objects that have add_to(KeyHash&). Nothing else compiles. Two sequences of values of the same
+  /// types have the same key only if all values are the same. Numbers are compared by their bits.
   template <class... Values>
   KeyHash& add(const Values&... values) {
     (add_one(values), ...);

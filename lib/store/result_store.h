@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-/// Results of jobs, by what went into them. io/store/result_store.h keeps them in a folder.
+/// Keeps results of jobs, under a hash of their inputs. io/store/result_store.h keeps them in a folder.
 namespace bp {
 
 /// A 128-bit hash of everything that a result depends on.
@@ -13,13 +13,13 @@ struct ResultKey {
   friend auto operator<=>(const ResultKey&, const ResultKey&) = default;
 };
 
-/// Thread-safe.
+/// A store of results. Thread-safe.
 class ResultStore {
  public:
   virtual ~ResultStore() = default;
-  /// True, and the bytes that were put under `key`, if they are there and undamaged.
+  /// Gets the bytes that were put under `key`. Returns false if they are not there, or damaged.
   virtual bool get(const ResultKey& key, std::string& out) = 0;
-  /// Throws out_of_resource if there is no room.
+  /// Puts bytes under `key`. Throws out_of_resource if there is no room.
   virtual void put(const ResultKey& key, std::string_view bytes) = 0;
 };
 

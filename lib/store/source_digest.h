@@ -3,8 +3,8 @@
 
 namespace bp {
 
-/// 16 hexadecimal digits, of the sources that this was built from (cmake/source_digest.cmake): results that are kept
-/// for later builds are never taken by a program that might make other ones.
+/// Returns 16 hexadecimal digits of the sources of this build (cmake/source_digest.cmake). They enter the keys of kept
+/// results, so a program that might make other results never takes them.
 [[nodiscard]] std::string_view source_digest();
 
 }  // namespace bp

@@ -31,7 +31,7 @@ void TileTree::add(std::size_t level, const GridFrame& frame, CellCoord cell, Tr
     number_ = level;
   }
   frame_ = frame;
-  Node& node = level_[cell];  // its children may be there
+  Node& node = level_[cell];  // its children may be there already
   node.cell = cell_bounds(cells_, frame, cell);
   for (const Node& child : node.children) {
     tile.error_world = std::max(tile.error_world, child.tile.error_world);
@@ -77,7 +77,7 @@ void TileTree::add_leaf(const GridFrame& frame, CellCoord cell, TileLeaf leaf) {
   }
 }
 
-/// The cells above those of the level, with what lies in them. A cell above that gets no tile of its own has a node
+/// Adds the cells above those of the level, with their contents. A cell above that gets no tile of its own has a node
 /// without content.
 void TileTree::raise() {
   frame_ = reduced(frame_);
@@ -101,7 +101,7 @@ void TileTree::add_whole(TreeTile tile) {
     node.cell = root_->cell;
     node.children.push_back(std::move(*root_));
   } else if (!level_.empty()) {
-    do raise();  // to the one cell that holds all, if need be by nodes without content
+    do raise();  // up to the one cell that holds everything, if need be by nodes without content
     while (level_.size() > 1);
     node.cell = level_.begin()->second.cell;
     node.children = std::move(level_.begin()->second.children);
@@ -116,7 +116,7 @@ void TileTree::add_whole(TreeTile tile) {
 }
 
 Tileset TileTree::finish(double diameter) {
-  while (!root_) {  // no level in one mesh: nodes without content on top
+  while (!root_) {  // without a level in one mesh, nodes without content are on top
     if (level_.size() == 1) {
       root_ = std::move(level_.begin()->second);
     } else {
@@ -131,9 +131,9 @@ Tileset TileTree::finish(double diameter) {
   return tileset;
 }
 
-/// `above`: the error of the tile above it. A node without content draws nothing, so a viewer must not stop there. On
-/// top of all contents its error is that of drawing nothing. Below one there is none: a viewer may be so far from it,
-/// and so near to the tile above, that it refines that one alone.
+/// Makes the tile of a node. `above`: the error of the tile above. A node without content draws nothing, so a viewer
+/// must not stop there. Above all contents its error is that of drawing nothing. Below a content there is no such node:
+/// a viewer may be so far from it, and so near to the tile above, that it refines only that one.
 Tile TileTree::tile_of(const Node& node, const Vec3d& parent, double above) const {
   Tile tile;
   const Vec3d from = z_up(parent), to = z_up(node.tile.origin);
@@ -155,7 +155,7 @@ Tile TileTree::tile_of(const Node& node, const Vec3d& parent, double above) cons
   return tile;
 }
 
-/// The tiles below a node: of one with content the nearest that draw something, or end there.
+/// Returns the tiles below a node. Below a content they are the nearest ones that draw something, or end there.
 std::vector<const TileTree::Node*> TileTree::nodes_below(const Node& node) {
   std::vector<const Node*> below;
   const auto add = [&](const Node& above, const auto& again) -> void {
@@ -168,7 +168,7 @@ std::vector<const TileTree::Node*> TileTree::nodes_below(const Node& node) {
   return below;
 }
 
-/// Relative to `origin`; exact, both being points of the lattice.
+/// Returns bounds relative to `origin`; exact, since both are points of the lattice.
 Bounds3d TileTree::local(const Bounds3d& bounds, const Vec3d& origin) const {
   Bounds3d out;
   for (Vec3d p : {bounds.min, bounds.max}) {
@@ -178,7 +178,7 @@ Bounds3d TileTree::local(const Bounds3d& bounds, const Vec3d& origin) const {
   return out;
 }
 
-/// Scene to 3D Tiles: z up. Exact.
+/// Converts from the scene to 3D Tiles, where z is up. Exact.
 Vec3d TileTree::z_up(const Vec3d& p) const {
   return turned(p, up_, UpAxis::z);
 }

@@ -9,14 +9,14 @@ namespace bp {
 
 namespace {
 
-constexpr double kRounding = 1e-12;  // of a rotation whose numbers are doubles
+constexpr double kRounding = 1e-12;  // for rotations whose numbers are doubles
 
-/// Where it takes the axes.
+/// Returns the images of the axes.
 std::array<Vec3d, 3> columns_of(const Transform& m) {
   return {{{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}}};
 }
 
-/// a - b, rounded up.
+/// Returns a - b, rounded up.
 double difference_up(double a, double b) {
   const double d = a - b, back = d - a, error = (a - (d - back)) - (b + back);  // two_diff()
   return error > 0 ? std::nextafter(d, HUGE_VAL) : d;

@@ -9,7 +9,7 @@
 #include "lib/core/box.h"
 #include "lib/core/up_axis.h"
 
-/// A 3D Tiles 1.1 tileset (OGC 22-025r4): what is written, read and checked.
+/// A 3D Tiles 1.1 tileset (OGC 22-025r4), as it is written, read and checked.
 namespace bp {
 
 using Transform = std::array<double, 16>;  ///< 4 x 4 by columns
@@ -21,7 +21,7 @@ struct TileBox {
   std::array<Vec3d, 3> axes{};
   [[nodiscard]] std::array<Vec3d, 8> corners() const;
 };
-/// The box around `bounds`, axes along x, y, z. It holds them exactly: half-lengths are rounded up.
+/// Returns the box around `bounds`, with axes along x, y, z. It holds them exactly: half-lengths are rounded up.
 [[nodiscard]] TileBox box_of(const Bounds3d& bounds);
 
 struct TileSphere {
@@ -29,8 +29,8 @@ struct TileSphere {
   double radius = 0;
 };
 
-/// Where something is drawn: viewers cull by it. With a box and a sphere, a viewer may take either. With neither it is
-/// one that is not read, and Tileset::not_understood tells.
+/// The volume in which something is drawn; viewers cull by it. If there are a box and a sphere, a viewer may take
+/// either. If there is neither, the volume is of a kind that is not read, and Tileset::not_understood tells it.
 struct TileVolume {
   std::optional<TileBox> box;
   std::optional<TileSphere> sphere;
@@ -38,25 +38,25 @@ struct TileVolume {
 
 struct Tile {
   TileVolume volume;
-  std::shared_ptr<const TileVolume> content_volume;  ///< of its content alone; null: none is told
+  std::shared_ptr<const TileVolume> content_volume;  ///< volume of its content alone; null: none is told
   Transform transform = kNoTransform;
   double geometric_error = 0;
   std::string refine;  ///< "ADD", "REPLACE"; empty: the parent's
-  std::string uri;     ///< of the content, percent-decoded: a file name; empty: none
-  /// Cell of the tile, in its own space: it answers for the scene in it (lib/check/tile_cover.h). Ours only
-  /// (extras.cell); none: for all of the scene.
+  std::string uri;     ///< of the content, percent-decoded: a file name; empty: no content
+  /// The cell of the tile, in its own space: the tile answers for the scene in it (lib/check/tile_cover.h). Only our
+  /// tilesets have it (extras.cell). Without a cell, the tile answers for the whole scene.
   std::optional<Bounds3d> cell;
-  bool is_leaf = false;  ///< its content is a piece of the scene itself; ours only (extras.leaf)
+  bool is_leaf = false;  ///< its content is a piece of the scene itself; only in our tilesets (extras.leaf)
   std::vector<Tile> children;
 };
 
 struct Tileset {
   std::string version = "1.1";
-  UpAxis up = UpAxis::z;          ///< of the scene it was made from; ours only (asset.extras.up)
+  UpAxis up = UpAxis::z;          ///< of the scene it was made from; only in our tilesets (asset.extras.up)
   UpAxis content_up = UpAxis::y;  ///< of the glTF in its contents: x, y or z (asset.gltfUpAxis)
   double geometric_error = 0;
-  std::vector<std::string> images;          ///< files that contents share; ours only (asset.extras.images)
-  std::vector<std::string> not_understood;  ///< what it says that may move, hide or cull and is not read; a line each
+  std::vector<std::string> images;          ///< files that contents share; only in our tilesets (asset.extras.images)
+  std::vector<std::string> not_understood;  ///< statements that may move, hide or cull and are not read; one a line
   Tile root;
 };
 
@@ -65,9 +65,10 @@ template <class F>
 void for_each_tile(const Tileset& tileset, const F& f);
 
 [[nodiscard]] Transform product(const Transform& a, const Transform& b);  ///< first b, then a
-/// The largest factor by which it makes a length longer along one of its axes; 1 if that is so but for rounding.
+/// Returns the largest factor by which the transform stretches a length along one of its axes; 1 if it differs from 1
+/// by rounding only.
 [[nodiscard]] double largest_scale(const Transform& m);
-/// Whether lengths keep their proportions, but for rounding: then spheres stay spheres.
+/// Returns whether lengths keep their proportions, up to rounding; then spheres stay spheres.
 [[nodiscard]] bool keeps_spheres(const Transform& m);
 [[nodiscard]] Vec3d transformed(const Transform& m, const Vec3d& p);
 

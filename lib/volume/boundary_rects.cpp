@@ -11,10 +11,10 @@ namespace bp {
 
 namespace {
 
-/// Faces in one plane: bit u of row v.
+/// The faces in one plane: bit u of row v.
 using Plane = std::array<std::uint64_t, kBrickEdge>;
 
-/// add(u, v, width, height) for rectangles that hold each face once; leaves none.
+/// Calls add(u, v, width, height) for rectangles that together hold each face once. It clears the plane.
 template <class Add>
 void take_rects(Plane& plane, const Add& add) {
   for (std::size_t v = 0; v < plane.size(); ++v) {
@@ -56,7 +56,7 @@ class BrickFaces {
  private:
   [[nodiscard]] const std::uint64_t* row(int y, int z) const { return voxels_.row(first_.y + y, first_.z + z); }
 
-  /// Bits of rows along x become planes of equal x, with y along their rows.
+  /// Turns the bits of rows along x into planes of equal x, whose rows run along y.
   void across_x(int side) {
     std::array<Plane, kBrickEdge> planes{};
     for (int z = 0; z < kBrickEdge; ++z) {

@@ -9,7 +9,7 @@ namespace bp {
 
 namespace {
 
-/// The six neighbours of a row of voxels, moved onto it.
+/// Returns the six neighbours of a row of voxels, moved onto it.
 std::array<std::uint64_t, 6> neighbours(const BitBox& box, std::int32_t y, std::int32_t z) {
   const std::uint64_t* row = box.row(y, z);
   return {row[1] << 1 | row[0] >> 63, row[1] >> 1 | row[2] << 63, box.row(y - 1, z)[1],
@@ -29,7 +29,7 @@ std::uint64_t count_runs(std::uint64_t boundary) {
   return std::uint64_t(std::popcount(boundary & ~(boundary << 1)));
 }
 
-/// body(row, boundary voxels of it, their faces) for each row of a brick.
+/// Calls body(row, its boundary voxels, their faces) for each row of a brick.
 template <class Body>
 void scan(const BrickShelf& solid, BrickCoord brick, const Body& body) {
   if (is_buried(solid, brick)) return;
@@ -125,7 +125,7 @@ void boundary_layer(const BrickShelf& solid, BrickShelf& boundary) {
 
 namespace {
 
-/// body(row, its voxels in the box) for each row.
+/// Calls body(row, its voxels in the box) for each row.
 template <class Body>
 void for_each_row(const BrickShelf& shelf, const VoxelBox& box, const Body& body) {
   BrickBits bits;

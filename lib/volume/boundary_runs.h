@@ -7,10 +7,10 @@
 /// surface that lies in them.
 namespace bp {
 
-/// A slanted plane has so many times its area of voxel faces, on average over angles.
+/// The area of a slanted plane's voxel faces over its own area, on average over angles.
 constexpr double kSlantedSteps = 1.5;
 
-/// True if the brick and its six neighbours are full: it has no boundary voxel.
+/// Returns true if the brick and its six neighbours are full. Then it has no boundary voxel.
 [[nodiscard]] bool is_buried(const BrickShelf& solid, BrickCoord brick);
 
 struct VoxelRun {
@@ -21,27 +21,28 @@ struct VoxelRun {
 
 struct Boundary {
   std::vector<VoxelRun> runs;  ///< by brick (x, y, z), then z, y, x
-  std::uint64_t faces = 0;     ///< between an occupied and an empty voxel: half the triangles of the dense surface
+  std::uint64_t faces = 0;  ///< faces between an occupied and an empty voxel: half the triangles of the dense surface
 };
 
-/// Parallel; the result depends on the voxels alone. Cost: linear in the bricks, 16 bytes a run, twice for a moment.
+/// Returns the boundary voxels. Parallel; the result depends on the voxels alone. Cost: linear in the bricks, 16 bytes
+/// a run, twice for a moment.
 [[nodiscard]] Boundary boundary_of(const BrickShelf& solid);
 
-/// How large boundary_of() would be, without it.
+/// The size of the result of boundary_of(), computed without it.
 struct BoundarySize {
   std::uint64_t runs = 0, faces = 0;
   VoxelBox box{};  ///< around the boundary voxels
 };
 [[nodiscard]] BoundarySize boundary_size(const BrickShelf& solid);
 
-/// Faces between an occupied voxel of `brick` and an empty one, there or in the next brick.
+/// Returns the number of faces between an occupied voxel of `brick` and an empty one, there or in the next brick.
 [[nodiscard]] std::uint64_t boundary_faces(const BrickShelf& solid, BrickCoord brick);
 
-/// The boundary voxels of `solid` as a layer of their own. Parallel.
+/// Puts the boundary voxels of `solid` on a shelf of their own. Parallel.
 void boundary_layer(const BrickShelf& solid, BrickShelf& boundary);
 
-/// The voxels of `shelf` that lie in `box`, as runs; ordered by brick (z, y, x), then z, y, x.
+/// Returns the voxels of `shelf` that lie in `box`, as runs, ordered by brick (z, y, x), then by z, y, x.
 [[nodiscard]] std::vector<VoxelRun> runs_of(const BrickShelf& shelf, const VoxelBox& box);
-[[nodiscard]] std::uint64_t count_runs(const BrickShelf& shelf, const VoxelBox& box);  ///< of runs_of()
+[[nodiscard]] std::uint64_t count_runs(const BrickShelf& shelf, const VoxelBox& box);  ///< number of runs of runs_of()
 
 }  // namespace bp

@@ -22,7 +22,7 @@ void clear(BitBox& voxels, const VoxelBox& box) {
   });
 }
 
-/// f(voxel) for each voxel that is set when its turn comes.
+/// Calls f(voxel) for each voxel that is still set when its turn comes.
 template <class F>
 void for_each_set(const BitBox& voxels, const F& f) {
   const VoxelBox& box = voxels.box();
@@ -40,7 +40,8 @@ void for_each_set(const BitBox& voxels, const F& f) {
   }
 }
 
-/// Rows of voxels, rows beside each other as plates, plates on each other as boxes: the first of them, `most` or fewer.
+/// Returns the first boxes, at most `most`: rows of voxels, adjacent rows joined to plates, adjacent plates joined to
+/// boxes.
 std::vector<VoxelBox> boxes_of(BitBox voxels, std::size_t most) {
   std::vector<VoxelBox> boxes;
   for_each_set(voxels, [&](VoxelCoord p) {
@@ -55,7 +56,7 @@ std::vector<VoxelBox> boxes_of(BitBox voxels, std::size_t most) {
   return boxes;
 }
 
-/// The same set by voxels twice as large: v lies in floor(v / 2).
+/// Returns the set in voxels twice as large: v lies in floor(v / 2).
 BitBox halved(const BitBox& voxels) {
   VoxelBox box = voxels.box();
   for (int axis = 0; axis < 3; ++axis) {

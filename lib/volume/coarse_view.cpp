@@ -6,7 +6,7 @@ namespace bp {
 
 namespace {
 
-/// Occupied cells of one layer as a surface.
+/// Makes the surface of the occupied cells of one layer.
 class Faces {
  public:
   Faces(const BitBox& cells, std::int32_t cell, const GridFrame& frame) : cells_(cells), cell_(cell), frame_(frame) {}
@@ -19,7 +19,7 @@ class Faces {
   }
 
  private:
-  /// All faces whose outer normal is `side` along `axis`, in runs along another axis.
+  /// Adds all faces whose outer normal is `side` along `axis`, in runs along another axis.
   void sweep(int axis, int side) {
     const int along = axis == 0 ? 1 : 0, across = 3 - axis - along;
     const VoxelBox& box = cells_.box();
@@ -42,7 +42,7 @@ class Faces {
     return !cells_.test(p);
   }
 
-  /// The rectangle of the cells from `begin` to p (excluded) along `along`.
+  /// Adds the rectangle of the cells from `begin` to p (excluded) along `along`.
   void add(VoxelCoord p, int axis, int side, int along, std::int32_t begin) {
     const int across = 3 - axis - along;
     const auto corner = [&](bool far_along, bool far_across) {
@@ -54,7 +54,7 @@ class Faces {
       return frame_.world({c.x * unit, c.y * unit, c.z * unit});
     };
     const Vec3d a = corner(false, false), b = corner(true, false), c = corner(true, true), d = corner(false, true);
-    // along x across points up `axis` if (axis, along, across) is an even permutation.
+    // `along` x `across` points up `axis` if (axis, along, across) is an even permutation.
     const bool even = (along + 1) % 3 == across;
     if (even == (side > 0)) {
       out_.push_back({a, b, c});

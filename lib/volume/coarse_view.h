@@ -6,7 +6,7 @@
 #include "lib/grid/brick.h"
 #include "lib/grid/stream.h"
 
-/// A grid of any size made small enough to draw: a cell is occupied if one of its voxels is. Pictures only.
+/// A grid of any size, made small enough to draw: a cell is occupied if one of its voxels is. For pictures only.
 namespace bp {
 
 class CoarseView {
@@ -18,13 +18,13 @@ class CoarseView {
 
   [[nodiscard]] std::int32_t cell_voxels() const { return cell_; }
   [[nodiscard]] bool empty(Layer layer) const { return cells_[std::size_t(layer)].count() == 0; }
-  /// The faces between occupied and empty cells, in scene units, seen from outside counter-clockwise; faces in a row
-  /// along the longer edge are one rectangle of two triangles.
+  /// Returns the faces between occupied and empty cells, in scene units, counter-clockwise seen from outside. Faces in
+  /// a row along the longer edge become one rectangle of two triangles.
   [[nodiscard]] std::vector<TriangleD> surface(Layer layer, const GridFrame& frame) const;
 
  private:
   std::int32_t cell_ = 1;
-  std::array<BitBox, 2> cells_;  ///< by Layer, in cells
+  std::array<BitBox, 2> cells_;  ///< by Layer; in cells
 };
 
 }  // namespace bp

@@ -6,9 +6,8 @@ namespace bp {
 
 namespace {
 
-/// body(step) for steps that make voxels within `reach` of voxels: what lies within r, and that moved by `step` both
-/// ways, is what lies within r + step, for steps up to r + 1. Then no step goes beyond the voxel that it looks for, and
-/// out of the box.
+/// Calls body(step) for steps that together reach `reach`. Voxels within r, moved by `step` both ways and ORed, give
+/// the voxels within r + step, for steps up to r + 1. So no step skips a voxel or leaves the box.
 template <class Body>
 void for_each_step(std::int32_t reach, const Body& body) {
   for (std::int32_t r = 0; r < reach;) {
@@ -18,7 +17,7 @@ void for_each_step(std::int32_t reach, const Body& body) {
   }
 }
 
-/// The word that begins at `bit` of a row, which may lie outside of it.
+/// Returns the word that begins at `bit` of a row, which may lie outside of it.
 std::uint64_t word_at(const std::uint64_t* row, std::int32_t words, std::int64_t bit) {
   const std::int64_t i = floor_div<std::int64_t>(bit, 64);
   const int b = int(bit - i * 64);
@@ -36,7 +35,7 @@ void dilate_row(std::uint64_t* row, std::int32_t words, std::int32_t reach, std:
   });
 }
 
-/// Adds what lies `step` before and behind along y or z.
+/// Adds the voxels that lie `step` before and behind along y or z.
 void add_moved(BitBox& voxels, const BitBox& before, int axis, std::int32_t step) {
   const VoxelBox& box = voxels.box();
   const std::int32_t words = voxels.words_per_row();

@@ -10,18 +10,19 @@
 #include "lib/grid/tile_grid.h"
 #include "lib/volume/dilate.h"
 
-// The space between cubes that are d apart along an axis is |d| - 1, or nothing: what the middle of one cube is from
-// the nearest of the middles around the other. So voxels are grown by one along each axis, and then by a ball.
+// The space between cubes that are d apart along an axis is |d| - 1, or nothing. That is the distance of the middle of
+// one cube from the nearest of the middles around the other. So voxels are grown by one along each axis, and then by a
+// ball.
 
 namespace bp {
 
 namespace {
 
-constexpr double kAround = 3;       // boxes of what is in reach of a tile, at once
+constexpr double kAround = 3;       // boxes, as large as everything in reach of a tile, at once
 constexpr double kTiles = 5;        // boxes of a tile
 constexpr double kFixed = 8 << 20;  // of the ball's transform
 constexpr double kBitsPerByte = 8;
-constexpr std::int32_t kMostHalos = 8;  // of the edge of a tile: larger ones are hardly faster
+constexpr std::int32_t kMostHalos = 8;  // edges of a tile: larger tiles are hardly faster
 
 VoxelBox box_of(const BrickCoord& c) {
   return voxels_of(BrickBox{c, {c.x + 1, c.y + 1, c.z + 1}});

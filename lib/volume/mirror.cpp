@@ -9,7 +9,7 @@ namespace bp {
 
 namespace {
 
-/// The part of the mirror image of a brick that lies in the brick `to`.
+/// Adds the part of the mirror image of a brick that lies in the brick `to`.
 void add_part(const BrickBits& bits, BrickCoord from, const MirrorPlane& plane, BrickCoord to, BrickShelf& out) {
   BrickBits image;
   (void)out.get(to, image);

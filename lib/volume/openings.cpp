@@ -1,5 +1,5 @@
-// With X + r for the dilation of X by a cube of reach r, and S the solid: the middles of free cubes are F(r) = not
-// (S + r), and the places that they hold F(r) + r. What is asked about a tile T needs, for level k,
+// X + r is the dilation of X by a cube of reach r, and S is the solid. Then the middles of free cubes are F(r) = not (S
+// + r), and the places that free cubes hold are F(r) + r. To answer for a tile T, level k needs
 //   the middles on T + rk, so places of the level on T + 2 rk:
 //     F(rk) on T + 3 rk              and S on T + 4 rk
 //     F(r(k-1)) on T + 2 rk + r(k-1) and S on T + 2 rk + 2 r(k-1)
@@ -34,7 +34,7 @@ BitBox dilated(const BitBox& bits, std::int32_t reach) {
   return out;
 }
 
-/// Middles of free cubes.
+/// Returns the middles of free cubes.
 BitBox free_middles(const BitBox& solid, std::int32_t reach) {
   BitBox out = dilated(solid, reach);
   invert(out);

@@ -7,7 +7,7 @@
 #include "lib/core/error.h"
 #include "lib/volume/detail/tile_components.h"
 
-// Connected components by runs (detail/empty_runs.h), tile by tile (detail/tile_components.h). Here tiles are joined:
+// Connected components by runs (detail/empty_runs.h), tile by tile (detail/tile_components.h). This file joins tiles,
 // by runs along the faces that they share.
 
 namespace bp {
@@ -16,7 +16,7 @@ using namespace detail;
 
 namespace {
 
-/// Run of positions u + v * width of a face, all of one component. Gaps are occupied voxels.
+/// A run of positions u + v * width of a face, all of one component. Gaps are occupied voxels.
 struct FaceRun {
   std::uint32_t begin, end;
   std::uint32_t label;
@@ -95,7 +95,7 @@ struct OutsideFlood::State {
     std::uint32_t first = 0, count = 0;  ///< nodes of the components that touch a face
     bool enclosed = false;               ///< some component is enclosed (before resolve(): touches no face)
   };
-  /// A maximal run of tiles along x that were never joined: all empty, hence one node.
+  /// A maximal run of tiles along x that were never joined. All are empty, so the run is one node.
   struct EmptyRun {
     std::int32_t begin, end;
     std::uint32_t node;
@@ -117,12 +117,12 @@ struct OutsideFlood::State {
     const std::uint64_t nx = std::uint64_t(tiles.x), ny = std::uint64_t(tiles.y);
     return {std::int32_t(i % nx), std::int32_t(i / nx % ny), std::int32_t(i / nx / ny)};
   }
-  /// The tile that `tile` is, in tiles from the grid's corner.
+  /// Returns the place of `tile`, in tiles from the grid's corner.
   [[nodiscard]] VoxelCoord coord(const VoxelBox& tile) const {
     const VoxelCoord d = tile.min - grid.min;
     return {d.x / tile_vox.x, d.y / tile_vox.y, d.z / tile_vox.z};
   }
-  /// Node of an empty tile that was never joined; after resolve().
+  /// Returns the node of an empty tile that was never joined. Valid after resolve().
   [[nodiscard]] std::uint32_t empty_node(VoxelCoord t) const {
     const auto& row = empty_rows[std::size_t(t.y) + std::size_t(t.z) * std::size_t(tiles.y)];
     const auto after = std::upper_bound(row.begin(), row.end(), t.x,
@@ -197,7 +197,7 @@ void OutsideFlood::join(Labels labels) {
   }
 }
 
-/// The tiles that were never joined, as runs along x, one node each.
+/// Finds the tiles that were never joined, as runs along x, one node each.
 void OutsideFlood::State::find_empty_runs() {
   std::vector<std::uint64_t> occupied;
   occupied.reserve(joined.size());
@@ -250,7 +250,7 @@ void OutsideFlood::resolve() {
   s.find_empty_runs();
   s.join_empty_runs();
   for (int axis = 0; axis < 3; ++axis) {
-    for (const auto& [key, runs] : s.waiting[axis]) {  // any order: sets do not depend on it
+    for (const auto& [key, runs] : s.waiting[axis]) {  // in any order: the sets do not depend on it
       VoxelCoord empty = s.coord(key);
       if (s.joined.contains(key)) --empty[axis];  // the tile above the face was joined, so the one below was not
       join_all(s.nodes, runs, s.empty_node(empty));

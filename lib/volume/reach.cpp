@@ -4,7 +4,7 @@ namespace bp {
 
 namespace {
 
-/// Spreads the bits of `seed` over the runs of `open` that they lie in; both ways, in six doublings.
+/// Spreads the bits of `seed` over the runs of `open` that they lie in, both ways, in six doublings.
 std::uint64_t spread(std::uint64_t seed, std::uint64_t open) {
   std::uint64_t up = seed, down = seed, way_up = open, way_down = open;
   for (int step = 1; step < 64; step *= 2) {
@@ -36,7 +36,8 @@ class Sweeper {
   }
 
  private:
-  /// One row, from the rows before it in the order of the sweep, and along itself.
+  /// Spreads into one row, from the row before it in the order of the sweep, and along itself. Returns whether it
+  /// changed.
   bool row(std::int32_t y, std::int32_t z, std::int32_t before) {
     std::uint64_t* seeds = seeds_.row(y, z);
     const std::uint64_t* solid = solid_.row(y, z);

@@ -8,7 +8,8 @@ namespace bp {
 
 namespace {
 
-/// Bits 0, 2, 4 ... of a word, side by side in the lower half. Halves the distance between bits in five steps.
+/// Returns bits 0, 2, 4 ... of a word, side by side in the lower half. It halves the distance between bits in five
+/// steps.
 std::uint64_t even_bits(std::uint64_t w) {
   w &= 0x5555555555555555u;
   w = (w | w >> 1) & 0x3333333333333333u;
@@ -18,7 +19,7 @@ std::uint64_t even_bits(std::uint64_t w) {
   return (w | w >> 16) & 0x00000000FFFFFFFFu;
 }
 
-/// Pairs of voxels that begin at even places.
+/// Ors pairs of voxels that begin at even places.
 std::uint64_t pairs(std::uint64_t w) {
   return even_bits(w | w >> 1);
 }
@@ -30,7 +31,7 @@ VoxelCoord shift_of(const GridFrame& frame) {
   return shift;
 }
 
-/// Coarse bricks that fine bricks [lo, hi) reach into.
+/// Returns the coarse bricks that fine bricks [lo, hi) reach into.
 BrickBox coarse_bricks(const BrickBox& fine, VoxelCoord shift) {
   const VoxelBox voxels = voxels_of(fine);
   VoxelBox coarse;
@@ -41,7 +42,7 @@ BrickBox coarse_bricks(const BrickBox& fine, VoxelCoord shift) {
   return bricks_of(coarse);
 }
 
-/// The fine voxels in a coarse brick, grown to whole words in x.
+/// Returns the fine voxels in a coarse brick, grown to whole words in x.
 VoxelBox fine_voxels(BrickCoord coarse, VoxelCoord shift) {
   const VoxelCoord first = first_voxel(coarse) * 2 - shift;
   VoxelBox box{first, {first.x + 128, first.y + 128, first.z + 128}};
@@ -60,7 +61,8 @@ BrickFill fill_of(const BrickShelf& shelf, const BrickBox& bricks) {
   return all_empty ? BrickFill::empty : all_full ? BrickFill::full : BrickFill::mixed;
 }
 
-/// One row of a coarse brick from four fine rows; `odd` if its first voxel has only the upper half of a pair in word 1.
+/// Returns one row of a coarse brick from four fine rows. `odd`: its first voxel has only the upper half of a pair in
+/// word 1.
 std::uint64_t reduced_row(const BitBox& fine, std::int32_t y, std::int32_t z, bool odd) {
   std::uint64_t w[3] = {};
   const int words = odd ? 3 : 2;

@@ -14,10 +14,10 @@ namespace bp {
 
 namespace {
 
-/// Euler characteristic of the cubical complex whose points are the voxels: voxels, less pairs of neighbours, and so
-/// on; of those whose least voxel lies in the brick.
+/// Returns the part of a brick in the Euler characteristic of the cubical complex whose points are the voxels: voxels,
+/// less pairs of neighbours, and so on. It counts the cells whose least voxel lies in the brick.
 std::int64_t characteristic_of(const BrickShelf& solid, BrickCoord brick) {
-  bool full = true;  // with the bricks that those reach into
+  bool full = true;  // together with the bricks that such cells reach into
   for (int i = 0; i < 8 && full; ++i)
     full = solid.fill(brick + BrickCoord{i & 1, (i >> 1) & 1, i >> 2}) == BrickFill::full;
   if (full) return 0;
@@ -29,7 +29,7 @@ std::int64_t characteristic_of(const BrickShelf& solid, BrickCoord brick) {
   for (std::int32_t z = first.z; z < first.z + kBrickEdge; ++z) {
     for (std::int32_t y = first.y; y < first.y + kBrickEdge; ++y) {
       const auto row = [&](int dy, int dz) { return box.row(y + dy, z + dz)[1]; };
-      const auto pairs = [&](int dy, int dz) {  // a voxel and the next one along x
+      const auto pairs = [&](int dy, int dz) {  // pairs of a voxel and the next one along x
         const std::uint64_t* r = box.row(y + dy, z + dz);
         return r[1] & (r[1] >> 1 | r[2] << 63);
       };
@@ -51,7 +51,7 @@ auto row_of(const VoxelRun& run) {
   return std::tuple(run.first.z, run.first.y);
 }
 
-/// Runs that touch are of one part.
+/// Joins touching runs to parts.
 class Parts {
  public:
   explicit Parts(std::vector<VoxelRun> runs) : runs_(std::move(runs)), sets_(runs_.size()), parts_(runs_.size()) {
@@ -69,7 +69,7 @@ class Parts {
  private:
   [[nodiscard]] std::int32_t end_of(std::size_t i) const { return runs_[i].first.x + runs_[i].length; }
 
-  /// Each run with those of the row that lies so far before its own.
+  /// Joins each run with the runs of the row that lies so far before its own.
   void join_rows(std::int32_t dy, std::int32_t dz) {
     std::size_t begin = 0;
     for (std::size_t i = 0; i < runs_.size(); ++i) {

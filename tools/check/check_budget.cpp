@@ -10,14 +10,14 @@ namespace bp {
 
 namespace {
 
-// Measured on a torus (half a vertex a triangle) and a heap of triangles (three): 393 and 55 bytes. The mesh, its
-// welded copy, and the hierarchy and what it is built from; tables of edges and corners come and go before it.
+// Measured on a torus (half a vertex a triangle) and a heap of triangles (three): 393 and 55 bytes. They are the mesh,
+// its welded copy, and the hierarchy with the data it is built from. Tables of edges and corners come and go before it.
 constexpr std::uint64_t kBytesPerFace = 400, kBytesPerVertex = 64;
-// Of what the proxy leaves, the reader of the scenes has a third.
+// The reader of the scenes gets a third of the memory that the proxy leaves.
 constexpr std::uint64_t kAllParts = 24, kReaderParts = kAllParts / 3;
 
-/// The limit that has room for `held` bytes and, in one of `parts` of the rest, for what a step named that had none of
-/// it: `named` is the limit that would do if nothing else were there.
+/// Returns the limit that has room for `held` bytes and for a step that gets one of `parts` of the rest. `named` is the
+/// limit that the failed step gave, as if it had all memory for itself.
 std::uint64_t limit_beside(const MemoryLimit& now, std::uint64_t held, std::uint64_t named, std::uint64_t parts) {
   const std::uint64_t rest = now.rest_bytes(), then = MemoryLimit{named, now.fixed_bytes}.rest_bytes();
   const std::uint64_t needed = held + parts * (then - std::min(then, rest));
@@ -40,7 +40,7 @@ SceneOptions CheckBudget::of_proxy() const {
 }
 
 std::uint64_t CheckBudget::parts_of_document() const {
-  return scenes_ > 1 ? 3 : 1;  // the reader's third, or all
+  return scenes_ > 1 ? 3 : 1;  // the reader's third, or everything
 }
 
 void CheckBudget::refuse_proxy(const NeedsMemory& e, const std::vector<std::string>& scenes,
@@ -48,12 +48,12 @@ void CheckBudget::refuse_proxy(const NeedsMemory& e, const std::vector<std::stri
   const MemoryLimit limit = UsableMemory(memory_, kMeshProgram).limit;
   std::uint64_t least = e.memory_bytes();
   for (const std::string& scene : scenes) {
-    SceneOptions nothing = options;  // so that it is refused before it takes anything
+    SceneOptions nothing = options;  // the file is to be refused before any memory is taken
     nothing.memory_bytes = kReaderParts;
-    nothing.document = {kAllParts / parts_of_document(), 1, limit};  // beside the reader as it will be
+    nothing.document = {kAllParts / parts_of_document(), 1, limit};  // in addition to the reader, as it will be
     try {
       if (scene != "-") (void)open_scene(scene, nothing);
-    } catch (const Error& more) {  // of another kind: is told once the proxy fits
+    } catch (const Error& more) {  // an error of another kind is reported once the proxy fits
       if (more.memory_bytes() > 0)
         least = std::max(least, limit_beside(limit, e.needed_bytes(), more.memory_bytes(), parts_of_document()));
     }

@@ -18,7 +18,7 @@ TilePart parse_part(const std::string& text) {
   return {std::uint64_t(parse_integer(std::string_view(text).substr(0, slash), 1, of)) - 1, std::uint64_t(of)};
 }
 
-/// Nothing here tells the size of a voxel.
+/// Parses a margin; voxels are refused, since no file here tells their size.
 Length parse_margin(const std::string& text) {
   constexpr const char* kWhat = "a length such as 0.5 or 2%; no voxels are known here";
   double value = 0;

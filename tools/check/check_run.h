@@ -15,8 +15,8 @@ struct CheckRun {
   std::vector<std::string> files;  // scenes, then the proxy
   std::string format;
   bool json = false, inside = false, convex = false;
-  bool claimed = false;  // the question is what the proxy's file claims
-  Length margin;         // 0: not asked
+  bool claimed = false;  // asks whether the claim of the proxy's file holds
+  Length margin;         // 0: no margin is asked for
   TilePart part;
   std::optional<Vec3d> origin;
 };

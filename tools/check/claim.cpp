@@ -11,7 +11,7 @@ namespace bp {
 
 namespace {
 
-/// The distance that the file's last step says that it keeps from the scene.
+/// Returns the distance from the scene that the file's last step says it keeps.
 Length told_margin(const std::string& file) {
   static const std::string key = " margin=";
   const MeshExtras extras = extras_of(file);

@@ -6,21 +6,21 @@
 #include "io/mesh/contract.h"
 #include "tools/check/check_run.h"
 
-/// What a proxy's file claims of itself, as a question of bpcheck (docs/contracts.md).
+/// The claim that a proxy's file makes about itself, turned into a question for bpcheck (docs/contracts.md).
 namespace bp {
 
-/// The contract that the file names. None: it names none, or one that this version does not know.
+/// Returns the contract that the file names. Empty: it names none, or one that this version does not know.
 [[nodiscard]] std::optional<Contract> told_contract(const std::string& file);
 
-/// The command line with the question that proves the claim. A claim that says nothing of the scene leaves the scenes
-/// out. Throws bad_argument if the claim needs a scene and none is named, if its file tells no margin, or if it can be
-/// proven with its tileset only.
+/// Returns the command line with the question that proves the claim. If the claim says nothing about the scene, the
+/// scenes are left out. Throws bad_argument if the claim needs a scene and none is named, if the file tells no margin,
+/// or if the claim can be proven only with its tileset.
 [[nodiscard]] CheckRun asking_for(Contract contract, CheckRun run);
 
-/// The lines before and after the verdict: what is claimed, and what is not.
+/// Returns the lines before and after the verdict: what is claimed, and what is not.
 [[nodiscard]] std::string claim_line(Contract contract);
 [[nodiscard]] std::string unclaimed_line(Contract contract);
-/// The answer for a file that claims nothing.
+/// Returns the answer for a file that claims nothing.
 [[nodiscard]] std::string no_claim_line(const std::string& file);
 
 }  // namespace bp

@@ -24,7 +24,7 @@ bool lies_within(const Bounds3d& inner, const Bounds3d& outer) {
   return true;
 }
 
-/// Why it cannot be looked at; empty: it can.
+/// Returns why a content cannot be read; empty if it can.
 std::string out_of_reach(const std::string& uri) {
   if (uri.find("://") != std::string::npos) return "lies on the network; download it";
   return uri.starts_with("data:") ? "is embedded, which is not read" : "";
@@ -68,13 +68,13 @@ void CoverTiles::add(const Tile& tile, const std::string& place, const Above* ab
     add(tile.children[i], place + ".children[" + std::to_string(i) + "]", &here);
 }
 
-/// The tile whose octant `cell` is, or that has it: `parent`, or a joint below it.
+/// Returns the tile whose octant `cell` is, or that already has this octant: `parent`, or a joint below it.
 std::size_t CoverTiles::joined(std::size_t parent, const Bounds3d& cell) {
   constexpr int kMostDeep = 64;
   for (int depth = 0; depth < kMostDeep && tiles_[parent].cell && tiles_[parent].cell != cell; ++depth) {
     int k = 0;
     while (k < 8 && !lies_within(cell, octant_of(*tiles_[parent].cell, k))) ++k;
-    if (k == 8) break;  // found by check_cover()
+    if (k == 8) break;  // check_cover() reports it
     const Bounds3d octant = octant_of(*tiles_[parent].cell, k);
     if (octant == cell) break;
     const auto [known, is_new] = joints_.try_emplace({parent, k}, tiles_.size());
@@ -125,7 +125,7 @@ void CoverTiles::read(const std::string& path, CoverTile& noted, TileContent& kn
     known.vertices = std::move(content.mesh.vertices);
     known.not_understood = std::move(content.unread.moves);
     if (content.mesh.differing > 0) known.not_understood.push_back("it holds " + held_twice(content.mesh.differing));
-    if (noted.leaf_error) return;  // of the scene itself looks are not compared
+    if (noted.leaf_error) return;  // a leaf shows the scene itself, so its looks are not compared
     for (std::string& line : content.unread.see_through) known.not_understood.push_back(std::move(line));
   } catch (const Unfit& e) {
     known.complaint = advised(e);

@@ -23,7 +23,8 @@ bool is_file(const std::string& path) {
   return std::filesystem::is_regular_file(path, unknown);
 }
 
-/// VoxelizeCounts::input_hash of these scenes, read as the tool that made a proxy did; empty if they cannot be read.
+/// Returns the VoxelizeCounts::input_hash of these scenes, read as the tool that made a proxy read them. Empty if they
+/// cannot be read.
 std::string hash_of(const std::vector<std::string>& scenes, SceneOptions options,
                     const std::optional<OccluderRecipe>& recipe) {
   options.walls_only = recipe && recipe->opaque_only;
@@ -67,7 +68,8 @@ std::string other_scene_hint(const std::vector<std::string>& scenes, const std::
   const std::string told = hash_of_scene(extras);
   if (told.empty() || !std::all_of(scenes.begin(), scenes.end(), is_file)) return "";
   for (const std::string& scene : scenes) {
-    if (hash_of_scene(extras_of(scene)) == told) return "";  // a level within or around another
+    // The scene is itself a level, and the proxy is within or around it.
+    if (hash_of_scene(extras_of(scene)) == told) return "";
   }
   const std::string found = hash_of(scenes, options, hiding_recipe(extras));
   if (found.empty() || found == told) return "";

@@ -15,7 +15,7 @@ namespace bp {
 
 namespace {
 
-/// What is wrong with a proxy, in a few words.
+/// Returns the faults of a proxy in a few words.
 std::string complaint_of(const CheckReport& r) {
   std::string text;
   const auto add = [&](bool wrong, const std::string& what) {
@@ -38,7 +38,7 @@ std::string complaint_of(const CheckReport& r) {
   return text.empty() ? "does not hold" : text;
 }
 
-/// Each content must enclose the whole scene by itself.
+/// Checks that each content encloses the whole scene by itself.
 std::vector<TileFinding> check_whole(const CoverTiles& cover, TriangleSource& scene) {
   std::vector<TileFinding> findings;
   for (std::size_t i = 0; i < cover.tiles().size(); ++i) {
@@ -54,7 +54,7 @@ std::vector<TileFinding> check_whole(const CoverTiles& cover, TriangleSource& sc
   return findings;
 }
 
-/// What the contents enclose, and whether a viewer draws them.
+/// Checks what the contents enclose, and whether a viewer draws them.
 CoverReport check_scene(const CoverTiles& cover, const Tileset& tileset, TriangleSource& scene, const Bounds3d& bounds,
                         std::uint64_t memory_bytes, TilePart part) {
   std::vector<TileFinding> findings = check_drawn(cover.tiles(), tileset.geometric_error, bounds);

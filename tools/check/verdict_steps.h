@@ -5,17 +5,17 @@
 #include "lib/core/triangle_source.h"
 #include "tools/cli/report.h"
 
-/// Steps of bpcheck.
+/// The steps of bpcheck.
 namespace bp {
 
-/// Undoes --origin of bpmesh and bplod. An answer for rounded vertices would be one for another proxy: throws
-/// bad_argument if a sum is not exact.
+/// Undoes --origin of bpmesh and bplod. Throws bad_argument if a sum is not exact, because the answer for rounded
+/// vertices would be one for another proxy.
 void add_origin(IndexedMesh& mesh, const Vec3d& by);
 
-/// Scene units. A percentage takes a reading of the scene, from its start.
+/// Returns scene units. For a percentage it reads the scene, from its start.
 [[nodiscard]] double margin_world(const Length& margin, TriangleSource& scene);
 
-/// For --report.
+/// Returns the counts for --report.
 [[nodiscard]] Json counts_of(const CheckReport& verdict);
 
 /// Throws bad_input if the scene has no triangle: an export that went wrong must not prove a proxy.

@@ -8,7 +8,7 @@
 
 namespace bp {
 
-/// Counts and measures what passes through.
+/// Counts and measures the triangles that pass through.
 class WatchedSource : public TriangleSource {
  public:
   WatchedSource(TriangleSource& source, Progress& progress) : source_(source), progress_(progress) {}
@@ -26,7 +26,7 @@ class WatchedSource : public TriangleSource {
   void rewind() override { source_.rewind(); }
   [[nodiscard]] const SceneCounts& counts() const override { return source_.counts(); }
   [[nodiscard]] std::optional<UpAxis> up() const override { return source_.up(); }
-  [[nodiscard]] const Bounds3d& bounds() const { return bounds_; }  ///< of what was read
+  [[nodiscard]] const Bounds3d& bounds() const { return bounds_; }  ///< of all triangles read so far
   [[nodiscard]] std::string name() const override { return source_.name(); }
 
  private:

@@ -24,7 +24,7 @@ VoxelCoord voxel_of(const GridFrame& frame, const Vec3d& point) {
   return voxel;
 }
 
-/// The rule that changes the scale last, of those that an entry became.
+/// Returns a text about the rule that changes the scale last, among the rules that an entry became.
 std::string entry_text(const ScalePlan& plan, std::size_t last, std::size_t boxes) {
   const std::string text = rule_text(plan.field.rules[last]);
   return boxes > 1 ? fmt::format("{}, one of {} boxes", text, boxes) : text;

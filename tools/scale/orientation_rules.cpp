@@ -36,7 +36,7 @@ Vec3d point(const Json& json, const std::string& file, const char* what) {
   return {p[0], p[1], p[2]};
 }
 
-/// The axes of a cube turned by a quaternion w, x, y, z.
+/// Returns the axes of a cube turned by a quaternion w, x, y, z.
 std::array<Vec3d, 3> turned_axes(const std::vector<double>& q, const std::string& file) {
   const double w = q[0], x = q[1], y = q[2], z = q[3], n = w * w + x * x + y * y + z * z;
   if (!(n > 0) || !std::isfinite(n)) refuse(file, "frame is a quaternion of no length");
@@ -45,7 +45,7 @@ std::array<Vec3d, 3> turned_axes(const std::vector<double>& q, const std::string
           Vec3d{2 * (x * z + y * w) / n, 2 * (y * z - x * w) / n, 1 - 2 * (x * x + y * y) / n}};
 }
 
-/// Along the first of two directions; the second, as far as it is at right angles, is the next axis.
+/// Returns axes of which the first is along `a`. The next is the part of `b` at right angles to it.
 std::array<Vec3d, 3> axes_along(Vec3d a, Vec3d b, const std::string& file) {
   const auto unit = [&](const Vec3d& v) {
     const double n = length(v);
@@ -87,7 +87,8 @@ OrientationField make_orientation(const std::string& json, const std::string& fi
 }
 
 std::string orientation_text(const FixedQuaternion& q) {
-  const Vec3d axis{double(-q.x), double(-q.y), double(-q.z)};  // rows of a matrix are the turned axes: its inverse
+  // The rows of a matrix are the turned axes, so the matrix is the inverse.
+  const Vec3d axis{double(-q.x), double(-q.y), double(-q.z)};
   const double sine = length(axis);
   if (!(sine > 0)) return "not turned";
   const double degrees = 2 * std::atan2(sine, double(q.w)) * 180 / 3.14159265358979323846;

@@ -13,7 +13,7 @@ namespace bp {
 
 namespace {
 
-/// 128 random bits, hex.
+/// Returns 128 random bits as hexadecimal digits.
 std::string random_text() {
   std::array<unsigned char, 16> bytes{};
   if (::getrandom(bytes.data(), bytes.size(), 0) != ssize_t(bytes.size()))
@@ -23,7 +23,7 @@ std::string random_text() {
   return text;
 }
 
-/// Takes as long wherever the texts differ.
+/// Compares in the same time, wherever the texts differ.
 bool equal(std::string_view a, std::string_view b) {
   if (a.size() != b.size()) return false;
   unsigned char difference = 0;
@@ -35,7 +35,7 @@ bool equal(std::string_view a, std::string_view b) {
 
 Access::Access(int port)
     : hosts_{fmt::format("127.0.0.1:{}", port), fmt::format("localhost:{}", port)},
-      cookie_name_(fmt::format("bpview_{}", port)),  // ports of a host share their cookies
+      cookie_name_(fmt::format("bpview_{}", port)),  // all ports of a host share their cookies
       token_(random_text()),
       secret_(random_text()) {}
 

@@ -5,23 +5,25 @@
 
 namespace bp {
 
-/// Who may talk to the server. A page proves itself once by a token, which the printed link has behind `#`, where no
-/// server and no log sees it; from then on by a cookie, which no script reads and no other site sends.
+/// Decides who may talk to the server. A page proves itself once by a token, which the printed link has behind `#`,
+/// where no server and no log sees it. From then on it proves itself by a cookie, which no script reads and no other
+/// site sends.
 class Access {
  public:
   explicit Access(int port);
 
-  /// For the link to print. It is valid as long as the server.
+  /// Returns the token for the link to print. It is valid as long as the server runs.
   [[nodiscard]] const std::string& token() const { return token_; }
-  /// For the link that a browser is started with, where other users of the machine may see it: valid once.
+  /// Returns a token that is valid once, for the link that a browser is started with: other users of the machine may
+  /// see it.
   [[nodiscard]] std::string token_for_once();
 
-  /// The cookie to set, with its attributes; empty if the token is not valid.
+  /// Returns the cookie to set, with its attributes; empty if the token is not valid.
   [[nodiscard]] std::string cookie_for(const std::string& token);
-  /// Of the header Cookie.
+  /// Returns whether the header Cookie has the cookie.
   [[nodiscard]] bool has_cookie(const std::string& header) const;
-  /// Whether a request was meant for this server. A name that someone made to point here, to have a browser talk to it
-  /// (DNS rebinding), is none of the list.
+  /// Returns whether a request was meant for this server. In DNS rebinding, someone makes a name point here so that a
+  /// browser talks to this server; such a name is not on the list.
   [[nodiscard]] bool is_host(const std::string& host) const;
   [[nodiscard]] bool is_origin(const std::string& origin) const;
 

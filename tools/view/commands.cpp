@@ -8,13 +8,13 @@ namespace bp {
 
 namespace {
 
-/// What changes no result: only for the tools that bpview runs itself.
+/// Adds options that change no result. Only the tools that bpview runs itself get them.
 void add_resources(ToolCommand& command, const ViewOptions& o) {
   command.insert(command.end(), {"--threads", std::to_string(o.common.threads), "--memory",
                                  std::to_string(o.common.memory_bytes), "--temp", o.common.temp});
 }
 
-/// A name that begins with a dash is no option.
+/// Adds the scenes. A name that begins with a dash must not become an option.
 void add_scenes(ToolCommand& command, const ViewOptions& o) {
   for (const std::string& scene : o.voxels.scenes) command.push_back(scene.starts_with('-') ? "./" + scene : scene);
 }

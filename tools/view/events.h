@@ -6,8 +6,8 @@
 
 namespace bp {
 
-/// Tells those who listen that something has changed. What has changed they ask for themselves: so a slow listener
-/// misses steps between, and never falls behind.
+/// Tells listeners that something has changed. They ask for the new state themselves, so a slow listener misses steps
+/// between and never falls behind.
 class Events {
  public:
   void tell() {
@@ -17,7 +17,7 @@ class Events {
     }
     wake_.notify_all();
   }
-  /// Listeners return at once from now on.
+  /// Makes listeners return at once from now on.
   void end() {
     {
       const std::lock_guard lock(mutex_);
@@ -25,7 +25,7 @@ class Events {
     }
     wake_.notify_all();
   }
-  /// Waits for a change after number `seen`, at most this long; returns the number now.
+  /// Waits for a change after number `seen`, at most this long. Returns the present number.
   std::uint64_t wait(std::uint64_t seen, std::chrono::milliseconds most) {
     std::unique_lock lock(mutex_);
     wake_.wait_for(lock, most, [&] { return ended_ || number_ != seen; });

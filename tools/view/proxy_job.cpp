@@ -12,7 +12,7 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-/// What the page shows of a verdict of bpcheck.
+/// Returns the part of a verdict of bpcheck that the page shows.
 Json brief(const std::string& text) {
   const Json all = Json::parse(text, nullptr, false);
   if (!all.is_object()) return {};

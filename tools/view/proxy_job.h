@@ -11,22 +11,22 @@
 
 namespace bp {
 
-/// Makes proxies of a design, and has them checked: by the tools themselves, so that the file is what the command line
-/// makes. A new request ends the one at work.
+/// Makes proxies of a design and has them checked. The tools themselves do it, so the file is that of the command line.
+/// A new request ends the one at work.
 class ProxyJob {
  public:
   enum class Step { none, meshing, checking, ready, failed, stopped };
   struct Status {
     Step step = Step::none;
-    std::uint64_t revision = 0, faces = 0;    ///< of the design, and asked for
-    std::shared_ptr<const std::string> file;  ///< GLB; there while it is checked, too
-    std::uint64_t number = 0;                 ///< of the file: rises with each
-    Json verdict;                             ///< of bpcheck: answer, why, triangles, farthest; null: not known
-    std::string notes;                        ///< what the tools said, a line each
+    std::uint64_t revision = 0, faces = 0;    ///< revision of the design, and faces that were requested
+    std::shared_ptr<const std::string> file;  ///< GLB; present while it is checked, too
+    std::uint64_t number = 0;                 ///< number of the file; rises with each file
+    Json verdict;                             ///< verdict of bpcheck: answer, why, triangles, farthest; null: not known
+    std::string notes;                        ///< messages of the tools, one a line
     double mesh_seconds = 0, check_seconds = 0;
   };
 
-  /// `stream`: the voxels of the scene, as bpvox wrote them. changed: called on a thread of this object. Keeps
+  /// `stream`: the voxels of the scene, as bpvox wrote them. `changed` is called on a thread of this object. Keeps
   /// references.
   ProxyJob(const ViewOptions& options, const MemoryFile& stream, std::function<void()> changed);
   ~ProxyJob();
@@ -34,7 +34,7 @@ class ProxyJob {
   ProxyJob& operator=(const ProxyJob&) = delete;
 
   void request(std::string rules, std::uint64_t revision, std::uint64_t faces);
-  void stop();  ///< ends what is at work
+  void stop();  ///< ends the work that is going on
   [[nodiscard]] Status status() const;
 
  private:
@@ -44,7 +44,7 @@ class ProxyJob {
   };
   void work();
   void make(const Request& request);
-  /// False if the tools were stopped or failed: then that is known.
+  /// Returns false if the tools were stopped or failed. The status tells which.
   bool run(const std::vector<ToolCommand>& commands, const std::vector<const MemoryFile*>& inputs,
            const MemoryFile& out, bool is_check);
   void set(const std::function<void(Status&)>& change);
@@ -58,7 +58,7 @@ class ProxyJob {
   std::unique_ptr<Request> next_;
   bool ends_ = false;
   Status status_;
-  std::thread thread_;  // last: it begins when all else is there
+  std::thread thread_;  // the last member: the thread begins when all others exist
 };
 
 }  // namespace bp

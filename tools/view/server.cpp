@@ -16,7 +16,7 @@ using Request = httplib::Request;
 using Response = httplib::Response;
 using Handled = httplib::Server::HandlerResponse;
 
-constexpr std::size_t kMostBody = 1 << 20;  ///< bytes: a stroke of 10,000 points has less
+constexpr std::size_t kMostBody = 1 << 20;  ///< bytes; a stroke of 10,000 points has less
 constexpr int kThreads = 24;                ///< each holds one connection
 constexpr int kMostListeners = 8;
 constexpr int kReadSeconds = 5, kWriteSeconds = 20, kIdleSeconds = 2;
@@ -40,7 +40,8 @@ void refuse(Response& response, int status, const std::string& text) {
   response.set_header("Connection", "close");  // the body of the request was not read
 }
 
-/// The port that was had; -1: none. Connections take over the options of the socket that is bound here.
+/// Binds the port that is wanted, or any free one. Returns the port, or -1. Connections inherit the options of this
+/// socket.
 int bound(httplib::Server& http, int wanted) {
   http.set_tcp_nodelay(true);  // else each small answer waits 40 ms for the client's acknowledgement
   if (wanted == 0) return http.bind_to_any_port("127.0.0.1");
@@ -62,7 +63,7 @@ struct Server::State {
   void add_page();
   void listen(const Request& request, Response& response);
   [[nodiscard]] bool is_open(const Request& request) const;
-  /// A step of the design or the like: refused input is an answer, not a failure of the server.
+  /// Handles a step of the design or the like. Refused input is an answer, not a failure of the server.
   httplib::Server::Handler doing(const std::function<void(const std::string& body)>& act);
 
   Session& session;
@@ -89,7 +90,7 @@ Server::State::State(Session& of, int wanted) : session(of), port(bound(http, wa
   add_routes();
 }
 
-/// The page itself, which holds no secret, and the exchange of the token.
+/// Returns whether a request needs no cookie: the page itself, which holds no secret, and the exchange of the token.
 bool Server::State::is_open(const Request& request) const {
   if (request.path == "/session") return true;
   if (request.path == "/") return true;
@@ -171,7 +172,8 @@ void Server::State::add_routes() {
   http.Post("/api/stop", doing([this](const std::string&) { session.stop(); }));
 }
 
-/// Server-sent events: the state, whenever it changes; and a comment now and then, so that a page that went is noticed.
+/// Sends events: the state, whenever it changes, and a comment now and then, so that the server notices a page that is
+/// gone.
 void Server::State::listen(const Request&, Response& response) {
   if (++listeners > kMostListeners) {
     --listeners;

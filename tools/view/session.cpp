@@ -17,7 +17,7 @@ namespace bp {
 
 namespace {
 
-/// A page that draws more is slow, and its bytes no longer fit where memory is short.
+/// triangles: a page that draws more is slow, and its bytes do not fit where memory is short
 constexpr std::uint64_t kMostShown = 2'000'000;
 constexpr std::uint64_t kMostFaces = 10'000'000;
 constexpr const char* kFirstRules = R"({"base": "2%"})";
@@ -91,7 +91,7 @@ Session::~Session() {
   job_.reset();
 }
 
-/// bpvox itself makes the stream: the proxy is made from the same one.
+/// Runs bpvox itself to make the stream, since the proxy is made from the same stream.
 void Session::open_stream() {
   const ToolResult result = ToolPipe().run({voxelize_command(options_)}, {}, stream_, true);
   if (result.status != 0)
@@ -219,7 +219,8 @@ void Session::save(const std::string& json) {
 }
 
 std::string Session::surface(std::uint64_t after) const {
-  const std::uint64_t generation = closing_->status().generation;  // first: what changes between is sent twice
+  // Read first: pieces that change in between are sent twice.
+  const std::uint64_t generation = closing_->status().generation;
   return surface_bytes(closing_->since(after), generation);
 }
 
@@ -235,7 +236,8 @@ Json Session::design_json() const {
   for (std::size_t i = 0; i < design_->rules(); ++i) {
     Json rule = Json::parse(design_->rule(i));
     if (const auto at = rule.find("at"); at != rule.end() && at->is_array() && at->size() > 4)
-      *at = Json::array({at->front(), at->back()});  // to be listed, not drawn
+      // Only the first and the last point: the page lists rules and does not draw them.
+      *at = Json::array({at->front(), at->back()});
     rules.push_back(std::move(rule));
   }
   return {{"revision", design_->revision()},

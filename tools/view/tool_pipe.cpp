@@ -17,12 +17,12 @@ namespace bp {
 
 namespace {
 
-/// Of the tools: installed and built together, they lie in one folder.
+/// Returns the folder of the tools: they are installed and built together.
 std::string tool_folder() {
   return std::filesystem::read_symlink("/proc/self/exe").parent_path().string();
 }
 
-/// One process to be, with all that it needs: between fork() and exec() no memory may be taken.
+/// Everything that a new process needs: between fork() and exec() no memory may be allocated.
 struct Start {
   std::string path;
   std::vector<char*> arguments;
@@ -44,7 +44,7 @@ struct Start {
   ::_exit(127);
 }
 
-/// A pipe between two tools; its ends are closed here once both have begun.
+/// A pipe between two tools. Its ends are closed here once both have begun.
 struct Ends {
   int read = -1, write = -1;
 };
@@ -94,7 +94,7 @@ ToolResult ToolPipe::run(const std::vector<ToolCommand>& commands, const std::ve
   for (std::size_t i = 0; !result.stopped && i < commands.size(); ++i) {
     const int status = wait_for(i);
     if (i == 0 || status != 0 || result.status == 0) {
-      // A tool that fails ends those before it with a closed pipe: their status tells nothing.
+      // A tool that fails ends those before it by a closed pipe, so their status tells nothing.
       result.status = status;
       result.tool = commands[i].front();
     }
@@ -106,7 +106,8 @@ ToolResult ToolPipe::run(const std::vector<ToolCommand>& commands, const std::ve
   return result;
 }
 
-/// Its exit status. A process is known until its number is taken off the list, so that stop() ends no other one.
+/// Returns the exit status of process i. Its number stays on the list until it has ended, so that stop() ends no other
+/// process.
 int ToolPipe::wait_for(std::size_t i) {
   siginfo_t info{};
   while (::waitid(P_PID, id_t(at_work_[i]), &info, WEXITED | WNOWAIT) < 0 && errno == EINTR) {

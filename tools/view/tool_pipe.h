@@ -7,27 +7,28 @@
 
 #include "tools/view/memory_file.h"
 
-/// Runs the tools of the suite, as a shell would: so what bpview saves is what its command line makes.
+/// Runs the tools of the suite as a shell would, so that bpview saves the files of its command line.
 namespace bp {
 
-/// A tool's name and its arguments.
+/// The name of a tool and its arguments.
 using ToolCommand = std::vector<std::string>;
 
 struct ToolResult {
-  int status = 0;        ///< exit status of the last tool that failed, else of the last one; 128 + signal
-  std::string tool;      ///< whose status it is
-  std::string said;      ///< by all tools on stderr
-  bool stopped = false;  ///< by stop()
+  int status = 0;        ///< of the last tool that failed, else of the last one; 128 + signal
+  std::string tool;      ///< the tool that has this status
+  std::string said;      ///< stderr of all tools
+  bool stopped = false;  ///< stop() ended it
 };
 
-/// One pipe of tools at a time. They are looked for beside this program.
+/// Runs one pipe of tools at a time. The tools are looked for beside this program.
 class ToolPipe {
  public:
-  /// What the last tool prints goes to `out`. `inputs` are open in every tool. tells_user: what the tools say goes to
-  /// stderr of this process, and not into the result. Throws out_of_resource if a process cannot be started.
+  /// Runs the tools; stdout of the last one goes to `out`. `inputs` are open in every tool. With `tells_user`, stderr
+  /// of the tools goes to stderr of this process, and not into the result. Throws out_of_resource if a process cannot
+  /// be started.
   [[nodiscard]] ToolResult run(const std::vector<ToolCommand>& commands, const std::vector<const MemoryFile*>& inputs,
                                const MemoryFile& out, bool tells_user = false);
-  /// Ends the tools at work, and each run() from now on, until allow(). Any thread.
+  /// Ends the tools at work, and each run() from now on, until allow(). May be called on any thread.
   void stop();
   void allow();
 

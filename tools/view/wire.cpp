@@ -13,7 +13,7 @@ namespace bp {
 
 namespace {
 
-constexpr double kSmoothCosine = 0.766;  // of 40 degrees
+constexpr double kSmoothCosine = 0.766;  // cosine of 40 degrees
 
 template <class T>
 void append(std::string& out, std::span<const T> values) {
@@ -28,7 +28,7 @@ void append_position(std::string& out, const Vec3d& p, const Vec3d& middle) {
   for (std::size_t i = 0; i < 3; ++i) append(out, float(p[i] - middle[i]));
 }
 
-/// Corners at one place, next to each other: numbers 3 t + k of corner k of triangle t, and where each place begins.
+/// The corners sorted by place: numbers 3 t + k of corner k of triangle t, and where each place begins.
 struct Places {
   std::vector<std::uint32_t> corners, place_of, begins;
 };
@@ -100,7 +100,7 @@ std::string scene_bytes(const std::vector<TriangleD>& triangles, const Vec3d& mi
     for (auto c = std::size_t(begin) * 3; c < std::size_t(end) * 3; ++c) {
       const Vec3d own = cross_of(triangles[c / 3]);
       const std::uint32_t place = places.place_of[c];
-      constexpr std::uint32_t kMost = 64;  // a fan of very many triangles is flat enough
+      constexpr std::uint32_t kMost = 64;  // triangles: a fan of more is flat enough
       const std::uint32_t last = std::min(places.begins[place + 1], places.begins[place] + kMost);
       Vec3d sum = own;
       for (std::uint32_t i = places.begins[place]; i < last; ++i) {

@@ -13,9 +13,9 @@ namespace bp {
 
 namespace {
 
-constexpr double kFirstCosine = 0.77;  // 40 degrees: what a large part looks like to begin with
+constexpr double kFirstCosine = 0.77;  // 40 degrees: the limit for large parts at first
 constexpr double kLeastCosine = 0.5;   // 60 degrees
-constexpr double kLargePart = 0.002;   // of the whole area
+constexpr double kLargePart = 0.002;   // share of the whole area
 
 }  // namespace
 
@@ -49,10 +49,10 @@ Vec3d FaceRegions::direction(const std::vector<std::uint32_t>& faces) const {
   return unit(sum, {0, 0, 1});
 }
 
-/// All seeds at once; a face goes to the part whose direction is nearest to its own, of those that come to it.
+/// Grows all seeds at once. A face goes to the part whose direction is nearest to its own, of the parts that reach it.
 void FaceRegions::grow(const std::vector<Seed>& seeds, double least_cosine, std::uint32_t first_part,
                        std::vector<std::uint32_t>& part) const {
-  using Offer = std::tuple<double, std::uint32_t, std::uint32_t>;  // how far off, face, seed
+  using Offer = std::tuple<double, std::uint32_t, std::uint32_t>;  // angle (as a cost), face, seed
   std::priority_queue<Offer, std::vector<Offer>, std::greater<>> offers;
   for (std::uint32_t s = 0; s < seeds.size(); ++s) offers.emplace(-1, seeds[s].face, s);
   while (!offers.empty()) {

@@ -5,21 +5,21 @@
 
 namespace bp {
 
-/// Faces of a mesh by what they look towards.
+/// Groups the faces of a mesh by their directions.
 class FaceRegions {
  public:
   static constexpr std::uint32_t kNone = ~std::uint32_t(0);
 
   explicit FaceRegions(const LatticeMesh& mesh);
 
-  /// All faces, in parts that are joined by edges and look about one way. First the parts that are large, and then, of
-  /// what these leave, the rest: a part has no neighbour that would look its way and is smaller for it.
+  /// Returns all faces in parts that are joined by edges and look about one way. Large parts are cut first, then the
+  /// rest. A part has no smaller neighbour that looks its way.
   [[nodiscard]] std::vector<std::vector<std::uint32_t>> cut() const;
-  /// The parts of `faces` that edges join.
+  /// Returns the parts of `faces` that edges join.
   [[nodiscard]] std::vector<std::vector<std::uint32_t>> joined(const std::vector<std::uint32_t>& faces) const;
 
-  [[nodiscard]] const Vec3d& normal(std::uint32_t face) const { return normals_[face]; }  ///< unit, or 0
-  /// Mean normal by area, unit; (0, 0, 1) if it is 0.
+  [[nodiscard]] const Vec3d& normal(std::uint32_t face) const { return normals_[face]; }  ///< of length 1, or 0
+  /// Returns the mean normal by area, of length 1; (0, 0, 1) if it is 0.
   [[nodiscard]] Vec3d direction(const std::vector<std::uint32_t>& faces) const;
 
  private:
@@ -34,7 +34,8 @@ class FaceRegions {
 
   std::vector<Vec3d> normals_;
   std::vector<double> areas_;
-  std::vector<std::array<std::uint32_t, 3>> neighbours_;  // across the edge from corner k to the next, or kNone
+  // Across the edge from corner k to the next; kNone if there is none.
+  std::vector<std::array<std::uint32_t, 3>> neighbours_;
 };
 
 }  // namespace bp

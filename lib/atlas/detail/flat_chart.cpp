@@ -13,13 +13,13 @@ namespace {
 using Point = std::array<double, 2>;
 using Flat = std::array<Point, 3>;
 
-constexpr double kFacingCosine = 0.25;  // of a face and the plane's normal
+constexpr double kFacingCosine = 0.25;  // between a face's normal and that of the plane
 
 double cross2(const Point& o, const Point& a, const Point& b) {
   return (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0]);
 }
 
-/// Some line along an edge of `a` has `b` on its other side, up to `slack`.
+/// Returns whether a line along an edge of `a` has `b` on its other side, up to `slack`.
 bool is_beside(const Flat& a, const Flat& b, double slack) {
   for (std::size_t k = 0; k < 3; ++k) {
     const Point &p = a[k], &q = a[(k + 1) % 3];
@@ -31,11 +31,11 @@ bool is_beside(const Flat& a, const Flat& b, double slack) {
   return false;
 }
 
-/// Triangles in a plane, by squares of a grid.
+/// Triangles in a plane, found by squares of a grid.
 class FlatFaces {
  public:
   FlatFaces(double square, double slack) : square_(square), slack_(slack) {}
-  /// False, and nothing is added, if it overlaps another.
+  /// Adds a triangle. If it overlaps another one, it is not added, and the result is false.
   bool add(const Flat& t) {
     std::vector<std::uint64_t> squares;
     Point lo = t[0], hi = t[0];
@@ -65,7 +65,7 @@ class FlatFaces {
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> in_square_;
 };
 
-/// Counter-clockwise (Andrew's monotone chain).
+/// Returns the convex hull, counter-clockwise (Andrew's monotone chain).
 std::vector<Point> hull_of(std::vector<Point> points) {
   std::sort(points.begin(), points.end());
   std::vector<Point> hull;
@@ -96,8 +96,8 @@ void bounds(const std::vector<Point>& points, const Turn& turn, Point& lo, Point
   }
 }
 
-/// The turn after which the upright rectangle around `points` is smallest, and lies along x: one of its sides lies
-/// along a side of their hull.
+/// Returns the turn after which the upright rectangle around `points` is smallest, and lies along x. One of its sides
+/// lies along a side of their hull.
 Turn smallest_rectangle(const std::vector<Point>& points) {
   constexpr std::size_t kMostSides = 256;
   const std::vector<Point> hull = hull_of(points);
@@ -136,7 +136,7 @@ void straighten(Chart& chart) {
   chart.size = {hi[0] - lo[0], hi[1] - lo[1]};
 }
 
-/// Two directions across `n`.
+/// Returns two directions across `n`.
 std::array<Vec3d, 2> across(const Vec3d& n) {
   const std::size_t least = std::size_t(
       std::min_element(n.begin(), n.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }) - n.begin());

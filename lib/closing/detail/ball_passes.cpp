@@ -41,8 +41,8 @@ BP_INLINE void lowest_over_rows(const T* rows, const std::int32_t* row_y, std::i
   }
 }
 
-/// For value m: how many slices, its own included, a seed of this value reaches: the number of dz >= 0 with
-/// m + dz^2 < 0. That is floor(sqrt(-m - 1)) + 1 if m < 0; the root is found bit by bit from `top` down.
+/// For value m: the number of slices, its own included, that a seed of this value reaches. That is the number of dz >=
+/// 0 with m + dz^2 < 0, which is floor(sqrt(-m - 1)) + 1 if m < 0. The root is found bit by bit from `top` down.
 template <class T, class Reach>
 BP_INLINE void store_reach(Lanes<T>& acc, T top, Reach* out) {
   using Vector = typename Lanes<T>::Vector;
@@ -60,7 +60,7 @@ BP_INLINE void store_reach(Lanes<T>& acc, T top, Reach* out) {
   for (int i = 0; i < kLanes; ++i) out[i] = Reach(reach[i]);
 }
 
-/// Values are how far they reach along z if Out differs from T, else the minima themselves.
+/// If Out differs from T, the values are how far seeds reach along z; else the minima themselves.
 template <class T, class Out>
 BP_INLINE void pass_rows(const T* rows, const RowPass& p, T top, Out* out) {
   std::int32_t lo = 0, hi = 0;
@@ -79,7 +79,7 @@ BP_INLINE void pass_rows(const T* rows, const RowPass& p, T top, Out* out) {
   }
 }
 
-/// Slices to go, carried up and then down; a target with some left is reached.
+/// Carries the slices to go up and then down. A target is reached if some are left.
 template <class T>
 BP_INLINE void sweep_line(const Line<T>& line) {
   using Vector = typename Lanes<T>::Vector;
@@ -116,7 +116,8 @@ BP_INLINE void sweep_line(const Line<T>& line) {
   }
 }
 
-/// Bits of the 64 targets at slice z whose minimum over the slices within `reach` is below their own `limit`.
+/// Returns bits of the 64 targets at slice z. A bit is set if the minimum over the slices within `reach` is below
+/// `limit`.
 template <class T>
 BP_INLINE std::uint64_t below_limit(const T* values, const std::uint8_t* present, std::int32_t z, std::int32_t slices,
                                     std::int32_t reach, const T* limit) {

@@ -1,16 +1,16 @@
 // The power transform  m(p) = min over seeds q of |p - q|^2 - w(q),  one axis after the other (squared Euclidean
-// distances are separable: Saito and Toriwaki 1994; the offset per seed rides along). Differences from the textbook
-// form:
+// distances are separable: Saito and Toriwaki 1994; the offset of each seed is carried along). Differences from the
+// textbook form:
 // - Only m < 0 matters, so every pass stops at 0 and looks no further than R = floor(sqrt(w_max - 1)). Values stay in
 //   [-w_max, 0]: 16 bits for scales up to 128 voxels.
-// - x: 64 voxels of a row at once. A row gives min over its seeds s of (x - s)^2 - w(s), one vector minimum per seed;
-//   with one w for the row only the ends of runs of seeds and the nearest seed to either side count.
-// - y: for 64 voxels, minimum over the rows within R that hold seeds, of the row's values + dy^2.
-// - z: with w at the seed nothing is left to minimise. What reaches a slice at value m < 0 reaches the slices within
-//   dz^2 < -m, so two sweeps that carry "slices to go" decide all voxels, whatever R. With w at the target the minimum
-//   itself is compared, over the slices within the target's own reach.
-// - Passes run only where a target needs them: rows within R in z of a word that holds one.
-// The passes over rows are in ball_passes.h; here is what they run on, and when.
+// - x: 64 voxels of a row at once. A row gives min over its seeds s of (x - s)^2 - w(s), one vector minimum per seed.
+//   With one w for the row, only the ends of runs of seeds and the nearest seed to either side count.
+// - y: for 64 voxels, the minimum over the rows within R that hold seeds, of the row's values + dy^2.
+// - z: with w at the seed nothing is left to minimise. A seed that reaches a slice at value m < 0 reaches the slices
+//   within dz^2 < -m, so two sweeps that carry "slices to go" decide all voxels, whatever R is. With w at the target
+//   the minimum itself is compared, over the slices within the target's own reach.
+// - A pass runs only where a target needs it: on rows within R in z of a word that holds one.
+// ball_passes.h has the passes over rows. This file decides where and when they run.
 #include "lib/closing/detail/ball_transform.h"
 
 #include <algorithm>
@@ -25,12 +25,12 @@ namespace bp::detail {
 
 namespace {
 
-constexpr std::size_t kFieldBytes = std::size_t(4) << 20;  // what the values of a block of rows may take
+constexpr std::size_t kFieldBytes = std::size_t(4) << 20;  // of the values of a block of rows, at most
 constexpr std::int32_t kSmallBound = 1 << 14;              // largest w for 16-bit values
 
-/// The seeds of one row around a word: bits of the word itself and of the words to either side within reach.
+/// The seeds of one row around a word: the word itself and the words to either side within reach.
 struct SeedWords {
-  std::vector<const std::uint64_t*> words;  ///< slices of the columns -side .. side, null where there is none
+  std::vector<const std::uint64_t*> words;  ///< slices of the columns -side .. side; null if there is no such column
   std::int32_t side = 0;
   std::int32_t y0 = 0;                          ///< row of the first word of a slice
   std::uint64_t left_mask = 0, right_mask = 0;  ///< bits within reach of the outermost words
@@ -49,8 +49,8 @@ T* room(std::vector<std::byte>& memory, std::size_t count) {
 
 }  // namespace
 
-/// One run: all columns of the targets, block of rows by block of rows. T holds the values; Value is what a slice keeps
-/// of them: T itself with the scale at the target, else the reach along z.
+/// One run: all columns of the targets, block of rows by block of rows. T is the type of values. Value is the type that
+/// a slice keeps: T itself with the scale at the target, else the reach along z.
 template <class T, class Value>
 struct BallTransform::Columns {
   BallTransform& scratch;
@@ -61,9 +61,10 @@ struct BallTransform::Columns {
   const T* squares = nullptr;
   T* rows = nullptr;
   Value* field = nullptr;         ///< [row of the block][slice][64]
-  std::uint16_t* need = nullptr;  ///< [slice][row]: 1 + slices to the farthest end of a target's reach, 0: not needed
-  std::int32_t z0 = 0, slices = 0, block_rows = 0;  ///< slices of field and need: targets and the seeds they can meet
-  std::size_t row_step = 0;                         ///< values from one row of the field to the next
+  std::uint16_t* need = nullptr;  ///< [slice][row]: 1 + slices to the farthest end of a target's reach; 0: not needed
+  /// Slices of field and need: targets, and the seeds that they can meet.
+  std::int32_t z0 = 0, slices = 0, block_rows = 0;
+  std::size_t row_step = 0;  ///< values from one row of the field to the next
   SeedWords words;
   T top = 0;
 
@@ -99,7 +100,7 @@ struct BallTransform::Columns {
   void make_squares() {
     const std::int32_t half = radius + 2 * kLanes;
     T* table = room<T>(scratch.squares_, std::size_t(2 * half));
-    // Saturated at the largest bound: minus any w <= bound that is still not negative.
+    // Squares are saturated at the largest bound: minus any w <= bound they are still not negative.
     for (std::int32_t i = -half; i < half; ++i)
       table[i + half] = T(std::min<std::int64_t>(std::int64_t(i) * i, rule.bound));
     squares = table + half;
@@ -113,7 +114,7 @@ struct BallTransform::Columns {
     }
   }
 
-  /// Rows [y0, y0 + count) of one column.
+  /// Works on rows [y0, y0 + count) of one column.
   void run_block(std::int32_t column, std::int32_t y0, std::int32_t count) {
     if (!find_needs(column, y0, count)) return;
     const std::int32_t x0 = targets.box().min.x + 64 * column;
@@ -121,7 +122,7 @@ struct BallTransform::Columns {
     for (std::int32_t i = 0; i < count; ++i) decide_row(column, x0, y0, i);
   }
 
-  /// Fills `need`. False if the block holds no target.
+  /// Fills `need`. Returns false if the block holds no target.
   bool find_needs(std::int32_t column, std::int32_t y0, std::int32_t count) {
     std::fill_n(need, std::size_t(slices) * kBlockRows, std::uint16_t(0));
     std::uint64_t any = 0;
@@ -137,7 +138,7 @@ struct BallTransform::Columns {
     return any != 0;
   }
 
-  /// x and y passes of slice z0 + i: fills the field where it is needed.
+  /// Runs the x and y passes of slice z0 + i: fills the field where it is needed.
   void run_slice(std::int32_t x0, std::int32_t y0, std::int32_t i) {
     const std::uint16_t* wanted = need + std::size_t(i) * kBlockRows;
     std::int32_t first = 0, last = block_rows - 1;
@@ -155,7 +156,7 @@ struct BallTransform::Columns {
     scratch.present_[std::size_t(i)] = found != 0;
   }
 
-  /// x pass: the rows y in [begin, end) of slice z that hold a seed within reach of the column. Returns their number.
+  /// x pass of the rows y in [begin, end) of slice z that hold a seed within reach of the column. Returns their number.
   std::int32_t collect_rows(std::int32_t x0, std::int32_t begin, std::int32_t end, std::int32_t z) {
     const VoxelBox& box = seeds.box();
     if (z < box.min.z || z >= box.max.z) return 0;
@@ -191,7 +192,7 @@ struct BallTransform::Columns {
     }
   }
 
-  /// All seeds of the row have the same bound.
+  /// x pass of a row whose seeds all have the same bound.
   void x_pass_of_one(std::int32_t y, std::int32_t bound, T* row) {
     constexpr std::int32_t kNone = std::numeric_limits<std::int32_t>::min();
     std::int32_t left = kNone, right = kNone;
@@ -206,7 +207,7 @@ struct BallTransform::Columns {
     nearest(words.bits(0, y), left, right, kNone, T(bound), squares, row);
   }
 
-  /// z pass of row y0 + i: clears the targets that nothing reaches.
+  /// z pass of row y0 + i: clears the targets that no seed reaches.
   void decide_row(std::int32_t column, std::int32_t x0, std::int32_t y0, std::int32_t i) {
     const VoxelBox& box = targets.box();
     Line<Value> line{field + std::size_t(i) * row_step,

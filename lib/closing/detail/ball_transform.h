@@ -4,10 +4,10 @@
 #include "lib/closing/detail/column_bits.h"
 #include "lib/closing/detail/scale_row.h"
 
-/// Which voxels lie inside a ball around some seed: the power transform, separable, only where it is asked for.
+/// Finds the voxels that lie inside a ball around some seed, by a separable power transform, only where it is asked to.
 namespace bp::detail {
 
-/// Whose scale makes the ball: |p - q|^2 < w for target p and seed q, with w = ceil(S^2).
+/// The voxel whose scale makes the ball: |p - q|^2 < w for target p and seed q, with w = ceil(S^2).
 enum class BallScale : std::uint8_t {
   uniform,   ///< w is the same everywhere
   at_seed,   ///< w(q): erosion
@@ -22,10 +22,10 @@ struct BallRule {
 
 class BallTransform {
  public:
-  /// Clears the bits of `targets` that no ball reaches: p stays if a voxel q of `seeds` has |p - q|^2 < w.
-  /// With R = floor(sqrt(w - 1)), cost per word of 64 targets and of rows within R of one in z: at most 2 R + 1
-  /// additions and minima of 64 small integers (16 bits up to w = 2^14, 32 bits above), less where rows hold no seed;
-  /// at_target takes the same once more.
+  /// Clears the bits of `targets` that no ball reaches: p stays if a voxel q of `seeds` has |p - q|^2 < w. With R =
+  /// floor(sqrt(w - 1)), a word of 64 targets, and each row within R of one in z, costs at most 2 R + 1 additions and
+  /// minima of 64 small integers (16 bits up to w = 2^14, 32 bits above). It costs less where rows hold no seed;
+  /// at_target costs twice as much.
   void run(const ColumnBits& seeds, const BallRule& rule, ColumnBits& targets);
 
  private:

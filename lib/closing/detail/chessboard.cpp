@@ -1,8 +1,8 @@
-// The chessboard distance obeys, among the voxels q of the half space z(q) <= z(p),
+// The chessboard distance F obeys, among the voxels q of the half space z(q) <= z(p),
 //   F(p) = min( distance to the q in the slice of p,  1 + min of F over the 3 x 3 voxels below p ),
 // because the first step from p towards a q of a lower slice may go down by one and sideways by up to one at once. The
 // same holds for z(q) >= z(p) with the slices swept the other way, and one dimension down within a slice. A voxel is in
-// the dilation if either of its two half-space distances is within its radius, so the two sweeps need not meet: each
+// the dilation if either of its two half-space distances is within its radius. So the two sweeps need not meet: each
 // keeps the slice before, and sets bits. Distances stop at `far`, one more than the largest radius.
 #include "lib/closing/detail/chessboard.h"
 
@@ -74,7 +74,7 @@ bool any(const std::uint64_t* words, std::int32_t n) {
   return std::any_of(words, words + n, [](std::uint64_t w) { return w != 0; });
 }
 
-/// First bit at or after `i` that is set (or clear, with `flip` all ones); 64 * count if there is none.
+/// Returns the first bit at or after `i` that is set (or clear, if `flip` is all ones); 64 * count if there is none.
 std::int32_t next_bit(const std::uint64_t* words, std::int32_t count, std::int32_t i, std::uint64_t flip) {
   for (; i < 64 * count; i = (i | 63) + 1) {
     const std::uint64_t rest = (words[i / 64] ^ flip) >> (i % 64);
@@ -83,7 +83,7 @@ std::int32_t next_bit(const std::uint64_t* words, std::int32_t count, std::int32
   return 64 * count;
 }
 
-/// Distances along one row of bits: 0 at set bits, growing away from each run of them up to `far`.
+/// Writes distances along one row of bits: 0 at set bits, growing away from each run of them up to `far`.
 template <class T>
 void distances_along_row(const std::uint64_t* words, std::int32_t count, T far, T* row) {
   const std::int32_t n = 64 * count;
@@ -106,9 +106,9 @@ struct VaryingCubeDilation::Sweep {
   BitBox& out;
   VaryingCubeDilation& scratch;
   const T far;
-  VoxelBox work{};   ///< region grown by the reach, without what lies beyond both solid and region: no shortest path
-                     ///< between them goes there
-  VoxelBox seeds{};  ///< where solid and work meet
+  /// The region grown by the reach, without parts beyond both solid and region: no shortest path leads there.
+  VoxelBox work{};
+  VoxelBox seeds{};  ///< the part of the solid inside `work`
   std::size_t stride = 0, slice = 0;
   T *plane = nullptr, *now = nullptr, *before = nullptr, *lowest = nullptr, *radii = nullptr;
 
@@ -131,7 +131,7 @@ struct VaryingCubeDilation::Sweep {
   }
   [[nodiscard]] std::int32_t width() const { return work.max.x - work.min.x; }
   [[nodiscard]] std::int32_t height() const { return work.max.y - work.min.y; }
-  /// Row y (counted from work.min.y, -1 and height() included) of a slice.
+  /// Returns row y of a slice, counted from work.min.y; -1 and height() are allowed.
   [[nodiscard]] T* row(T* slice_, std::int32_t y) const { return slice_ + std::size_t(y + 1) * stride + kPad; }
 
   void run() {
@@ -140,7 +140,7 @@ struct VaryingCubeDilation::Sweep {
   }
 
   void sweep(std::int32_t first, std::int32_t last, std::int32_t direction) {
-    std::int32_t alive = 0;  // slices until the distances of the last solid voxels are all `far`
+    std::int32_t alive = 0;  // number of slices until the distances of the last solid voxels are all `far`
     for (std::int32_t z = first; z != last; z += direction) {
       const bool seeded = measure_slice(z);
       if (seeded) {
@@ -156,7 +156,8 @@ struct VaryingCubeDilation::Sweep {
     }
   }
 
-  /// Fills `plane` with the distances within slice z. False, and `plane` untouched, if the slice holds no solid voxel.
+  /// Fills `plane` with the distances within slice z. Returns false, and leaves `plane`, if the slice holds no solid
+  /// voxel.
   bool measure_slice(std::int32_t z) {
     if (z < seeds.min.z || z >= seeds.max.z) return false;
     const std::int32_t first = (seeds.min.x - solid.box().min.x) / 64, count = (seeds.max.x - seeds.min.x) / 64;
@@ -187,8 +188,8 @@ struct VaryingCubeDilation::Sweep {
     step(lowest + kPad, to, width(), far);
   }
 
-  /// Sets the voxels of slice z within their radius. Bounds of the radii decide most words; only where the distances
-  /// straddle them does each voxel take its own.
+  /// Sets the voxels of slice z that are within their radius. Bounds of the radii decide most words. Only if the
+  /// distances straddle the bounds does each voxel look up its own radius.
   void emit(std::int32_t z) {
     std::int32_t cell = std::numeric_limits<std::int32_t>::min();
     for (std::int32_t y = region.min.y; y < region.max.y; ++y) {
@@ -213,7 +214,7 @@ struct VaryingCubeDilation::Sweep {
     }
   }
 
-  /// Least and largest radius of each word, for the rows of one cell of the lattice.
+  /// Finds the least and largest radius of each word, for the rows of one cell of the lattice.
   void bound_radii(std::int32_t y, std::int32_t z) {
     scratch.bounds_.resize(std::size_t(region.max.x - region.min.x) / 64);
     for (std::size_t i = 0; i < scratch.bounds_.size(); ++i) {

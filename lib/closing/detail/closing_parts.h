@@ -9,8 +9,8 @@ namespace bp {
 
 struct ClosingScratch::Parts {
   BitBox dilation;                          ///< D
-  BitBox inner;                             ///< voxels known to be in D without computing a distance
-  detail::ColumnBits seeds, contour, band;  ///< G or Dc, by columns; D minus G, by columns
+  BitBox inner;                             ///< voxels that are in D for sure, without computing a distance
+  detail::ColumnBits seeds, contour, band;  ///< by columns: G or Dc, Dc, and D minus G
   detail::CubeDilation cube;
   detail::VaryingCubeDilation varying;
   detail::OrientedDilation oriented;

@@ -4,13 +4,13 @@
 #include "lib/grid/bit_box.h"
 
 /// A box of voxels as bits, stored column by column: all words that cover the same 64 x lie together, y fastest, then
-/// z. The ball transforms work on one such column at a time and would fetch each cache line of a BitBox once per
+/// z. The ball transforms work on one such column at a time. In a BitBox they would fetch each cache line once per
 /// column.
 namespace bp::detail {
 
 class ColumnBits {
  public:
-  /// x of `box` must be whole words. Contents are undefined until written; the allocation is kept.
+  /// Sets the box, whose x must be whole words. Contents are undefined until written; the allocation is kept.
   void reset(const VoxelBox& box) {
     box_ = box;
     if (box.empty()) box_.max = box_.min;
@@ -21,12 +21,12 @@ class ColumnBits {
   }
   [[nodiscard]] const VoxelBox& box() const { return box_; }
   [[nodiscard]] std::int32_t columns() const { return (box_.max.x - box_.min.x) / 64; }
-  /// Words (column, min.y .. max.y, z), one after the other.
+  /// Returns the words (column, min.y .. max.y, z), one after the other.
   [[nodiscard]] std::uint64_t* slice(std::int32_t column, std::int32_t z) { return &words_[index(column, z)]; }
   [[nodiscard]] const std::uint64_t* slice(std::int32_t column, std::int32_t z) const {
     return &words_[index(column, z)];
   }
-  /// Words from one column to the next, same y and z.
+  /// Returns the number of words from one column to the next, at the same y and z.
   [[nodiscard]] std::size_t column_stride() const { return std::size_t(depth_) * std::size_t(height_); }
 
  private:

@@ -1,6 +1,6 @@
-// Windowed OR of width 2 r + 1. Along x by doubling: a word shifted by its own window width, ORed, doubles the window.
-// Along y and z, where whole words line up, by the block-wise prefix and suffix scheme of van Herk (1992) and Gil and
-// Werman (1993): three operations per word whatever the width.
+// A windowed OR of width 2 r + 1. Along x it works by doubling: a word shifted by its own window width and ORed doubles
+// the window. Along y and z, where whole words line up, it uses the block-wise prefixes and suffixes of van Herk (1992)
+// and Gil and Werman (1993): three operations per word whatever the width.
 #include "lib/closing/detail/cube_dilation.h"
 
 #include <algorithm>
@@ -12,9 +12,10 @@ namespace bp::detail {
 
 namespace {
 
-constexpr std::size_t kChunk = 256;  // words handled together along z: a window of them stays in the second-level cache
+// Words handled together along z, so that a window of them stays in the second-level cache.
+constexpr std::size_t kChunk = 256;
 
-/// to[i] |= the row `from` moved by `shift` voxels towards +x. Reads from[-shift / 64 - 1] on.
+/// Ors into `to` the row `from`, moved by `shift` voxels towards +x. Reads from[-shift / 64 - 1] on.
 BP_CLONES void or_shifted(const std::uint64_t* from, std::uint64_t* to, std::int64_t n, std::int32_t shift) {
   const std::uint64_t* a = from - shift / 64;
   const int b = shift % 64;
@@ -25,7 +26,7 @@ BP_CLONES void or_shifted(const std::uint64_t* from, std::uint64_t* to, std::int
   }
 }
 
-/// to = the row `from` moved by `shift` voxels towards -x. Reads up to from[n + shift / 64].
+/// Sets `to` to the row `from`, moved by `shift` voxels towards -x. Reads up to from[n + shift / 64].
 BP_CLONES void shift_down(const std::uint64_t* from, std::uint64_t* to, std::int64_t n, std::int32_t shift) {
   const std::uint64_t* a = from + shift / 64;
   const int b = shift % 64;
@@ -37,7 +38,7 @@ BP_CLONES void shift_down(const std::uint64_t* from, std::uint64_t* to, std::int
 }
 
 /// out[t] = OR of in[t .. t + 2 r], t in [0, n), for vectors of `len` words that lie `in_step` and `out_step` apart.
-/// `in` holds n + 2 r vectors and is used up; `prefix` is room for one.
+/// `in` holds n + 2 r vectors and is overwritten; `prefix` has room for one vector.
 BP_CLONES void window_or(std::uint64_t* in, std::size_t in_step, std::int64_t n, std::int32_t r, std::size_t len,
                          std::uint64_t* out, std::size_t out_step, std::uint64_t* prefix) {
   const std::int64_t width = 2 * std::int64_t(r) + 1, last = n + 2 * std::int64_t(r);
@@ -67,7 +68,8 @@ bool any(const std::uint64_t* words, std::int32_t n) {
 
 }  // namespace
 
-/// One slice dilated in x and y, over the rows and words of `out`. False, and `slice` zero, if nothing is in reach.
+/// Dilates one slice in x and y, over the rows and words of `out`. If nothing is in reach, it returns false and `slice`
+/// is zero.
 bool CubeDilation::dilate_slice_xy(const BitBox& solid, std::int32_t z, std::int32_t r, const VoxelBox& out,
                                    std::uint64_t* slice) {
   const VoxelBox& in = solid.box();
@@ -78,7 +80,7 @@ bool CubeDilation::dilate_slice_xy(const BitBox& solid, std::int32_t z, std::int
   const VoxelBox from = intersect(in, reach);
   bool found = false;
   if (!from.empty()) {
-    // The line reaches `pad` words beyond `out` at both ends; as many zeros stand before it, for the shifts to read.
+    // The line reaches `pad` words beyond `out` at both ends. `pad` zeros stand before it, since the shifts read them.
     const std::int32_t line = words + 2 * pad, first = (from.min.x - in.min.x) / 64,
                        count = (from.max.x - from.min.x) / 64, at = pad + (from.min.x - reach.min.x) / 64;
     line_a_.assign(std::size_t(line + 2 * pad), 0);

@@ -8,13 +8,13 @@ namespace bp::detail {
 
 class CubeDilation {
  public:
-  /// Sets `out` (its box is kept) to the voxels within Chebyshev distance `r` of a voxel of `solid`.
-  /// Cost per 64 voxels: 4 log2(2 r + 1) word operations along x, 3 along y and 3 along z [vHGW].
+  /// Sets `out` (its box is kept) to the voxels within Chebyshev distance `r` of a voxel of `solid`. Cost per 64
+  /// voxels: 4 log2(2 r + 1) word operations along x, 3 along y and 3 along z [vHGW].
   void run(const BitBox& solid, std::int32_t r, BitBox& out);
 
  private:
   bool dilate_slice_xy(const BitBox& solid, std::int32_t z, std::int32_t r, const VoxelBox& out, std::uint64_t* slice);
-  std::vector<std::uint64_t> rows_;    ///< a slice after the x pass
+  std::vector<std::uint64_t> rows_;    ///< one slice after the x pass
   std::vector<std::uint64_t> slices_;  ///< all slices in reach after the y pass
   std::vector<std::uint64_t> line_a_, line_b_, prefix_;
 };

@@ -10,7 +10,7 @@ namespace bp::detail {
 
 namespace {
 
-/// Bits 2 i and 2 i + 1 together become bit i.
+/// Joins bits 2 i and 2 i + 1 by OR into bit i.
 BP_INLINE std::uint64_t pairs(std::uint64_t w) {
   w = (w | w >> 1) & 0x5555555555555555;
   w = (w | w >> 1) & 0x3333333333333333;
@@ -20,7 +20,7 @@ BP_INLINE std::uint64_t pairs(std::uint64_t w) {
   return (w | w >> 16) & 0xffffffff;
 }
 
-/// Bit i becomes bits 2 i and 2 i + 1.
+/// Copies bit i to bits 2 i and 2 i + 1.
 BP_INLINE std::uint64_t doubled(std::uint64_t w) {
   w = (w | w << 16) & 0x0000ffff0000ffff;
   w = (w | w << 8) & 0x00ff00ff00ff00ff;

@@ -7,8 +7,8 @@ namespace bp::detail {
 
 namespace {
 
-/// floor(n / a), for n that changes by the same step from time to time. All are below 2^29: rows of 2^14 times a reach
-/// of 2^13, twice.
+/// Computes floor(n / a) for an n that changes by the same step from time to time. All numbers are below 2^29: rows of
+/// 2^14 times a reach of 2^13, twice.
 class SteppedQuotient {
  public:
   SteppedQuotient(std::int32_t n, std::int32_t step, std::int32_t a)
@@ -31,7 +31,7 @@ class SteppedQuotient {
 
 constexpr std::int32_t kFar = 1 << 14;  ///< beyond any reach
 
-/// Cuts rows dy in [begin, end) to the x with |a x + b dy + c| <= limit, a >= 0. `rows` is row 0.
+/// Cuts rows dy in [begin, end) to the x with |a x + b dy + c| <= limit, a >= 0. `rows` points to row 0.
 void cut(std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t limit, std::int32_t begin, std::int32_t end,
          CubeRow* rows) {
   const std::int32_t t = c + b * begin;
@@ -48,7 +48,7 @@ void cut(std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t limit, std
   }
 }
 
-/// From the first to the last of them that is not empty.
+/// Returns the range from the first to the last row that is not empty.
 template <class Filled>
 Filled filled(const CubeRow* rows, std::int32_t count) {
   const auto empty = [&](std::int32_t i) { return rows[i].last < rows[i].first; };
@@ -109,7 +109,7 @@ CubeRow CubeRows::block(std::int32_t i, std::int32_t j) const {
 void CubeRows::make_slice(std::int32_t dz) const {
   Filled &slice = slices_[std::size_t(dz + reach_)], &mirrored = slices_[std::size_t(reach_ - dz)];
   CubeRow* to = row(dz);
-  if (mirrored.begin <= mirrored.end) {  // the cube is its own image through its centre
+  if (mirrored.begin <= mirrored.end) {  // the cube is its own mirror image through its centre
     slice = {std::int16_t(2 * reach_ + 1 - mirrored.end), std::int16_t(2 * reach_ + 1 - mirrored.begin)};
     const CubeRow* from = row(-dz);
     for (std::int32_t i = slice.begin - reach_; i < slice.end - reach_; ++i)

@@ -8,32 +8,33 @@
 /// A turned cube as a set of voxels: its rows.
 namespace bp::detail {
 
-/// The cube is turned about this axis alone, and is its own slice across it from -cube_radius() to cube_radius().
+/// Returns whether the cube is turned about this axis alone. Then its slices across the axis are all the same, from
+/// -cube_radius() to cube_radius().
 [[nodiscard]] bool keeps_axis(const Rotation& r, int axis);
 
-/// The voxels x of a row: from `first` to `last`; none if last < first.
+/// The voxels of a row, from x = `first` to `last`; none if last < first.
 struct CubeRow {
   std::int16_t first, last;
 };
 
-/// All rows of the voxels (x, dy, dz) of a turned cube around (0, 0, 0). Those of a slice are made when they are first
-/// asked for.
+/// All rows of the voxels (x, dy, dz) of a turned cube around (0, 0, 0). The rows of a slice are made when they are
+/// first wanted.
 class CubeRows {
  public:
-  static constexpr std::int32_t kEdge = 4;  ///< rows [4 i, 4 i + 4) of slices [4 j, 4 j + 4) are a block
+  static constexpr std::int32_t kEdge = 4;  ///< a block is rows [4 i, 4 i + 4) of slices [4 j, 4 j + 4)
 
-  /// `rotation` is canonical. `flat`: only the rows with dy = 0 (1) or with dz = 0 (2), if it is one of these. Cost:
-  /// that of the blocks, a few divisions each.
+  /// `rotation` is canonical. `flat`: 1 makes only the rows with dy = 0, 2 only those with dz = 0. Cost: a few
+  /// divisions for each block.
   CubeRows(const Rotation& rotation, Scale s, int flat = -1);
 
   [[nodiscard]] std::int32_t reach() const { return reach_; }
 
-  /// Consecutive rows, the first of which is number `begin`.
+  /// Consecutive rows; the first has number `begin`.
   struct Stretch {
     std::int32_t begin = 0, end = 0;
     const CubeRow* rows = nullptr;
   };
-  /// Those rows dy in [begin, end) of slice dz, |dz| <= reach(), that have voxels.
+  /// Returns the rows dy in [begin, end) of slice dz, |dz| <= reach(), that have voxels.
   [[nodiscard]] Stretch rows(std::int32_t dz, std::int32_t begin, std::int32_t end) const {
     const Filled& slice = slices_[std::size_t(dz + reach_)];
     if (slice.end < slice.begin) make_slice(dz);
@@ -41,8 +42,8 @@ class CubeRows {
     end = std::min(end, slice.end - reach_);
     return {begin, end, row(dz) + begin};
   }
-  /// Blocks i of slices [4 j, 4 j + 4), from the first to the last with voxels: what any of a block's rows holds, and
-  /// perhaps some more.
+  /// Returns the blocks of slices [4 j, 4 j + 4), from the first to the last one with voxels. A block's row holds what
+  /// any of its rows holds, and perhaps some more.
   [[nodiscard]] Stretch blocks(std::int32_t j) const {
     const std::int32_t layer = j - first_block_;
     if (layer < 0 || layer >= across_) return {};
@@ -53,18 +54,18 @@ class CubeRows {
   [[nodiscard]] std::size_t bytes() const {
     return (rows_.size() + blocks_.size()) * sizeof(CubeRow) + (slices_.size() + layers_.size()) * sizeof(Filled);
   }
-  /// The most for any cube of this reach.
+  /// Returns the largest size of any cube of this reach.
   static constexpr std::size_t most_bytes(std::int32_t reach) {
     const auto side = std::size_t(2 * reach + 1), across = side / kEdge + 2;
     return (side * side + across * across) * sizeof(CubeRow) + (side + across) * sizeof(Filled);
   }
 
  private:
-  /// Rows or blocks with voxels. None are made yet if end < begin.
+  /// A range of rows or blocks with voxels. If end < begin, they are not made yet.
   struct Filled {
     std::int16_t begin = 1, end = 0;
   };
-  /// Row 0 of a slice.
+  /// Returns row 0 of a slice.
   [[nodiscard]] CubeRow* row(std::int32_t dz) const { return rows_.data() + (dz + reach_) * (2 * reach_ + 1) + reach_; }
   void make_slice(std::int32_t dz) const;
   [[nodiscard]] CubeRow block(std::int32_t i, std::int32_t j) const;
@@ -72,8 +73,8 @@ class CubeRows {
   Rotation rotation_;
   std::int32_t limit_, reach_;
   int flat_;
-  std::int32_t first_block_, across_;  ///< least i and j, and how many there are
-  mutable std::vector<CubeRow> rows_;  ///< by slice, then dy: all within reach
+  std::int32_t first_block_, across_;  ///< the least i and j, and the number of i
+  mutable std::vector<CubeRow> rows_;  ///< by slice, then dy: all rows within reach
   mutable std::vector<Filled> slices_;
   std::vector<CubeRow> blocks_;  ///< by j, then i
   std::vector<Filled> layers_;

@@ -21,11 +21,14 @@ namespace bp::detail {
 
 namespace {
 
-constexpr std::int32_t kStep = kScaleOne / 2;  ///< scales that differ in a cell are rounded to it: cells share cubes
+/// Scales that differ in a cell are rounded to this step, so that cells share cubes.
+constexpr std::int32_t kStep = kScaleOne / 2;
 constexpr std::int32_t kMostScale = std::numeric_limits<Scale>::max();
-constexpr std::int32_t kLeastRadius = 8;  ///< of cubes of large voxels: smaller ones decide too little
+/// voxels; the least radius of a cube of large voxels, because smaller ones decide too little
+constexpr std::int32_t kLeastRadius = 8;
 
-/// Any of the bits [first, last] of a row that begins at bit 0, `bits` long.
+/// Calls test() for the bits [first, last] of a row of `bits` bits that are set, until one is true. Returns whether one
+/// was.
 template <class Test>
 bool any_bit(const std::uint64_t* row, std::int32_t bits, std::int32_t first, std::int32_t last, const Test& test) {
   first = std::max(first, 0);
@@ -42,8 +45,8 @@ bool any_bit(const std::uint64_t* row, std::int32_t bits, std::int32_t first, st
   return false;
 }
 
-/// out := voxels of `box`, grown by `r` along y or z, within r of one of `solid` along that axis. `box` is in that of
-/// `solid`.
+/// Sets `out` to the voxels of `box`, grown by `r` along y or z, that lie within r of a voxel of `solid` along that
+/// axis. `box` must lie in the box of `solid`.
 void dilate_along(const BitBox& solid, int axis, std::int32_t r, VoxelBox box, BitBox& out) {
   box.min[axis] -= r;
   box.max[axis] += r;
@@ -52,7 +55,7 @@ void dilate_along(const BitBox& solid, int axis, std::int32_t r, VoxelBox box, B
   const VoxelBox& all = out.box();
   const std::int32_t rows = all.max[axis] - all.min[axis], others = all.max[3 - axis] - all.min[3 - axis];
   const auto words = std::size_t(out.words_per_row());
-  // Row t takes the `width` rows that end, or begin, with it.
+  // Row t takes the `width` rows that end with it, or begin with it.
   const auto widen = [&](std::int32_t step, std::int32_t width) {
     const auto row = [&](std::int32_t t, std::int32_t k) {
       const std::int32_t at = all.min[axis] + (step > 0 ? rows - 1 - t : t), other = all.min[3 - axis] + k;
@@ -100,7 +103,8 @@ void OrientedDilation::run(const BitBox& solid, const ScaleLattice& scale, BitBo
   std::swap(levels_[0].in, out);
 }
 
-/// Cubes of one size that are turned about y or z are dilated along that axis first; then one slice of them is left.
+/// If all cubes have one size and are turned about y or z, the solid is dilated along that axis first. Then one slice
+/// of each cube is left to do.
 void OrientedDilation::find_kept_axis(const BitBox& solid, const ScaleRange& range, const VoxelBox& region) {
   flat_ = -1;
   for (const int axis : {1, 2}) {
@@ -113,7 +117,7 @@ void OrientedDilation::find_kept_axis(const BitBox& solid, const ScaleRange& ran
                  intersect(solid.box(), region.grown(cubes_.widest.reach(range.max))), along_);
 }
 
-/// The level of the largest voxels, each of them in one cell of the field.
+/// Returns the level of the largest voxels. Each of them must lie in one cell of the field.
 int OrientedDilation::coarsest(const ScaleRange& range) const {
   int level = 0;
   while (cube_radius(range.max) >> (level + 1) >= kLeastRadius &&
@@ -170,7 +174,7 @@ void OrientedDilation::list_blocks(const Level& level, const ScaleLattice& scale
   maybe_.assign(edge_ > 1 ? open_.size() : 0, 0);
 }
 
-/// Those of a word's width, where it is not known of all voxels whether they are in.
+/// Lists the blocks in a word's width that have open voxels: those that may be in, and are not surely in.
 void OrientedDilation::list_blocks(VoxelCoord first, const Level& level, const ScaleLattice& scale) {
   const VoxelBox rows = intersect(level.in.box(), {first, first + VoxelCoord{64, kAcross, kSlices}});
   const std::int32_t column = (first.x - level.in.box().min.x) / 64;
@@ -194,7 +198,7 @@ void OrientedDilation::list_blocks(VoxelCoord first, const Level& level, const S
   }
 }
 
-/// Cells with open voxels that are alike become one part.
+/// Makes one part of all cells with open voxels that have the same rotation and scales.
 void OrientedDilation::add_parts(Block& block, const ScaleLattice& scale) {
   for (std::int32_t y = 0; y < kAcross / kCell; ++y) {
     Word open = 0;
@@ -215,7 +219,7 @@ void OrientedDilation::add_parts(Block& block, const ScaleLattice& scale) {
   block.parts = parts_.size() - block.part;
 }
 
-/// Of the cell that begins at a voxel.
+/// Returns the part of the cell that begins at a voxel, without its mask.
 OrientedDilation::Part OrientedDilation::part_of(VoxelCoord cell, const ScaleLattice& scale) const {
   const VoxelCoord first = cell * edge_;
   const std::uint16_t rotation = cubes_.at(first);
@@ -230,7 +234,7 @@ OrientedDilation::Part OrientedDilation::part_of(VoxelCoord cell, const ScaleLat
   return {{}, rotation, least, std::min(most, kMostScale)};
 }
 
-/// Group by group: a block whose cubes do not fit goes on in the next one.
+/// Decides blocks in groups. If the cubes of a block do not fit in memory, the block goes on in the next group.
 void OrientedDilation::decide_blocks(const BitBox& solid, const ScaleLattice& scale) {
   group_.clear();
   for (const Block& block : blocks_) {
@@ -254,7 +258,7 @@ void OrientedDilation::decide_blocks(const BitBox& solid, const ScaleLattice& sc
   sweep(solid, scale);
 }
 
-/// False if the part's cubes may not fit beside those that are there.
+/// Makes the part's cubes. Returns false if they may not fit in memory together with the others.
 bool OrientedDilation::prepare(Part& part) {
   const Rotation& rotation = cubes_.rotations[part.rotation];
   const auto there = [&](std::int32_t s) { return s < 0 || kept_.count(key(rotation, s)) != 0; };
@@ -280,8 +284,9 @@ void OrientedDilation::sweep(const BitBox& solid, const ScaleLattice& scale) {
   solid_ = &solid;
   scale_ = &scale;
   const std::int32_t before =
-      ceil_div(reach_, CubeRows::kEdge) * CubeRows::kEdge;  // where the first of its blocks of slices may begin
-  std::size_t first = 0, last = 0;                          // blocks in reach of the slice
+      // Slices before a block where its first block of slices may begin.
+      ceil_div(reach_, CubeRows::kEdge) * CubeRows::kEdge;
+  std::size_t first = 0, last = 0;  // blocks in reach of the slice
   for (std::int32_t z = group_.front().first.z - before; z < group_.back().first.z + kSlices + reach_; ++z) {
     while (first < group_.size() && group_[first].first.z + kSlices - 1 + reach_ < z) ++first;
     while (last < group_.size() && group_[last].first.z - before <= z) ++last;
@@ -292,7 +297,7 @@ void OrientedDilation::sweep(const BitBox& solid, const ScaleLattice& scale) {
   group_.clear();
 }
 
-/// `any`: the slice or one of the next seven holds something.
+/// `any`: the slice or one of the next seven holds a voxel.
 void OrientedDilation::ask_slice(Block& block, std::int32_t dz_of_first, bool any) {
   tables_.place(block.first.x, block.first.y);
   constexpr std::int32_t edge = CubeRows::kEdge;
@@ -315,7 +320,7 @@ void OrientedDilation::look(const Block& block, Part& part, int slice, std::int3
   part.asks = (part.asks & ~(1U << slice)) | (part.near[slice] != 0 ? 1U << slice : 0);
 }
 
-/// Of one slice of the block.
+/// Decides the voxels of one slice of the block by the part's least cube, and then by its largest.
 void OrientedDilation::ask_part(const Block& block, Part& part, int slice, std::int32_t dz) {
   const std::uint64_t near = part.near[slice];
   Word* open = &open_[block.open + std::size_t(slice * kAcross)];
@@ -333,9 +338,9 @@ void OrientedDilation::ask_part(const Block& block, Part& part, int slice, std::
   for (std::int32_t j = 0; j < kAcross; ++j) maybe[j] |= asking[j] ^ left[j];
 }
 
-/// Of voxels that meet nothing of the least cube, each by its own scale.
+/// Decides the voxels that meet nothing of the least cube, each by its own scale.
 void OrientedDilation::ask_each(const Block& block, const Part& part, int slice, std::int32_t dz) {
-  Scale scales[kAcross * kAcross] = {};  // 0: not known yet
+  Scale scales[kAcross * kAcross] = {};  // 0: not looked up yet
   Word* open = &open_[block.open + std::size_t(slice * kAcross)];
   const VoxelCoord first = block.first + VoxelCoord{0, 0, slice};
   tables_.ask_each(*part.most, dz, part.near[slice], part.mask, open,
@@ -352,7 +357,7 @@ void OrientedDilation::ask_each(const Block& block, const Part& part, int slice,
                    });
 }
 
-/// The cube of scale `s` around p holds a solid voxel of the row.
+/// Returns whether the cube of scale `s` around p holds a solid voxel of the row.
 bool OrientedDilation::holds(const Rotation& rotation, Scale s, VoxelCoord p, CubeRow row, std::int32_t dy,
                              std::int32_t dz) const {
   const VoxelBox& box = solid_->box();
@@ -362,7 +367,8 @@ bool OrientedDilation::holds(const Rotation& rotation, Scale s, VoxelCoord p, Cu
                  [&](std::int32_t at) { return in_oriented_cube(rotation, s, at - x, dy, dz); });
 }
 
-/// Large voxels: some are left that may be in. The others: what is not open is in.
+/// Writes the result of the level. A voxel that is no longer open is in. Open large voxels stay only if they
+/// may be in.
 void OrientedDilation::finish(Level& level) const {
   const VoxelBox& box = level.in.box();
   for (const Block& block : blocks_) {

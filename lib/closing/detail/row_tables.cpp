@@ -12,7 +12,8 @@ namespace {
 using Word = RowTables::Word;
 constexpr std::int32_t kAcross = RowTables::kAcross;
 
-/// to[i] = from[i] | voxels `shift` further, of which the next column has the rest. shift < kAcross.
+/// Sets to[i] to from[i] ORed with the voxels `shift` further on, the rest of which is in the next column. shift <
+/// kAcross.
 BP_CLONES void widen(const Word* from, const Word* next, std::int32_t shift, std::size_t n, Word* to) {
   for (std::size_t i = 0; i < n; ++i) to[i] = from[i] | from[i] >> shift | next[i] << (kAcross - shift);
 }
@@ -20,7 +21,7 @@ BP_CLONES void unite(const Word* a, const Word* b, std::size_t n, Word* to) {
   for (std::size_t i = 0; i < n; ++i) to[i] = a[i] | b[i];
 }
 
-/// to[i] := words i of kSlices slices of `slice` words, one after the other.
+/// Sets to[i] to words i of kSlices slices, ORed. The slices have `slice` words each and lie one after the other.
 BP_CLONES void join_slices(const Word* slices, std::size_t slice, std::size_t n, Word* to) {
   for (std::size_t i = 0; i < n; ++i) {
     Word any = 0;
@@ -29,7 +30,7 @@ BP_CLONES void join_slices(const Word* slices, std::size_t slice, std::size_t n,
   }
 }
 
-/// to[i] := words i to i + kEdge - 1.
+/// Sets to[i] to words i to i + kEdge - 1, ORed.
 BP_CLONES void join_rows(const Word* from, std::size_t n, Word* to) {
   for (std::size_t i = 0; i < n; ++i) {
     Word any = 0;
@@ -38,7 +39,7 @@ BP_CLONES void join_rows(const Word* from, std::size_t n, Word* to) {
   }
 }
 
-/// A word of each of kAcross rows. Vectors of GCC and Clang: loops over them are not always made into such.
+/// One word of each of kAcross rows, as a vector of GCC and Clang: compilers do not always make vectors of loops.
 constexpr std::size_t kVector = sizeof(Word) * kAcross;
 typedef Word Words __attribute__((vector_size(kVector)));
 typedef Word WordsInMemory __attribute__((vector_size(kVector), aligned(sizeof(Word)), may_alias));
@@ -53,11 +54,11 @@ BP_INLINE bool any(const Words& words) {
 
 }  // namespace
 
-/// Who asks: words are looked up from here on.
+/// The place of the voxels that ask: their words are looked up relative to it.
 struct RowTables::Asker {
   const Word* here;
   const Windows* of_length;
-  const std::int32_t* of_start;  ///< [0]: of start 0
+  const std::int32_t* of_start;  ///< offset of the column by the start of a window; [0] is start 0
 };
 
 RowTables::Asker RowTables::asker(Tables of) const {
@@ -66,13 +67,13 @@ RowTables::Asker RowTables::asker(Tables of) const {
 
 namespace {
 
-/// sum |= what the window from `start` on holds.
+/// Ors into `sum` what the window from `start` on holds.
 template <class Asker>
 BP_INLINE void add_window(const Asker& a, const Word* table, std::int32_t start, Words& sum) {
   sum |= *reinterpret_cast<const WordsInMemory*>(table + a.of_start[start]) >> (start & (kAcross - 1));
 }
 
-/// sum |= what row dy meets.
+/// Ors into `sum` the voxels that meet row dy.
 template <class Asker>
 BP_INLINE void add_row(const Asker& a, const CubeRow& row, std::int32_t dy, Words& sum) {
   const std::int32_t length = row.last - row.first + 1;
@@ -87,8 +88,8 @@ BP_INLINE const WordsInMemory& vector(const Word* words) {
   return *reinterpret_cast<const WordsInMemory*>(words);
 }
 
-/// Flags of the n blocks, number `first` of the bits and on, that meet something from one of the `open` voxels of the
-/// mask; 2^shared blocks share a bit.
+/// Returns a bit for each of n blocks that meets one of the `open` voxels of the mask. The first has bit `first`;
+/// 2^shared blocks share a bit.
 BP_WIDE_CLONES std::uint64_t find_blocks(const RowTables::Asker& at, const CubeRow* blocks, std::int32_t n,
                                          std::int32_t dy, const Word* mask, const Word* open, std::int32_t first,
                                          std::int32_t shared) {
@@ -103,7 +104,7 @@ BP_WIDE_CLONES std::uint64_t find_blocks(const RowTables::Asker& at, const CubeR
   return bits;
 }
 
-/// Takes from `open`, of the mask, what meets something of n rows from dy on. False if nothing does.
+/// Takes from `open`, within the mask, the voxels that meet one of n rows from dy on. Returns false if none does.
 BP_WIDE_CLONES bool ask_rows(const RowTables::Asker& at, const CubeRow* rows, std::int32_t n, std::int32_t dy,
                              const Word* mask, Word* open) {
   Words met = {};
@@ -114,7 +115,7 @@ BP_WIDE_CLONES bool ask_rows(const RowTables::Asker& at, const CubeRow* rows, st
   return true;
 }
 
-/// met := what of `open`, of the mask, meets something of the row. False if nothing does.
+/// Sets `met` to the voxels of `open`, within the mask, that meet the row. Returns false if none does.
 BP_WIDE_CLONES bool meet_row(const RowTables::Asker& at, const CubeRow& row, std::int32_t dy, const Word* mask,
                              const Word* open, Word* met) {
   Words sum = {};
@@ -187,7 +188,8 @@ void RowTables::load_slice(const BitBox& solid, std::int32_t z) {
   }
 }
 
-/// `now`: of the finest level. What was there before is overwritten, too.
+/// Doubles the windows, level by level. `now` is the extent of the finest level; words of the previous content are
+/// overwritten, too.
 void RowTables::double_along(Tables of, const Extent& now) {
   const auto h = std::size_t(height_);
   Extent all = full_[of];
@@ -200,7 +202,7 @@ void RowTables::double_along(Tables of, const Extent& now) {
     Word* to = tables_.data() + level(of, k);
     all.first_column = std::max(first - ceil_div(2 * shift, kAcross), 0);
     for_columns(all, [&](std::size_t word, std::size_t n) {
-      // What lies beyond the last column is out of every cube's reach.
+      // Words beyond the last column are out of every cube's reach.
       const std::size_t step = std::size_t(std::max(shift / kAcross, 1)) * h, last = level_words() - h + word % h;
       const Word *here = from + word, *there = from + std::min(word + step, last);
       if (shift < kAcross) {
@@ -212,7 +214,7 @@ void RowTables::double_along(Tables of, const Extent& now) {
   }
 }
 
-/// What 4 slices hold; `now` is their extent.
+/// Joins 4 slices; `now` is their extent.
 void RowTables::join(const Extent& now) {
   constexpr std::int32_t more = CubeRows::kEdge - 1;
   Extent blocks = now, all = full_[kBlocks];

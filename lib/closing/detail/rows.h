@@ -3,7 +3,7 @@
 
 #include "lib/grid/bit_box.h"
 
-/// Rows of boxes of bits.
+/// Helpers for the rows of boxes of bits.
 namespace bp::detail {
 
 [[nodiscard]] inline VoxelBox whole_words(VoxelBox box) {
@@ -12,7 +12,7 @@ namespace bp::detail {
   return box;
 }
 
-/// body(y, z) for the rows of `box`.
+/// Calls body(y, z) for the rows of `box`.
 template <class Body>
 void for_each_row(const VoxelBox& box, const Body& body) {
   for (std::int32_t z = box.min.z; z < box.max.z; ++z) {
@@ -20,7 +20,7 @@ void for_each_row(const VoxelBox& box, const Body& body) {
   }
 }
 
-/// Bounds of the occupied voxels of `bits` inside `box`, in x to whole words.
+/// Returns bounds of the occupied voxels of `bits` inside `box`. In x they are whole words.
 [[nodiscard]] inline VoxelBox occupied_bounds(const BitBox& bits, const VoxelBox& box) {
   const VoxelBox in = intersect(bits.box(), whole_words(box));
   VoxelBox found{in.max, in.min};

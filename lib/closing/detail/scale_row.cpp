@@ -8,12 +8,13 @@ namespace bp::detail {
 
 namespace {
 
-/// Index of sample `i` (in samples from the world's origin) along one axis, moved into the lattice.
+/// Returns the place in the lattice of sample `i`, counted from the world's origin along one axis. It is clamped to the
+/// lattice.
 std::size_t clamped(std::int32_t i, std::int32_t origin, std::int32_t size) {
   return std::size_t(std::clamp(i - origin, 0, size - 1));
 }
 
-/// Four samples around a row (at y and y + 1, z and z + 1), and their weights, which add up to 64.
+/// The four samples around a row (at y and y + 1, z and z + 1), and their weights, which add up to 64.
 struct Corners {
   const Scale* sample[4];
   std::uint32_t weight[4];
@@ -70,7 +71,7 @@ void ScaleRow::set(const ScaleLattice& lattice, std::int32_t y, std::int32_t z, 
                      hi = std::clamp(lattice.origin.x + lattice.size.x - first_cell_, lo, count);
   std::uint32_t *begin = sums_.data(), *end = begin + count;
   if (lo < hi) combine(corners, std::size_t(first_cell_ + lo - lattice.origin.x), std::size_t(hi - lo), begin + lo);
-  if (lo > 0) {  // beyond the lattice: its outermost samples
+  if (lo > 0) {  // beyond the lattice its outermost samples hold
     combine(corners, 0, 1, begin);
     std::fill(begin + 1, begin + lo, *begin);
   }

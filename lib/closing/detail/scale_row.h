@@ -5,26 +5,27 @@
 
 #include "lib/grid/scale_field.h"
 
-/// S along rows of voxels, and bounds of S, read off the lattice. Positions beyond the lattice take its nearest sample,
-/// so that whole words may be evaluated where only a part of them matters.
+/// S along rows of voxels, and bounds of S, from the lattice. Positions beyond the lattice take its nearest sample, so
+/// whole words can be evaluated even if only a part of them matters.
 namespace bp::detail {
 
 struct ScaleRange {
   Scale min = 0, max = 0;
 };
 
-/// Bounds of S over the voxels of `box` (not empty): over all samples that take part in an interpolation there.
+/// Returns bounds of S over the voxels of `box` (not empty): over all samples that take part in an interpolation there.
 [[nodiscard]] ScaleRange scale_range(const ScaleLattice& lattice, const VoxelBox& box);
 
-/// Largest Chebyshev distance at which an integer squared distance can be below `bound`: floor(sqrt(bound - 1)).
+/// Returns the largest Chebyshev distance at which an integer squared distance can be below `bound`: floor(sqrt(bound -
+/// 1)).
 [[nodiscard]] std::int32_t ball_reach(std::int32_t bound);
 
-/// S along one row of voxels. The samples are combined over y and z once; a voxel then takes one multiply-add.
+/// S along one row of voxels. The samples are combined over y and z once; then a voxel takes one multiply-add.
 class ScaleRow {
  public:
   /// Prepares voxels x in [x0, x1) of row (y, z).
   void set(const ScaleLattice& lattice, std::int32_t y, std::int32_t z, std::int32_t x0, std::int32_t x1);
-  /// All S(x, y, z) with x in [x0, x1) are equal.
+  /// Returns whether all S(x, y, z) with x in [x0, x1) are equal.
   [[nodiscard]] bool constant() const { return min_ == max_; }
   [[nodiscard]] Scale min() const { return Scale(min_ / (kScaleStep * kScaleStep)); }
   [[nodiscard]] Scale max() const { return Scale(max_ / (kScaleStep * kScaleStep)); }
@@ -35,13 +36,13 @@ class ScaleRow {
     return Scale((a[0] * (kScaleStep - f) + a[1] * f) / (kScaleStep * kScaleStep * kScaleStep));
   }
 
-  /// floor(S) of the 64 voxels from x on, a multiple of 64. Saturates nowhere: T must hold the largest radius of the
-  /// row.
+  /// Returns floor(S) of the 64 voxels from x on, a multiple of 64. It does not saturate: T must hold the largest
+  /// radius of the row.
   template <class T>
   void radii(std::int32_t x, T* out) const {
     each_scale(x, [&](int i, std::uint32_t s) { out[i] = T(s / kScaleOne); });
   }
-  /// ceil(S^2) of the 64 voxels from x on, a multiple of 64.
+  /// Returns ceil(S^2) of the 64 voxels from x on, a multiple of 64.
   template <class T>
   void bounds(std::int32_t x, T* out) const {
     each_scale(x, [&](int i, std::uint32_t s) { out[i] = T(ball_bound(Scale(s))); });
@@ -60,7 +61,7 @@ class ScaleRow {
   }
   std::int32_t first_cell_ = 0;
   std::uint32_t min_ = 0, max_ = 0;
-  std::vector<std::uint32_t> sums_;  ///< per sample along x: its bilinear combination over y and z, times 64
+  std::vector<std::uint32_t> sums_;  ///< for each sample along x: its bilinear combination over y and z, times 64
 };
 
 }  // namespace bp::detail

@@ -9,13 +9,13 @@
 
 #include "lib/core/clones.h"
 
-/// Vectors of small integers, 64 voxels at a time. Plain loops over the vector type of GCC and Clang, so that one
-/// source serves SSE2, AVX2 and NEON.
+/// Vectors of small integers, 64 voxels at a time. They are plain loops over the vector type of GCC and Clang, so that
+/// one source serves SSE2, AVX2 and NEON.
 namespace bp::detail {
 
 constexpr int kLanes = 64;  ///< voxels of a word
 
-/// 64 integers of type T as registers. `load` and `store` need no alignment. Zero when made with {}.
+/// 64 integers of type T as registers. `load` and `store` need no alignment. {} makes zeros.
 template <class T>
 struct Lanes {
   typedef T Vector __attribute__((vector_size(32)));
@@ -47,7 +47,7 @@ struct Lanes {
   }
 };
 
-/// Bit i set: byte i is not zero. Also works where 64 bytes are 0 or 255.
+/// Returns bits: bit i is set if byte i is not zero.
 BP_INLINE std::uint64_t nonzero_bits(const std::uint8_t* p) {
 #if defined(__SSE2__)
   std::uint64_t bits = 0;

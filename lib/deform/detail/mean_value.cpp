@@ -25,7 +25,7 @@ RealVec cross(const RealVec& a, const RealVec& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// An edge's part of the mean vector of a face that it runs along.
+/// Returns an edge's part of the mean vector of a face at that edge.
 RealVec mean_of(const RealVec& a, const RealVec& b, const RealVec& normal) {
   const Real sine = std::sqrt(dot(normal, normal));
   const Real factor = sine > 0 ? std::atan2(sine, dot(a, b)) / (2 * sine) : 0;

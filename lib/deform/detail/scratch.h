@@ -7,7 +7,7 @@
 
 namespace bp::detail {
 
-/// Numbers of the formulas in memory of the CPU, aligned as Vec.
+/// Numbers of the formulas in the CPU's memory, aligned as Vec.
 template <class Real, class T = Real>
 class Shelf {
  public:

@@ -1,15 +1,15 @@
 #pragma once
 #include "lib/deform/formulas/numbers.h"
 
-/// Doubles side by side: kWide points at a time.
+/// Doubles side by side, for kWide points at a time.
 namespace bp::detail {
 
 constexpr int kWide = 4;
 typedef double Wide __attribute__((vector_size(8 * kWide)));
-typedef long long WideBits __attribute__((vector_size(8 * kWide)));  ///< of comparisons: all ones where true
+typedef long long WideBits __attribute__((vector_size(8 * kWide)));  ///< results of comparisons: all ones where true
 using WideVec = Vec<Wide>;
 
-/// Bit k: lane k is true.
+/// Returns bits: bit k says that lane k is true.
 BP_INLINE unsigned bits_of(const WideBits& lanes) {
   unsigned bits = 0;
   for (int i = 0; i < kWide; ++i) bits |= unsigned(lanes[i] & 1) << i;

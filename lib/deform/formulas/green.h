@@ -17,8 +17,8 @@ struct GreenVertex {
 };
 template <class Real>
 struct GreenEdge {
-  Real inner;     ///< product of the vectors to its ends
-  Real integral;  ///< of one over the distance along it
+  Real inner;     ///< product of the vectors to the ends
+  Real integral;  ///< of one over the distance along the edge
 };
 
 template <class Real>
@@ -35,11 +35,12 @@ BP_FORMULA void take_green_vertices(const CageView& cage, const Vec<Real>& point
   }
 }
 
-/// The integral is the logarithm of (a + b + length)^2 / 2 (a b + inner), with the distances a and b of the ends. That
-/// sum loses its digits near the edge; the squared cross product, over a b - inner, does not.
+/// Computes the integral. It is the logarithm of (a + b + length)^2 / 2 (a b + inner), with the distances a and b of
+/// the ends. That sum loses its digits near the edge; the squared cross product, over a b - inner, does not.
 template <class Real>
 BP_FORMULA void take_green_edges(const CageView& cage, auto& s, auto& near) {
-  constexpr double kInLine = 1e-14;  // one plus the cosine between the ends of an edge: nearer nothing is trusted
+  // One plus the cosine between the ends of an edge: below it the number is unreliable.
+  constexpr double kInLine = 1e-14;
   constexpr double kTiny = 1e-300;
   for (std::uint32_t i = 0; i < cage.edge_count; ++i) {
     const auto& a = s.vertices.get(cage.edges[i].a);
@@ -90,8 +91,9 @@ BP_FORMULA void take_green_face(const Cage::Face& face, const GreenFace& f, auto
   weight = f.part * (d0 * l0 + d1 * l1 + d2 * l2 - h * solid);
 }
 
-/// The coordinates of vertices as s.sums, those of faces as s.face_weights. `total` is the sum of the former: the
-/// number of times that the cage winds around the point. `s` and `near` are those of lib/deform/formulas/mean_value.h.
+/// Computes the coordinates of vertices as s.sums, and those of faces as s.face_weights. `total` is the sum of the
+/// former: the number of times that the cage winds around the point. `s` and `near` are as in
+/// lib/deform/formulas/mean_value.h.
 template <class Real>
 BP_FORMULA void green_formula(const CageView& cage, const Vec<Real>& point, auto& s, Real& total, auto& near) {
   take_green_vertices<Real>(cage, point, s, near);

@@ -12,7 +12,7 @@
 
 namespace bp::detail {
 
-/// s.faces get their shares of mean value weights, as face_shares() has them.
+/// Gives s.faces their shares of mean value weights, as face_shares() computes them.
 template <class Real>
 BP_FORMULA void take_face_shares(const CageView& cage, auto& s, auto& near) {
   for (std::uint32_t i = 0; i < cage.face_count; ++i) {
@@ -22,10 +22,10 @@ BP_FORMULA void take_face_shares(const CageView& cage, auto& s, auto& near) {
   }
 }
 
-/// Shares of mean value weights become what is above in the text.
+/// Turns shares of mean value weights into the places m and the weights w of the text above.
 template <class Real>
 BP_FORMULA void take_middles(const CageView& cage, auto& s) {
-  constexpr double kSoft = 0.05;  // of the squared edges of a face, which is seen at a right angle with 9 times that
+  constexpr double kSoft = 0.05;  // of a face's squared edges; a face seen at a right angle has 9 times that
   const Real zero{};
   Real all{};
   for (std::uint32_t i = 0; i < cage.face_count; ++i) {
@@ -49,7 +49,7 @@ BP_FORMULA void take_middles(const CageView& cage, auto& s) {
       out.share[k] /= positive > 0.0 ? positive : positive + 1.0;
       out.middle.x += out.share[k] * u.x, out.middle.y += out.share[k] * u.y, out.middle.z += out.share[k] * u.z;
     }
-    Real size = sum * sum + soft * soft;  // soft: by the edges, which do not shrink as the face turns
+    Real size = sum * sum + soft * soft;  // soft depends on the edges, which do not shrink as the face turns
     root(size);
     out.prior = sum * sum / size;
     all += out.prior;
@@ -62,10 +62,10 @@ BP_FORMULA void take_middles(const CageView& cage, auto& s) {
   }
 }
 
-/// The step of Newton's method at p; `size` is its square by the Hessian.
+/// Computes the step of Newton's method at p. `size` is its square by the Hessian.
 template <class Real>
 BP_FORMULA void newton_step(const CageView& cage, const auto& s, const Vec<Real>& p, Vec<Real>& step, Real& size) {
-  constexpr double kLeast = 1e-15;  // of a diagonal of the Hessian
+  constexpr double kLeast = 1e-15;  // share of a diagonal of the Hessian
   Vec<Real> g{};
   Real xx{}, xy{}, xz{}, yy{}, yz{}, zz{};
   for (std::uint32_t i = 0; i < cage.face_count; ++i) {
@@ -76,7 +76,7 @@ BP_FORMULA void newton_step(const CageView& cage, const auto& s, const Vec<Real>
     g.x += wx, g.y += wy, g.z += wz;
     xx += wx * x, xy += wx * y, xz += wx * z, yy += wy * y, yz += wy * z, zz += wz * z;
   }
-  // Cholesky's way: of the matrix only its digits count, not how it is stretched.
+  // This is Cholesky's way: digits depend on the matrix alone, not on how it is stretched.
   const Real xy1 = xy / xx, xz1 = xz / xx;
   Real y2 = yy - xy1 * xy;
   y2 = y2 > kLeast * yy ? y2 : kLeast * yy;
@@ -90,7 +90,8 @@ BP_FORMULA void newton_step(const CageView& cage, const auto& s, const Vec<Real>
   size = BP_DOT(step, g);
 }
 
-/// `most`: where along a step the first 1 + p . m is nearly 0. `change`: by what share one of them changes at most.
+/// `most`: the place along a step where the first 1 + p . m is nearly 0. `change`: the largest share by which one of
+/// them changes.
 template <class Real>
 BP_FORMULA void range_of(const CageView& cage, const auto& s, const Vec<Real>& p, const Vec<Real>& step, Real& most,
                          Real& change) {
@@ -106,7 +107,7 @@ BP_FORMULA void range_of(const CageView& cage, const auto& s, const Vec<Real>& p
   change = up > -down ? up : -down;
 }
 
-/// How far to go along a step: about where the sum is least.
+/// Returns how far to go along a step: about where the sum is least.
 template <class Real>
 BP_FORMULA void search(const CageView& cage, const auto& s, const Vec<Real>& p, const Vec<Real>& step, const Real& most,
                        Real& far) {
@@ -124,14 +125,14 @@ BP_FORMULA void search(const CageView& cage, const auto& s, const Vec<Real>& p, 
   }
 }
 
-/// Of the faces of take_middles(); the coordinates as s.sums, not divided by their sum; none is negative. `going`: the
-/// points that want some; the others get what means nothing.
+/// Computes the coordinates from the faces of take_middles() as s.sums, not divided by their sum; none is negative.
+/// `going`: the points that want coordinates; the numbers of the others are undefined.
 template <class Real>
 BP_FORMULA void likelihood_formula(const CageView& cage, auto going, auto& s) {
   constexpr int kMostSteps = 60;
-  constexpr double kClose = 0.02;     // share of a change: from here on whole steps
-  constexpr double kDone = 1e-6;      // the same: the step after it is beyond rounding
-  constexpr double kNothing = 1e-24;  // square of a step, by the Hessian: no weight changes by more than its root
+  constexpr double kClose = 0.02;     // share of a change: below it whole steps are taken
+  constexpr double kDone = 1e-6;      // share of a change: the step after it is beyond rounding
+  constexpr double kNothing = 1e-24;  // square of a step by the Hessian: no weight changes by more than its root
   Vec<Real> p{}, step{};
   const Real one = Real{} + 1.0;
   for (int i = 0; i < kMostSteps && Numbers<Real>::any(going); ++i) {

@@ -8,12 +8,12 @@
 #include "lib/deform/formulas/cage_view.h"
 #include "lib/deform/formulas/numbers.h"
 
-/// A formula's `s` keeps numbers of one point, or of several side by side: `vertices`, `sums` by vertex, `edges` and
-/// `faces`, each with get(i) and put(i, value). What `near` collects: the point lies so near to the cage, or in line
-/// with so thin a face, that its weights are not to be trusted.
+/// A formula's `s` keeps the numbers of one point, or of several side by side: `vertices`, `sums` by vertex, `edges`
+/// and `faces`, each with get(i) and put(i, value). `near` collects whether the weights of a point are unreliable,
+/// because it lies too near to the cage, or in line with too thin a face.
 namespace bp::detail {
 
-constexpr double kNearCage = 1e-9;  ///< of the diagonal, and of angles: nearer than this nothing is trusted
+constexpr double kNearCage = 1e-9;  ///< of the diagonal, and of angles: nearer numbers are unreliable
 
 template <class Real>
 struct MeanVertex {
@@ -25,11 +25,11 @@ struct MeanEdge {
   Vec<Real> across;  ///< cross product of its ends' unit vectors
   Vec<Real> mean;    ///< its part of mean vectors
 };
-/// Of maximum likelihood coordinates.
+/// The numbers of a face for maximum likelihood coordinates.
 template <class Real>
 struct MeanFace {
-  Vec<Real> middle;  ///< between its corners on the unit sphere
-  Real share[3];     ///< of the corners in it: they sum to 1
+  Vec<Real> middle;  ///< the mean vector's direction, between the corners on the unit sphere
+  Real share[3];     ///< shares of the corners in it; they sum to 1
   Real prior;
 };
 
@@ -63,11 +63,12 @@ BP_FORMULA void take_edges(const CageView& cage, auto& s, auto& near) {
   }
 }
 
-/// What a face gives to its corners, times their distance: the combination of the vectors to them that is its mean
-/// vector. None is negative, or none is positive. In the plane of a face, but not in the face, all are 0.
+/// Computes the shares of a face's corners, times their distance: the factors by which the vectors to the corners
+/// combine to the face's mean vector. None is negative, or none is positive. In the plane of a face, but not in the
+/// face, all are 0.
 template <class Real>
 BP_FORMULA void face_shares(const Cage::Face& face, const auto& s, Real (&share)[3], auto& near) {
-  constexpr double kMean2 = 1e-16;  // square of a mean vector that may be left out
+  constexpr double kMean2 = 1e-16;  // square of a mean vector that is small enough to be left out
   const auto& e0 = s.edges.get(face.edge[0]);
   const auto& e1 = s.edges.get(face.edge[1]);
   const auto& e2 = s.edges.get(face.edge[2]);
@@ -85,7 +86,7 @@ BP_FORMULA void face_shares(const Cage::Face& face, const auto& s, Real (&share)
   share[2] = s2 * per * BP_DOT(e2.across, mean);
 }
 
-/// The weights of vertices, not divided by their sum, as s.sums; `total` is their sum.
+/// Computes the weights of vertices as s.sums, not divided by their sum. `total` is their sum.
 template <class Real>
 BP_FORMULA void mean_value_formula(const CageView& cage, const Vec<Real>& point, auto& s, Real& total, auto& near) {
   take_vertices<Real>(cage, point, s, near);

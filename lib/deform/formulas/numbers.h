@@ -7,21 +7,21 @@
 #include "lib/core/clones.h"
 #include "lib/core/host_device.h"
 
-/// Numbers of the formulas of coordinates: a double; several doubles side by side on the CPU; long doubles. A formula
-/// is written once, as a template of its `Real`. It consists of IEEE operations in one order, also for angles and
-/// logarithms. So a CPU and a GPU find the same bits, if neither contracts products and sums.
+/// The number types of the formulas of coordinates: a double; several doubles side by side on the CPU; long doubles. A
+/// formula is written once, as a template of its `Real`. It consists of IEEE operations in one order, also for angles
+/// and logarithms. So a CPU and a GPU find the same bits, if neither contracts products and sums.
 namespace bp::detail {
 
 #define BP_FORMULA BP_HD BP_INLINE
 #define BP_DOT(a, b) ((a).x * (b).x + (a).y * (b).y + (a).z * (b).z)
 
-/// Aligned as vectors of doubles are where they exist: code for a plain CPU and clones for others share it.
+/// A vector, aligned as vectors of doubles are where they exist: code for a plain CPU and its clones share it.
 template <class Real>
 struct alignas(sizeof(Real)) Vec {
   Real x, y, z;
 };
 
-/// root(x), any(condition), and a number as the integer with its bits.
+/// Operations on numbers: root(x), any(condition), and a number as the integer with its bits.
 template <class Real>
 struct Numbers;
 
@@ -39,8 +39,8 @@ BP_FORMULA void root(Real& x) {
   Numbers<Real>::root(x);
 }
 
-/// out = angle of the point (t, s), s >= 0, not both 0: from 0 to pi, to 1e-15. The polynomial is the best of degree 9
-/// for atan(z) / z in z^2 on [0, (sqrt 2 - 1)^2].
+/// Sets `out` to the angle of the point (t, s), s >= 0, not both 0: from 0 to pi, right to 1e-15. The polynomial is the
+/// best of degree 9 for atan(z) / z in z^2 on [0, (sqrt 2 - 1)^2].
 template <class Real>
 BP_FORMULA void angle(const Real& s, const Real& t, Real& out) {
   constexpr double kTangent = 0.41421356237309503, kPi = 3.141592653589793;
@@ -61,8 +61,8 @@ BP_FORMULA void angle(const Real& s, const Real& t, Real& out) {
   out = t < zero ? kPi - p : p;
 }
 
-/// out = log x, of normal x >= 1, to 1e-15: the exponent, and the series of the area tangent of (m - 1) / (m + 1) for
-/// the rest m of x from 1/sqrt 2 to sqrt 2.
+/// Sets `out` to log x for a normal x >= 1, right to 1e-15. It is the exponent, and the series of the area tangent of
+/// (m - 1) / (m + 1) for the rest m of x from 1/sqrt 2 to sqrt 2.
 template <class Real>
 BP_FORMULA void logarithm(const Real& x, Real& out) {
   constexpr long long kOne = 0x3FF0000000000000, kMantissa = 0xFFFFFFFFFFFFF, kCount = 0x4330000000000000;
@@ -82,7 +82,7 @@ BP_FORMULA void logarithm(const Real& x, Real& out) {
   out = exponent * kLog2 + 2.0 * (z * p);
 }
 
-// Extended precision, on the CPU alone.
+// Extended precision is for the CPU only.
 BP_INLINE void root(long double& x) {
   x = std::sqrt(x);
 }

@@ -2,13 +2,13 @@
 #include "lib/deform/formulas/cage_view.h"
 #include "lib/deform/formulas/numbers.h"
 
-/// What is made of the weights of one point: get(column) and put(column, value) of `w`.
+/// Functions of the weights of one point; `w` has get(column) and put(column, value).
 namespace bp::detail {
 
-constexpr double kFarAway = 8;  ///< diagonals: such points are outside, and their weights have few digits
+constexpr double kFarAway = 8;  ///< diagonals: points farther away are outside, and their weights have few digits
 constexpr double kMostUnits = double(1u << 31) - 2;
 
-/// Side by side in memory.
+/// Weights side by side in memory.
 template <class T>
 struct RowOfWeights {
   T* row;
@@ -16,7 +16,7 @@ struct RowOfWeights {
   void put(std::uint32_t c, double weight) const { row[c] = weight; }
 };
 
-/// Those of the vertices sum to 1 then.
+/// Divides the weights by the vertices' sum, so that the vertices' weights sum to 1.
 BP_FORMULA void divide_by_sum(const CageView& cage, const auto& w) {
   double sum = 0;
   for (std::uint32_t v = 0; v < cage.vertex_count; ++v) sum += w.get(v);
@@ -24,8 +24,9 @@ BP_FORMULA void divide_by_sum(const CageView& cage, const auto& w) {
   for (std::uint32_t c = 0; c < cage.columns(); ++c) w.put(c, w.get(c) * scale);
 }
 
-/// The least change of the vertices' weights, by squares, after which all give the point exactly: what rounding left,
-/// or the offset of a point outside. The origin is the mean of the vertices, so that the sum stays.
+/// Makes the least change of the vertices' weights, by squares, after which all weights give the point exactly. It
+/// removes rounding, or carries the offset of a point outside. The origin is the mean of the vertices, so the sum
+/// stays.
 BP_FORMULA void reproduce_point(const CageView& cage, const Vec<double>& point, const auto& w) {
   Vec<double> missing = point;
   for (std::uint32_t c = 0; c < cage.columns(); ++c) {
@@ -42,7 +43,7 @@ BP_FORMULA void reproduce_point(const CageView& cage, const Vec<double>& point, 
   }
 }
 
-/// The largest by its size, and the sum.
+/// Computes the largest absolute weight, and their sum.
 BP_FORMULA void sizes_of(std::uint32_t columns, const auto& w, double& largest, double& all) {
   largest = all = 0;
   for (std::uint32_t c = 0; c < columns; ++c) {
@@ -52,7 +53,7 @@ BP_FORMULA void sizes_of(std::uint32_t columns, const auto& w, double& largest, 
   }
 }
 
-/// Calls put(column, unit). The sum so far is rounded, not the weight: what rounding takes from one column it gives to
+/// Calls put(column, unit). The running sum is rounded, not the weight: what rounding takes from one column it gives to
 /// the next. `scale`: units of 1.
 BP_FORMULA void round_to_units(std::uint32_t columns, const auto& w, double scale, const auto& put) {
   double sum = 0;

@@ -6,12 +6,12 @@
 
 namespace bp {
 
-/// A device's backend for as long as the device works. The first call that ends in a DeviceError gives the device's
-/// memory back and is made again on the CPU, with its arguments as they were; so are all later ones. What a call both
-/// reads and writes is copied first; this costs little compared with the transfer.
+/// Uses a device's backend as long as the device works. The first call that ends in a DeviceError frees the device's
+/// memory and is repeated on the CPU, with its original arguments, as are all later calls. Arguments that a call both
+/// reads and writes are copied first, which costs little compared with the transfer.
 class FallbackBackend final : public Backend {
  public:
-  /// warn: called once, on the thread of the call that failed, with what failed.
+  /// `warn` is called once, on the thread of the failed call, with its error.
   FallbackBackend(std::unique_ptr<Backend> device, std::function<void(const DeviceError&)> warn)
       : device_(std::move(device)), warn_(std::move(warn)), name_(device_->name()) {}
 
@@ -30,7 +30,7 @@ class FallbackBackend final : public Backend {
              std::span<CoordinateRows::Place> places) override;
 
  private:
-  /// True if the device did it.
+  /// Returns true if the device made the call.
   bool device_does(const std::function<void(Backend&)>& call);
 
   std::unique_ptr<Backend> device_;  ///< null once it has failed

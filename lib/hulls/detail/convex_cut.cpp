@@ -13,9 +13,10 @@ namespace bp {
 
 namespace {
 
-constexpr int kPlaces = 12;      // tried along each axis at first
-constexpr double kOpen = 0.05;   // what a hull counts more that must be cut again, and halves of different size
-constexpr double kGains = 0.25;  // of what a hull has above the solid: a cut that takes less is compared by two cuts
+constexpr int kPlaces = 12;     // places that are tried along each axis at first
+constexpr double kOpen = 0.05;  // extra cost of a hull that must be cut again, and of halves of different size
+constexpr double kGains =
+    0.25;  // of the volume between hull and solid: a cut that takes less away is judged by two cuts
 
 double hull_volume6(const SolidCell& solid) {
   const std::optional<ConvexHull> hull = hull_of(solid.points(SolidCell::Rounding::nearest));
@@ -40,10 +41,10 @@ bool nearly_convex(double hull6, double volume6) {
 
 struct Piece {
   SolidCell solid;
-  bool empty = true;  // it has nothing of the solid
-  LatticeBox box;     // of its points
+  bool empty = true;  // it has no part of the solid
+  LatticeBox box;     // box of its points
   double hull6 = 0, volume6 = 0;
-  double excess6 = 0;  // of the hull; 0: as good as convex
+  double excess6 = 0;  // of the hull; 0: it is as good as convex
 
   explicit Piece(SolidCell s) : solid(std::move(s)) {
     const std::vector<LatticeCoord> points = solid.points(SolidCell::Rounding::nearest);
@@ -57,7 +58,7 @@ struct Piece {
   }
 };
 
-/// One place in each of kPlaces windows: where the section changes most, or the middle.
+/// Returns one place in each of kPlaces windows: where the section changes most, or the middle.
 std::vector<Cut> first_cuts(const Piece& piece) {
   std::vector<Cut> cuts;
   for (int axis = 0; axis < 3; ++axis) {
@@ -77,8 +78,8 @@ std::vector<Cut> first_cuts(const Piece& piece) {
   return cuts;
 }
 
-/// Sets their costs: the volume of the hulls, and a share of that of hulls that must be cut again. So a hollow box, of
-/// which no single cut takes anything away, is peeled side by side; else it would be halved for ever.
+/// Sets their costs: the volume of the hulls, and a share of the volume of hulls that must be cut again. So a hollow
+/// box, of which no single cut takes anything away, is peeled side by side; else it would be halved for ever.
 void weigh(const Piece& piece, std::vector<Cut>& cuts) {
   std::vector<std::array<double, 2>> hulls6(cuts.size());
   parallel_for(std::int64_t(2 * cuts.size()), [&](std::int64_t i) {
@@ -89,7 +90,7 @@ void weigh(const Piece& piece, std::vector<Cut>& cuts) {
   for (const auto& [low, high] : hulls6) least = std::min(least, low + high);
   parallel_for(std::int64_t(cuts.size()), [&](std::int64_t i) {
     const auto [low, high] = hulls6[std::size_t(i)];
-    if (low + high > least + 2 * kOpen * piece.hull6) return;  // whatever its halves are
+    if (low + high > least + 2 * kOpen * piece.hull6) return;  // its halves cannot change that
     Cut& cut = cuts[std::size_t(i)];
     const double volume6 = half(piece.solid, cut, false).volume6();
     const bool low_done = nearly_convex(low, volume6), high_done = nearly_convex(high, piece.volume6 - volume6);
@@ -102,7 +103,7 @@ const Cut& cheapest(const std::vector<Cut>& cuts) {
   return *std::min_element(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) { return a.cost < b.cost; });
 }
 
-/// The least volume of the hulls of a half, as it is or cut once more in the middle.
+/// Returns the least volume of the hulls of a half, as it is or cut once more in the middle.
 double cut_again_volume6(const Piece& half_piece) {
   double least = half_piece.hull6;
   if (half_piece.excess6 == 0) return least;
@@ -116,7 +117,7 @@ double cut_again_volume6(const Piece& half_piece) {
   return least;
 }
 
-/// For each axis the cheapest cut and the one nearest to the middle.
+/// Returns, for each axis, the cheapest cut and the one nearest to the middle.
 std::vector<Cut> cuts_to_compare(const Piece& piece, const std::vector<Cut>& cuts) {
   std::vector<Cut> few;
   for (int axis = 0; axis < 3; ++axis) {
@@ -135,8 +136,8 @@ std::vector<Cut> cuts_to_compare(const Piece& piece, const std::vector<Cut>& cut
   return few;
 }
 
-/// Sets the costs of a few cuts by what is left after one more cut of each half. The hull of a ring is a disc, and so
-/// are those of its halves and slices; only its quarters show which of them was the better step.
+/// Sets the costs of a few cuts by the volume after one more cut of each half. The hull of a ring is a disc, and so are
+/// those of its halves and slices. Only its quarters show which of them was the better step.
 void weigh_ahead(const Piece& piece, std::vector<Cut>& cuts) {
   std::vector<std::array<double, 2>> costs(cuts.size()), hulls6(cuts.size());
   parallel_for(std::int64_t(2 * cuts.size()), [&](std::int64_t i) {
@@ -151,7 +152,7 @@ void weigh_ahead(const Piece& piece, std::vector<Cut>& cuts) {
   }
 }
 
-/// Nothing if the piece is too thin to be cut.
+/// Returns nothing if the piece is too thin to be cut.
 std::optional<Cut> best_cut(const Piece& piece) {
   std::vector<Cut> cuts = first_cuts(piece);
   if (cuts.empty()) return {};

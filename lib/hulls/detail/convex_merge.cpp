@@ -18,10 +18,10 @@ ConvexHull join(const ConvexHull& a, const ConvexHull& b) {
   return *hull_of(points);
 }
 
-constexpr double kJoined = 2;      // times what a cell may have between hull and solid that is not cut
-constexpr double kBetween = 0.05;  // of two hulls, what may lie between them if they need not be joined
+constexpr double kJoined = 2;      // times the volume that an uncut cell may have between hull and solid
+constexpr double kBetween = 0.05;  // of two hulls: the volume that may lie between them if they need not be joined
 
-/// Hulls, and for each the partner that it would best be joined with.
+/// Hulls, each with the partner that it would best be joined with.
 class Merger {
  public:
   Merger(std::vector<Wrapped> hulls, double tolerance6) : tolerance6_(tolerance6), alive_(hulls.size(), 1) {
@@ -69,7 +69,8 @@ class Merger {
     return all;
   }
 
-  /// Across solids whatever costs least; within them, of what is as good joined as apart. False if there is none.
+  /// Joins the cheapest pair: across solids at any cost, within them if joined hulls are as good as separate ones.
+  /// Returns false if there is none.
   bool join_cheapest() {
     std::optional<std::uint32_t> least;
     for (const std::uint32_t i : living()) {
@@ -95,7 +96,7 @@ class Merger {
     return 6 * volume - volumes_[i] - volumes_[j];
   }
 
-  /// Of the kNear hulls with which i has the least box.
+  /// Returns the best partner among the kNear hulls with which i has the least box.
   [[nodiscard]] Partner partner_of(std::uint32_t i) const {
     std::vector<std::pair<double, std::uint32_t>> near;
     for (std::uint32_t j = 0; j < hulls_.size(); ++j) {
@@ -121,7 +122,7 @@ class Merger {
     hulls_[a] = join(hulls_[a], hulls_[b]);
     volumes_[a] = volume6_of(hulls_[a]);
     solids_[a] += solids_[b];
-    const std::uint32_t gone = numbers_[b];  // two solids that are joined are one
+    const std::uint32_t gone = numbers_[b];  // two solids that are joined become one
     std::replace(numbers_.begin(), numbers_.end(), gone, numbers_[a]);
     boxes_[a] = box_of(hulls_[a].vertices);
     alive_[b] = given_[a] = 0;
@@ -131,16 +132,16 @@ class Merger {
     }
     find(stale);
     if (!std::isfinite(best_[a].cost)) return;
-    Partner& best = best_[best_[a].with];  // nobody else looked at what is new
+    Partner& best = best_[best_[a].with];  // nobody else has compared with the new hull
     if (best_[a].cost < best.cost) best = {a, best_[a].cost};
   }
 
   double tolerance6_;
-  bool across_ = true;  // hulls of different solids may be joined
+  bool across_ = true;  // whether hulls of different solids may be joined
   std::vector<ConvexHull> hulls_;
   std::vector<char> alive_, given_;
-  std::vector<double> volumes_, solids_;  // times six: of the hull, of the solid in it
-  std::vector<std::uint32_t> numbers_;    // of the solids
+  std::vector<double> volumes_, solids_;  // six times the volume of the hull, and of the solid in it
+  std::vector<std::uint32_t> numbers_;    // numbers of the solids
   std::vector<LatticeBox> boxes_;
   std::vector<Partner> best_;
 };

@@ -13,8 +13,8 @@ namespace bp {
 
 namespace {
 
-constexpr double kOfWidth = 0.9;          // of the width of a plate, which its own sides are as narrow as
-constexpr std::size_t kSliverSteps = 16;  // steps beside slivers, of which the best is taken
+constexpr double kOfWidth = 0.9;          // of the width of a plate, whose own sides are as narrow as that
+constexpr std::size_t kSliverSteps = 16;  // steps next to slivers that are tried; the best is taken
 constexpr double kNegligible = 1e-9;      // rounding of shares
 
 using Corners = std::array<LatticeCoord, 3>;
@@ -37,7 +37,7 @@ Narrowness narrowness_of(const Corners& c) {
   return {std::asin(std::min(1.0, area2 / (edges[1] * edges[2]))), edges[0]};
 }
 
-/// Least over its faces of how far it reaches below them.
+/// Returns the width: the least over its faces of how far the hull reaches below them.
 double width_of(const ConvexHull& hull) {
   double least = HUGE_VAL;
   for (std::size_t f = 0; f < hull.triangles.size(); ++f) {
@@ -50,7 +50,7 @@ double width_of(const ConvexHull& hull) {
   return least;
 }
 
-/// What is asked of the faces of one hull.
+/// The bounds for the faces of one hull.
 class Bounds {
  public:
   explicit Bounds(const ConvexHull& hull) {
@@ -75,7 +75,7 @@ double slivers_of(const ConvexHull& hull, const Bounds& bounds) {
   return sum;
 }
 
-/// Whether each corner has a face below the bounds.
+/// Returns, for each corner, whether it has a face below the bounds.
 std::vector<char> near_slivers(const ConvexHull& hull, const Bounds& bounds) {
   std::vector<char> bad(hull.vertices.size(), 0);
   for (std::size_t f = 0; f < hull.triangles.size(); ++f) {
@@ -85,7 +85,8 @@ std::vector<char> near_slivers(const ConvexHull& hull, const Bounds& bounds) {
   return bad;
 }
 
-/// The step beside slivers that takes most of them for the volume that it adds; or the first one that takes a corner.
+/// Returns the step next to a sliver with the best ratio of slivers removed to volume added. If none removes a sliver,
+/// it is the first step that takes a corner.
 std::optional<ConvexHull> best_step(const ConvexHull& hull, const LatticeBox& room, const Bounds& bounds,
                                     double slivers) {
   const std::vector<char> near = near_slivers(hull, bounds);
@@ -106,7 +107,7 @@ std::optional<ConvexHull> best_step(const ConvexHull& hull, const LatticeBox& ro
   return best ? best : any;
 }
 
-/// Faces of both directions of an edge.
+/// The faces on both sides of each edge.
 using Edges = std::map<std::array<std::uint32_t, 2>, std::size_t>;
 
 void add_edges(const ConvexHull& hull, std::size_t f, Edges& edges) {
@@ -114,7 +115,7 @@ void add_edges(const ConvexHull& hull, std::size_t f, Edges& edges) {
   for (std::size_t k = 0; k < 3; ++k) edges[{t[k], t[(k + 1) % 3]}] = f;
 }
 
-/// The corner of a face that is neither a nor b.
+/// Returns the corner of a face that is neither a nor b.
 std::uint32_t apex_of(const std::array<std::uint32_t, 3>& t, std::uint32_t a, std::uint32_t b) {
   for (const std::uint32_t v : t) {
     if (v != a && v != b) return v;
@@ -131,7 +132,7 @@ bool turn(ConvexHull& hull, std::uint32_t a, std::uint32_t b, std::size_t f, std
   const auto least = [&](const Corners& x, const Corners& y) {
     return std::min(narrowness_of(x).angle, narrowness_of(y).angle);
   };
-  const auto outward = [&](const Corners& x) {  // else the other diagonal is outside of the facet, or on its border
+  const auto outward = [&](const Corners& x) {  // else the other diagonal lies outside of the facet, or on its border
     const LatticeCoord n = normal_of(x[0], x[1], x[2]);
     return side_along(normal, n) > 0;
   };
@@ -198,7 +199,7 @@ ConvexHull without_slivers(ConvexHull hull) {
 }
 
 ConvexHull without_slivers(ConvexHull hull, const LatticeBox& room) {
-  constexpr double kMuchMore = 2;  // times the volume: slivers are better
+  constexpr double kMuchMore = 2;  // times the volume: beyond that, slivers are better
   draw_diagonals(hull);
   const ConvexHull before = hull;
   const auto unless_much_more = [&](ConvexHull made) {

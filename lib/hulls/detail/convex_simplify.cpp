@@ -13,7 +13,8 @@ namespace bp {
 
 namespace {
 
-/// The corners of cells of a coarser lattice around each corner: for what has no cheaper way. At the coarsest, a box.
+/// Returns a hull of the corners of a coarser lattice's cells around each corner. It is the last resort; the coarsest
+/// is a box.
 ConvexHull snapped(const ConvexHull& hull, std::size_t most) {
   const LatticeBox box = box_of(hull.vertices);
   for (std::int64_t cell = 2;; cell *= 2) {
@@ -33,8 +34,8 @@ ConvexHull snapped(const ConvexHull& hull, std::size_t most) {
   }
 }
 
-/// The nearest point such that `v` lies between it and another corner, so that v is none any more. Unlike a point
-/// beyond the planes there always is one, also of hulls a few lattice units thin.
+/// Returns the nearest point such that `v` lies between it and another corner, so that `v` is no corner any more.
+/// Unlike a point beyond the planes it always exists, also for hulls a few lattice units thin.
 LatticeCoord point_behind(const ConvexHull& hull, const LatticeCoord& v) {
   LatticeCoord best{};
   double least = std::numeric_limits<double>::infinity();
@@ -64,7 +65,8 @@ ConvexHull with_fewer_corners(ConvexHull hull, std::size_t most, double growth) 
     std::vector<char> taken(hull.vertices.size(), 0);
     const std::size_t before = hull.vertices.size();
     const std::vector<HullStep> sorted = steps.all();
-    const std::size_t cheap = before > most ? 1 + sorted.size() / 16 : 0;  // taken in any case, few at a time
+    // Steps that are taken in any case, a few at a time.
+    const std::size_t cheap = before > most ? 1 + sorted.size() / 16 : 0;
     for (std::size_t i = 0; i < sorted.size(); ++i) {
       const HullStep& step = sorted[i];
       if (step.cost6 > left6 && i >= cheap) break;
@@ -82,8 +84,8 @@ ConvexHull with_fewer_corners(ConvexHull hull, std::size_t most, double growth) 
   return hull.vertices.size() > most ? snapped(hull, most) : hull;
 }
 
-// Ends, and with no corner at a place of another: a corner that was taken is within the hull from then on, or between
-// two others, and never a corner again, and places taken are finitely many.
+// This ends, with no corner at the place of another. A corner that was taken is within the hull from then on, or
+// between two others, and never a corner again. The taken places are finitely many.
 void set_corners_apart(std::vector<ConvexHull>& hulls) {
   std::set<LatticeCoord> taken;
   for (ConvexHull& hull : hulls) {

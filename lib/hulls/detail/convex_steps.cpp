@@ -52,11 +52,12 @@ std::optional<LatticeCoord> HullSteps::point_for(const Quadric& quadric, const s
   return point;
 }
 
-/// Beyond the planes of all faces around the edge, within the room, and near them: by the squares of distances, or by
-/// the volume, which is linear. Rounding makes either the better.
+/// Returns a point beyond the planes of all faces around the edge, within the room and near the planes: by the squares
+/// of distances, or by the volume, which is linear. Rounding may make either the better one.
 std::optional<LatticeCoord> HullSteps::point_beyond(std::uint32_t a, std::uint32_t b) const {
-  constexpr double kToLattice = 0.9;  // rounding to the lattice moves a point by half the diagonal of a cube, 0.87
-  constexpr double kSquares = 1e-6;   // of volume: squares decide only where the volume leaves it open
+  // Rounding to the lattice moves a point by up to half the diagonal of a cube, 0.87.
+  constexpr double kToLattice = 0.9;
+  constexpr double kSquares = 1e-6;  // of volume: squares decide only where the volume leaves it open
   const LatticeCoord base = hull_.vertices[a], other = hull_.vertices[b];
   Quadric squares;
   Vec3d area{};

@@ -6,10 +6,10 @@
 #include "lib/mesh/box_tree.h"
 #include "lib/mesh/constrained_minimum.h"
 
-/// Steps that take corners from a convex hull and leave it around what it was around [SGG00].
+/// Steps that take corners from a convex hull and keep it around what it was around [SGG00].
 namespace bp {
 
-/// An edge, and the point that would take its place.
+/// An edge, and the point that would replace it.
 struct HullStep {
   std::uint32_t a, b;
   LatticeCoord point;
@@ -18,14 +18,14 @@ struct HullStep {
 
 class HullSteps {
  public:
-  /// Keeps a reference. No point lies outside of `room`. Linear.
+  /// Keeps a reference. No point may lie outside of `room`. Linear.
   HullSteps(const ConvexHull& hull, const LatticeBox& room);
 
-  /// One for each edge that has one, cheapest first. Cost: two small quadratic programs an edge.
+  /// Returns a step for each edge that has one, the cheapest first. Cost: two small quadratic programs an edge.
   [[nodiscard]] std::vector<HullStep> all() const;
-  /// A place that may take that of a corner alone.
+  /// Returns a place that may replace a corner alone.
   [[nodiscard]] std::optional<LatticeCoord> point_beyond(std::uint32_t v) const;
-  /// Corners of the faces around both ends of the edge: another step there would be for another hull.
+  /// Returns the corners of the faces around both ends of the edge. Another step there would belong to another hull.
   [[nodiscard]] std::vector<std::uint32_t> reach(const HullStep& step) const;
 
  private:
@@ -38,15 +38,15 @@ class HullSteps {
   const ConvexHull& hull_;
   LatticeBox room_;
   std::vector<Vec3d> normals_;
-  std::vector<std::vector<std::uint32_t>> around_;  // per vertex: its faces
+  std::vector<std::vector<std::uint32_t>> around_;  // by vertex: its faces
 };
 
-/// The box around a hull, grown on each side by a share of its longest one: where corners may go. A point beyond the
-/// planes around a sharp edge adds next to nothing to the volume, and may lie far out. `share`: at most 1, since beyond
-/// that lie solutions of nearly singular systems.
+/// Returns the box around a hull, grown on each side by a share of its longest side. Corners may move within it. A
+/// point beyond the planes around a sharp edge adds next to nothing to the volume, and may lie far out. `share` is at
+/// most 1, since solutions of nearly singular systems lie beyond that.
 [[nodiscard]] LatticeBox room_around(const ConvexHull& hull, double share);
 
-/// The hull of `hull` and a point.
+/// Returns the hull of `hull` and a point.
 [[nodiscard]] ConvexHull with_point(const ConvexHull& hull, const LatticeCoord& point);
 
 }  // namespace bp

@@ -13,11 +13,11 @@ namespace bp {
 namespace {
 
 constexpr int kSweeps = 4;
-constexpr double kLeastGain = 1e-3;  // of the volume: sweeps go on
+constexpr double kLeastGain = 1e-3;  // of the volume: sweeps go on if they gain as much
 constexpr double kToLattice = 0.9;   // as in convex_steps.cpp
-constexpr double kFar = 100;         // of the box: where the minimum lies without constraints
+constexpr double kFar = 100;         // of the box: the minimum without constraints lies so far away
 
-/// An edge opposite of a corner, as its face goes around, and the normal of the face beyond it.
+/// An edge opposite of a corner, as its face runs, and the normal of the face beyond it.
 struct Opposite {
   LatticeCoord a, b;
   Vec3d beyond;
@@ -42,7 +42,7 @@ std::vector<Opposite> ring_of(const ConvexHull& hull, std::uint32_t v) {
   return ring;
 }
 
-/// Adds n . x >= n . p, with room for rounding; none if n is none.
+/// Adds n . x >= n . p, with room for rounding. It adds nothing if n is no direction.
 void add_plane(const Vec3d& n, const LatticeCoord& p, std::vector<PlaneConstraint>& planes) {
   const double size = length(n);
   if (size < 0.5) return;
@@ -50,7 +50,7 @@ void add_plane(const Vec3d& n, const LatticeCoord& p, std::vector<PlaneConstrain
   planes.push_back({unit, dot(unit, to_double(p)) + kToLattice});
 }
 
-/// Where corner v of the hull would go, if anywhere.
+/// Returns the place that corner v of the hull should move to, if there is one.
 std::optional<LatticeCoord> best_place(const ConvexHull& hull, std::uint32_t v, std::span<const LatticeCoord> points) {
   const LatticeCoord base = hull.vertices[v];
   const LatticeBox box = box_of(hull.vertices);
@@ -76,7 +76,7 @@ std::optional<LatticeCoord> best_place(const ConvexHull& hull, std::uint32_t v, 
   return to;
 }
 
-/// True if the corner has moved.
+/// Returns true if the corner has moved.
 bool move_corner(ConvexHull& hull, std::uint32_t v, std::span<const LatticeCoord> points) {
   const std::optional<LatticeCoord> to = best_place(hull, v, points);
   if (!to) return false;

@@ -18,7 +18,7 @@ struct Ratio {
   [[nodiscard]] std::int64_t above() const { return std::int64_t(ceil_div<int128>(num, den)); }
 };
 
-/// Lattice coordinates around a number; one of them if it is whole, or if the nearest will do.
+/// The lattice coordinates around a number. It is one coordinate if the number is whole, or if the nearest suffices.
 struct Around {
   std::int64_t low, high;
   Around(const Ratio& x, SolidCell::Rounding rounding) : low(x.below()), high(x.above()) {
@@ -39,15 +39,15 @@ void add_corners(const std::array<Around, 3>& around, std::vector<LatticeCoord>&
   }
 }
 
-/// The line parallel to an axis through p, which lies half a unit above (u, v) in the two others, an infinitesimal
-/// farther along u, and an infinitesimal of that along v.
+/// The line parallel to an axis through p. It lies half a unit above (u, v) in the two others, an infinitesimal farther
+/// along u, and an infinitesimal of that along v.
 struct Line {
   int axis;
   std::int64_t u, v;
   [[nodiscard]] int u_axis() const { return (axis + 1) % 3; }
   [[nodiscard]] int v_axis() const { return (axis + 2) % 3; }
 
-  /// Twice the area of (a, b, line), four times for the half units.
+  /// Returns twice the area of (a, b, line), times four for the half units.
   [[nodiscard]] int128 turn(const LatticeCoord& a, const LatticeCoord& b) const {
     const int i = u_axis(), j = v_axis();
     return int128(b[i] - a[i]) * (2 * (v - a[j]) + 1) - int128(b[j] - a[j]) * (2 * (u - a[i]) + 1);
@@ -72,11 +72,11 @@ std::optional<Crossing> crossing(const Line& line, const LatticeCoord& a, const 
   int128 wa = line.turn(b, c), wb = line.turn(c, a), wc = line.turn(a, b), sum = wa + wb + wc;
   if (sum == 0) return {};
   if (sum < 0) wa = -wa, wb = -wb, wc = -wc, sum = -sum;
-  const LatticeCoord ab = b - a, ac = c - a;  // small, for the products
+  const LatticeCoord ab = b - a, ac = c - a;  // they are small, for the products
   return Crossing{{a[line.axis] * sum + wb * ab[line.axis] + wc * ac[line.axis], sum}, turn};
 }
 
-/// Where segment ab enters and leaves the cell, as shares of it; nothing if it misses.
+/// The range in which segment ab lies in the cell, as shares of ab; nothing if it misses the cell.
 struct Span {
   Ratio enter{0, 1}, leave{1, 1};
 };
@@ -116,7 +116,7 @@ bool meets_seen_along(const LatticeBox& a, const LatticeBox& b, int axis) {
 /// A convex polygon while it is cut, in floating point.
 using Polygon = std::vector<Vec3d>;
 
-/// The part with sign * p[axis] <= sign * at.
+/// Returns the part with sign * p[axis] <= sign * at.
 Polygon cut(const Polygon& polygon, std::size_t axis, double at, double sign) {
   Polygon kept;
   for (std::size_t k = 0; k < polygon.size(); ++k) {
@@ -128,8 +128,8 @@ Polygon cut(const Polygon& polygon, std::size_t axis, double at, double sign) {
   return kept;
 }
 
-/// Integral of x - low, x clamped to [low, high], over the polygon seen along x, times six: what the faces bound is
-/// then the volume between low and high.
+/// Returns the integral of x - low, with x clamped to [low, high], over the polygon seen along x, times six. Summed
+/// over the faces it is the volume between low and high.
 double volume6_under(const Polygon& polygon, double low, double high) {
   double sum = 0;
   for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
@@ -197,7 +197,7 @@ void SolidCell::add_edge_points(Rounding rounding, std::vector<LatticeCoord>& ou
       const std::uint32_t a = t[k], b = t[(k + 1) % 3];
       const bool holds_a = holds_vertex(p[a]), holds_b = holds_vertex(p[b]);
       if (holds_a && added[a] == 0) added[a] = 1, out.push_back(p[a]);
-      if ((holds_a && holds_b) || a > b) continue;  // the face beside has the edge too
+      if ((holds_a && holds_b) || a > b) continue;  // the adjacent face has the edge, too
       const std::optional<Span> span = span_within(cell_, p[a], p[b]);
       if (!span) continue;
       if (!holds_a) add_point_at(p[a], p[b], span->enter, rounding, out);
@@ -219,7 +219,8 @@ void SolidCell::add_side_points(Rounding rounding, std::vector<LatticeCoord>& ou
         around[std::size_t(line.u_axis())] = u, around[std::size_t(line.v_axis())] = v;
         add_corners(around, out);
       };
-      int above_low = 0, above_high = 0;  // faces that the line leaves the solid by, less those that it enters by
+      // Numbers of faces at which the line leaves the solid, less those at which it enters.
+      int above_low = 0, above_high = 0;
       for (const std::uint32_t f : tubes_[std::size_t(axis)]) {
         const LatticeBox box = surface_->boxes[f];
         if (box.min[line.u_axis()] > line.u + 1 || box.max[line.u_axis()] < line.u ||
@@ -252,7 +253,7 @@ double SolidCell::volume6() const {
       if (box.min[axis] < cell_.min[axis]) polygon = cut(polygon, std::size_t(axis), low[std::size_t(axis)], -1);
       if (box.max[axis] > cell_.max[axis]) polygon = cut(polygon, std::size_t(axis), high[std::size_t(axis)], 1);
     }
-    if (box.max.x < cell_.min.x) continue;  // all of it clamps to the lower end
+    if (box.max.x < cell_.min.x) continue;  // all of it is clamped to the lower end
     if (box.min.x < cell_.min.x) polygon = cut(polygon, 0, low[0], -1);
     if (box.min.x <= cell_.max.x && box.max.x > cell_.max.x) {
       sum += volume6_under(cut(polygon, 0, high[0], -1), low[0], high[0]);

@@ -6,39 +6,40 @@
 #include "lib/mesh/box_tree.h"
 #include "lib/mesh/lattice_mesh.h"
 
-/// What lies of a solid within a box.
+/// The part of a solid within a box.
 namespace bp {
 
-/// The part of a closed mesh within a cell: all from half a lattice unit below `cell.min` to half a unit above
+/// The part of a closed mesh within a cell: everything from half a lattice unit below `cell.min` to half a unit above
 /// `cell.max`, so that no vertex lies on a side of the cell. Cells are cut from cells.
 class SolidCell {
  public:
-  /// The whole solid that a closed, embedded surface bounds.
+  /// Makes the whole solid that a closed, embedded surface bounds.
   explicit SolidCell(LatticeMesh mesh);
-  /// What this one has within `cell`, which lies in its own.
+  /// Returns the part of this one within `cell`, which must lie in its own cell.
   [[nodiscard]] SolidCell within(const LatticeBox& cell) const;
   [[nodiscard]] const LatticeBox& cell() const { return cell_; }
-  /// Equal for cells of the same solid.
+  /// Returns a pointer that is equal for cells of the same solid.
   [[nodiscard]] const void* solid() const { return surface_.get(); }
 
-  /// Whether the point half a unit above p along each axis lies in the whole solid. Linear.
+  /// Returns whether the point half a unit above p along each axis lies in the whole solid. Linear.
   [[nodiscard]] bool holds(const LatticeCoord& p) const;
 
   enum class Rounding { nearest, outward };
-  /// Points whose hull contains the solid within the cell, and with `outward` (decided in integers) a strip of half a
-  /// unit around its cuts too: whatever lies in the open solid lies in the open hull of one of the cells that cover it.
-  /// Besides vertices: where edges meet sides of the cell, edges of the cell meet the surface, and the cell's corners.
+  /// Returns points whose hull contains the solid within the cell. With `outward` (decided in integers) it also
+  /// contains a strip of half a unit around the cell's cuts: each point of the open solid lies in the open hull of one
+  /// of the cells that cover it. The points are vertices, places where edges meet sides of the cell and edges of the
+  /// cell meet the surface, and corners of the cell.
   [[nodiscard]] std::vector<LatticeCoord> points(Rounding rounding) const;
-  /// Its volume, times six, in floating point.
+  /// Returns six times its volume, in floating point.
   [[nodiscard]] double volume6() const;
 
-  /// A place to cut, half a unit above `at`; weight: area of the surface that is level there.
+  /// A place to cut, half a unit above `at`. `weight`: area of the surface that is level there.
   struct Step {
     std::int64_t at;
     double weight;
   };
-  /// Places along an axis where the section changes: beside faces that are nearly perpendicular to it, so that the
-  /// solid at the face is on one side as a whole. In the order of the axis.
+  /// Returns the places along an axis where the section changes: next to faces that are nearly perpendicular to it, so
+  /// that the solid at the face is on one side as a whole. They are in the order of the axis.
   [[nodiscard]] std::vector<Step> steps(int axis) const;
 
  private:
@@ -51,12 +52,12 @@ class SolidCell {
 
   struct Surface {
     LatticeMesh mesh;
-    std::vector<LatticeBox> boxes;  // of its triangles
+    std::vector<LatticeBox> boxes;  // boxes of its triangles
   };
   std::shared_ptr<const Surface> surface_;  // of the whole solid
   LatticeBox cell_;
-  std::vector<std::uint32_t> faces_;                 // whose boxes meet the cell
-  std::array<std::vector<std::uint32_t>, 3> tubes_;  // that do so seen along an axis
+  std::vector<std::uint32_t> faces_;                 // faces whose boxes meet the cell
+  std::array<std::vector<std::uint32_t>, 3> tubes_;  // faces whose boxes do so seen along an axis
 };
 
 }  // namespace bp

@@ -5,21 +5,22 @@ namespace bp {
 namespace {
 
 constexpr std::ptrdiff_t kRow = BlurredBox::kSide, kSlice = kRow * BlurredBox::kSide, kAll = kSlice * BlurredBox::kSide;
-/// Box filters of reach 2, 2 and 1 along each axis: nearly a Gaussian of 2 voxels.
+/// Box filters of reach 2, 2 and 1 along each axis come near to a Gaussian of 2 voxels.
 constexpr std::array kReaches{2, 2, 1};
-constexpr int kSum = 75;  // of the weights along one axis: 5 * 5 * 3
-/// After two axes, so that the third keeps within 16 bits: half the memory, and twice the values of a vector.
+constexpr int kSum = 75;  // sum of the weights along one axis: 5 * 5 * 3
+/// Values are shifted after two axes, so that the third keeps within 16 bits. That halves the memory, and doubles the
+/// values of a vector.
 constexpr int kShift = 3;
 constexpr float kWeight = 1.0F / float(((kSum * kSum) >> kShift) * kSum);
 static_assert(((kSum * kSum) >> kShift) * kSum < 1 << 16);
 
 }  // namespace
 
-/// Sums of 2 reach + 1 values along an axis, three times. Values within a reach of the ends of the box are left over
-/// from before; they reach no corner of the brick. Rows are not told apart, so that the compiler makes vectors of it.
+/// Sums 2 reach + 1 values along an axis, three times. Values within a reach of the ends of the box are left over from
+/// before; they reach no corner of the brick. Rows run into each other, so that the compiler makes vectors of the loop.
 void BlurredBox::blur_along(std::ptrdiff_t stride) {
   for (const int reach : kReaches) {
-    const std::ptrdiff_t edge = stride * reach, far = stride * (reach - 1);  // far: 0 for a reach of 1
+    const std::ptrdiff_t edge = stride * reach, far = stride * (reach - 1);  // far is 0 for a reach of 1
     const std::uint16_t* const from = values_.data();
     std::uint16_t* const to = other_.data();
     if (reach == 1) {

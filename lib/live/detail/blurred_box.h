@@ -6,15 +6,15 @@
 
 namespace bp {
 
-/// The occupancy of a brick and what is around it, blurred: its level of one half is a smooth surface near the surface
-/// of the voxels.
+/// The blurred occupancy of a brick and its surroundings. Its level of one half is a smooth surface near the surface of
+/// the voxels.
 class BlurredBox {
  public:
-  static constexpr int kReach = 5;           ///< voxels that a blurred value depends on, each way along each axis
-  static constexpr int kApron = kReach + 1;  ///< voxels around the brick that the values depend on
+  static constexpr int kReach = 5;           ///< a blurred value depends on so many voxels each way along each axis
+  static constexpr int kApron = kReach + 1;  ///< so many voxels around the brick are needed
   static constexpr int kSide = kBrickEdge + 2 * kApron;
 
-  /// `solid` holds the brick, from its first voxel on, grown by kApron.
+  /// `solid` holds the brick that begins at `first`, grown by kApron.
   void reset(const BitBox& solid, VoxelCoord first);
 
   /// At a corner of voxels, (0,0,0) to (64,64,64): the value, 0 outside to 1 inside, and its gradient per voxel.

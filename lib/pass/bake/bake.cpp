@@ -18,7 +18,7 @@ namespace bp {
 namespace {
 
 constexpr int kSide = 2;  // samples along a side of a texel
-/// The image, which texels are known, smaller copies; and the file that is made of it.
+/// Bytes of the image, the mask of known texels, smaller copies, and the file that is made of them.
 constexpr std::uint64_t kBytesPerTexel = 9, kBytesPerSurfaceTexel = 21, kBytesPerFace = sizeof(TriangleD) + 400;
 constexpr double kBefore = 1e-4;  // of the reach
 constexpr int kSquare = 32;       // texels along a side, at work at a time
@@ -28,11 +28,11 @@ struct Face {
   std::array<std::array<float, 2>, 3> flat;
   TriangleD corners;
   std::array<Vec3d, 3> normals;
-  std::array<Vec3d, 3> tangents{};  // if surfaces are wanted
-  double mirrored = 1;              // tangents_of()
+  std::array<Vec3d, 3> tangents{};  // set if surfaces are wanted
+  double mirrored = 1;              // as tangents_of() returns it
 };
 
-/// Images that are filled; all but the first may be null.
+/// Images to be filled; all but the first may be null.
 struct Canvas {
   TextureImage* color;
   TextureImage* normal = nullptr;
@@ -40,7 +40,7 @@ struct Canvas {
   TextureImage* emission = nullptr;
 };
 
-/// Of a texel's samples, weighted by how much they cover.
+/// Sums over a texel's samples, weighted by how much they cover.
 struct SurfaceSum {
   Vec3d normal{};  // in tangent space
   float roughness = 0, metal = 0;
@@ -53,11 +53,12 @@ struct SurfaceSum {
     for (std::size_t i = 0; i < 3; ++i) emission[i] += look.alpha * look.emission[i];
   }
   void write(const Canvas& to, int x, int y, float alpha) const {
-    constexpr double kLeast = 0.05;  // of a normal that looks away: viewers know no others
+    // Least component along the mesh's normal of a normal that looks away, since viewers know no others.
+    constexpr double kLeast = 0.05;
     Vec3d n = normal;
     n[2] = std::max(n[2], kLeast * length(n));
     const double l = length(n);
-    n = l > 0 ? (1 / l) * n : Vec3d{0, 0, 1};  // they may cancel
+    n = l > 0 ? (1 / l) * n : Vec3d{0, 0, 1};  // the samples may cancel
     TextureImage::Texel& texel = to.normal->at(x, y);
     for (std::size_t i = 0; i < 3; ++i) texel[i] = std::uint8_t((n[i] / 2 + 0.5) * 255 + 0.5);
     const auto byte = [&](float sum) { return std::uint8_t(sum / alpha * 255 + 0.5F); };
@@ -66,14 +67,15 @@ struct SurfaceSum {
   }
 };
 
-/// A chart's texels in a square of the image: no other chart has any of them.
+/// A chart's texels in a square of the image. No other chart has any of them.
 struct Plot {
-  std::uint64_t place = 0;  // along a curve through the scene's space: neighbours need the same of the scene
+  // Place along a curve through the scene's space: neighbours need the same blocks of the scene.
+  std::uint64_t place = 0;
   std::array<int, 2> begin{}, end{};
   std::vector<std::uint32_t> faces;
 };
 
-/// Sums of colours by how much they cover, and of samples.
+/// Sums of colours, weighted by how much they cover, and numbers of samples.
 class PlotBaker {
  public:
   PlotBaker(const SceneLooks& looks, const BakeParams& params, double texel, const Plot& plot, bool surfaces)
@@ -99,7 +101,7 @@ class PlotBaker {
     add_middle(face);
   }
 
-  /// Means, and what is known then.
+  /// Writes the means, and marks their texels as known.
   void write(const Canvas& to, std::vector<BakedTexel>& known) const {
     TextureImage& image = *to.color;
     for (int y = begin_[1]; y < end_[1]; ++y) {
@@ -132,7 +134,8 @@ class PlotBaker {
       add_sample(face, {a, b, c}, x, y, (float(k) + 0.5F) / (kSide * kSide));
     }
   }
-  /// A face between all samples of a texel is not lost if the texel has no other.
+  /// Adds the middle of a face that lies between all samples of a texel, so that a texel without other samples does not
+  /// lose it.
   void add_middle(const Face& face) {
     const auto& f = face.flat;
     const int x = int((f[0][0] + f[1][0] + f[2][0]) / 3), y = int((f[0][1] + f[1][1] + f[2][1]) / 3);
@@ -171,10 +174,11 @@ class PlotBaker {
     return {dot(d, tangent), dot(d, up), dot(d, n)};
   }
 
-  /// Nothing if the scene is out of reach.
+  /// Returns what a sample sees. Nothing if the scene is out of reach.
   std::optional<Look> seen(const Vec3d& p, const Vec3d& n, float threshold) {
-    bool through = false;                                        // a hole
-    const Vec3d out = params_.reach_world * n, in = -1.0 * out;  // from a little before: they may touch
+    bool through = false;  // the line has gone through a hole
+    // Lines begin a little before the surface, since both surfaces may touch.
+    const Vec3d out = params_.reach_world * n, in = -1.0 * out;
     auto found = eye_.first_along(p + kBefore * out, in, size_, threshold, through);
     if (params_.both_ways) {
       const auto outwards = eye_.first_along(p + kBefore * in, out, size_, threshold, through);
@@ -191,10 +195,10 @@ class PlotBaker {
   std::array<int, 2> begin_, end_;
   std::vector<LinearTexel> sums_;
   std::vector<std::uint16_t> samples_;
-  std::vector<SurfaceSum> surfaces_;  // empty: not wanted
+  std::vector<SurfaceSum> surfaces_;  // empty if surfaces are not wanted
 };
 
-/// The mesh as it is drawn with a texture, charts apart; tangents change nothing else.
+/// Returns the mesh as it is drawn with a texture, where charts are apart. Tangents change nothing else.
 LatticeMesh with_places(const LatticeMesh& mesh, const Atlas& atlas) {
   LatticeMesh out = mesh;
   auto texture = std::make_shared<MeshTexture>();
@@ -231,7 +235,7 @@ std::vector<Face> faces_of(const LatticeMesh& mesh, const Atlas& atlas) {
   return faces;
 }
 
-/// Squares of the image that faces touch, of a chart.
+/// Adds the squares of the image that faces of a chart touch.
 void add_plots(const std::vector<std::uint32_t>& chart, const std::vector<Face>& faces, const Bounds3d& bounds,
                std::vector<Plot>& plots) {
   std::map<std::array<int, 2>, std::size_t> by_square;
@@ -317,15 +321,15 @@ BakedSurface bake_surface(const LatticeMesh& mesh, const Atlas& atlas, const Sce
 bool says_nothing(const TextureImage& normals) {
   constexpr int kLean = 18;  // of 255
   constexpr std::size_t kOneIn = 100;
-  constexpr int kDetail = 8;  // texels along a side: two pixels where the level's error is one
+  constexpr int kDetail = 8;  // texels along a side: two pixels where the level's error is one pixel
   const auto leans = [](const TextureImage::Texel& t) {
     const int x = 2 * int(t[0]) - 255, y = 2 * int(t[1]) - 255;
     return x * x + y * y > kLean * kLean;
   };
   std::size_t all = 0;
-  std::vector<int> columns(std::size_t(normals.width));  // leaning texels of the last rows
+  std::vector<int> columns(std::size_t(normals.width));  // number of leaning texels in the last rows, by column
   for (int y = 0; y < normals.height; ++y) {
-    int square = 0;  // of the last columns
+    int square = 0;  // the same in the last columns
     for (int x = 0; x < normals.width; ++x) {
       const bool here = leans(normals.at(x, y));
       columns[std::size_t(x)] += int(here) - int(y >= kDetail && leans(normals.at(x, y - kDetail)));

@@ -18,19 +18,19 @@ namespace bp {
 
 namespace {
 
-/// Areas by the size of the texels on them.
+/// Sums areas by the size of the texels on them.
 class TexelSizes {
  public:
   void add(double texel, double area) {
     areas_[bin_of(float(texel))] += area;
     total_ += area;
   }
-  /// A tenth of the area has smaller texels than this, a bin more or less; 0 if there is none.
+  /// Returns the size below which a tenth of the area has its texels, a bin more or less; 0 if there is none.
   [[nodiscard]] double tenth() const {
     double area = 0;
     for (std::size_t bin = 0; bin < areas_.size(); ++bin) {
       area += areas_[bin];
-      if (area > 0 && area >= total_ * (0.1 - 1e-9))  // rounding decides nothing
+      if (area > 0 && area >= total_ * (0.1 - 1e-9))  // rounding must not decide
         return std::bit_cast<float>(std::uint32_t(bin) << kShift);
     }
     return 0;
@@ -101,7 +101,7 @@ void SceneLooks::note_image(std::uint32_t material) {
   if (noted.is_known) return;
   noted.is_known = true;
   const TextureMaterial& m = images_->material(material);
-  std::string all;  // not as KeyHash: it decides what is seen of surfaces at one place, in every version
+  std::string all;  // it is not a KeyHash, since it decides between surfaces at one place, in every version
   pack(all, m.wrap[0]);
   pack(all, m.wrap[1]);
   pack(all, m.alpha_mode);
@@ -128,7 +128,7 @@ void SceneLooks::visit(const Bounds3d& box, const std::function<void(const Textu
   });
 }
 
-/// A sum of the hashes of triangles: it does not depend on their order, and little is in memory.
+/// Adds a sum of the hashes of triangles. It does not depend on their order, and takes little memory.
 void SceneLooks::add_triangles_to(KeyHash& hash, const Bounds3d& box) const {
   std::array<std::uint64_t, 2> sum{};
   std::uint64_t count = 0;

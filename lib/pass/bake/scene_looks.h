@@ -11,7 +11,7 @@
 #include "lib/store/result_key.h"
 #include "lib/store/scratch.h"
 
-/// What a scene's surface looks like, at any place of it: colours of its triangles, and images on them. Out of core.
+/// The looks of a scene's surface at any place of it: colours of its triangles, and images on them. Out of core.
 namespace bp {
 
 class ImageCache;
@@ -19,21 +19,21 @@ class LookBlock;
 class LookBlocks;
 struct TexturedTriangle;
 
-/// Red, green and blue in linear light, from 0 to 1, with the surface's own light unless that is asked for apart, and
-/// how much of what is behind is covered.
+/// Red, green and blue in linear light, from 0 to 1, and how much of the background is covered. Emitted light is
+/// included, unless it is asked for separately.
 struct Look {
   std::array<float, 3> color{};
   float alpha = 1;
-  // If asked for:
+  // Set if asked for:
   std::array<float, 3> normal{};  ///< in the scene, of length 1
   float roughness = 1, metal = 0;
   std::array<float, 3> emission{};  ///< linear light
 };
 
-/// They do not depend on the order of the triangles, nor on the memory.
+/// The looks of a scene. They depend neither on the order of the triangles nor on the memory.
 class SceneLooks {
  public:
-  /// What is read, and what is known of it: bounds and number of the triangles.
+  /// The source, and what is known about it: bounds and number of the triangles.
   struct Scene {
     TriangleSource& source;
     Bounds3d bounds;
@@ -41,29 +41,30 @@ class SceneLooks {
     std::shared_ptr<const TextureSet> images;
   };
 
-  /// Reads the source once more, from its start; its triangles wait in `store`. `memory`: for those at work, half of it
-  /// at most, and for images. Throws NeedsMemory if an image alone is too large.
+  /// Reads the source once more, from its start; its triangles wait in `store`. `memory` is for triangles in use, half
+  /// of it at most, and for images. Throws NeedsMemory if an image alone is too large.
   SceneLooks(const Scene& scene, std::unique_ptr<Scratch> store, const MemoryShare& memory);
   ~SceneLooks();
   SceneLooks(const SceneLooks&) = delete;
   SceneLooks& operator=(const SceneLooks&) = delete;
 
-  /// Texels of the scene's images are about as small as this, scene units, up to a fifth: a tenth of the area that has
-  /// images has smaller ones. 0: no image lies on the scene.
+  /// Returns about the smallest texel of the scene's images, scene units, right to a fifth: a tenth of the area that
+  /// has images has smaller ones. 0: no image lies on the scene.
   [[nodiscard]] double finest_texel() const { return finest_texel_; }
-  /// Everything within `box`, images included, and finest_texel().
+  /// Adds everything within `box`, images included, and finest_texel().
   void add_to(KeyHash& hash, const Bounds3d& box) const;
-  /// The same without finest_texel().
+  /// Adds the same without finest_texel().
   void add_triangles_to(KeyHash& hash, const Bounds3d& box) const;
-  /// Calls f for each triangle whose bounds meet the box, in any order. Thread-safe; in memory is one block.
+  /// Calls f for each triangle whose bounds meet the box, in any order. Thread-safe; one block at a time is in memory.
   void visit(const Bounds3d& box, const std::function<void(const TexturedTriangle&)>& f) const;
-  /// Hash of all that decides how a material of the scene looks; zeros for TriangleTexture::kNoMaterial.
+  /// Returns the hash of everything that decides how a material of the scene looks; zeros for
+  /// TriangleTexture::kNoMaterial.
   [[nodiscard]] ResultKey key_of(std::uint32_t material) const {
     return material == TriangleTexture::kNoMaterial ? ResultKey{} : materials_[material].key;
   }
-  /// Null if nobody asked for them.
+  /// Returns null if nobody asked for images.
   [[nodiscard]] const TextureSet* images() const { return images_.get(); }
-  /// What is wrong with images that were wanted so far.
+  /// Returns the faults of images that were wanted so far.
   [[nodiscard]] std::vector<std::string> faults() const;
 
  private:
@@ -77,8 +78,8 @@ class SceneLooks {
   double finest_texel_ = 0;
   struct Material {
     bool is_known = false;
-    std::array<int, 2> size{};  // of the one of its images that has the most texels; 0: none
-    ResultKey key;              // of all that decides how it looks
+    std::array<int, 2> size{};  // size of its image with the most texels; 0: it has none
+    ResultKey key;              // hash of everything that decides how it looks
   };
   std::vector<Material> materials_;
 };

@@ -17,12 +17,13 @@ struct TexturedTriangle {
   return p;
 }
 
-/// Points of `bounds` along a curve that mostly goes from neighbour to neighbour (Morton order), up to 2^57.
+/// Returns the place of a point of `bounds` along a curve that mostly goes from neighbour to neighbour (Morton order),
+/// up to 2^57.
 [[nodiscard]] inline std::uint64_t morton_of(const Vec3d& p, const Bounds3d& bounds) {
   constexpr int kBits = 19;
   std::uint64_t code = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    const double part = (p[i] - bounds.min[i]) / (bounds.max[i] - bounds.min[i]);  // NaN: flat
+    const double part = (p[i] - bounds.min[i]) / (bounds.max[i] - bounds.min[i]);  // NaN if the bounds are flat
     const auto x = std::uint64_t(part > 0 ? std::min(part, 1.0) * ((1 << kBits) - 1) : 0);
     for (int bit = 0; bit < kBits; ++bit) code |= (x >> bit & 1) << (3 * bit + int(i));
   }

@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* kJob = "closing of a cell";
 
-/// The bricks of a box that are not empty: place, fill, and bits unless full; then the end.
+/// Packs the bricks of a box that are not empty: place, fill, and bits unless full; then an end mark.
 std::string packed(const BitBox& bits) {
   std::string out;
   for_each_brick(bits.box(), [&](BrickCoord c) {
@@ -39,7 +39,7 @@ std::string packed(const BitBox& bits) {
   return out + 'e';
 }
 
-/// False if the bytes are no bricks of a cell.
+/// Unpacks them onto the shelf. Returns false if the bytes are no bricks of the cell.
 bool unpack(const std::string& in, const VoxelBox& cell, BrickShelf& shelf) {
   const BrickBox bricks = bricks_of(cell);
   if (in.empty() || in.back() != 'e') return false;
@@ -121,11 +121,13 @@ class CellCloser {
     closer_.flood(grid_, options_.cells.edge_vox);
   }
 
-  /// Bits of a cell with its halo, and what closing and labelling need of about the same size.
+  /// Returns how many cells fit in memory at once: bits of a cell with its halo, and what closing and labelling need,
+  /// which has about the same size.
   [[nodiscard]] int in_flight() const {
     const MemoryShare& memory = options_.context.memory;
     const double side = double(options_.cells.edge_vox) + 2.0 * closer_.widest().total_vox() + 64;
-    const double bytes = 12 * side * side * side / 8 + (16 << 20), least = bytes / 3;  // where little is occupied
+    // least: where little is occupied
+    const double bytes = 12 * side * side * side / 8 + (16 << 20), least = bytes / 3;
     if (least > double(memory.bytes)) {
       const auto needed = std::uint64_t(least);
       throw NeedsMemory(fmt::format("closing a cell of {} voxels with a halo of {}", options_.cells.edge_vox,
@@ -163,7 +165,7 @@ class CellCloser {
     if (options_.context.results != nullptr) options_.context.results->put(key, packed(closed));
   }
 
-  /// Cavities reach into cells that hold no voxel, too.
+  /// Fills cavities, also in cells that hold no voxel.
   void fill_cavities() {
     closer_.resolve();
     const CellCoord first = options_.cells.of(grid_.min);

@@ -4,8 +4,9 @@
 #include "lib/grid/stream.h"
 #include "lib/pass/context.h"
 
-/// The closing of a level cell by cell, each a job whose result can be kept: it depends on the voxels in the cell and
-/// its halo, on the scale and the element, not on where the cell lies. Same voxels as close_stream().
+/// The closing of a level, cell by cell. Each cell is a job whose result can be kept: it depends on the voxels in the
+/// cell and its halo, on the scale and the element, but not on where the cell lies. The voxels are those of
+/// close_stream().
 namespace bp {
 
 struct CellClosing {
@@ -16,11 +17,11 @@ struct CellClosing {
 };
 
 struct CellClosingCounts {
-  std::uint64_t cells = 0, kept = 0;  ///< with something in reach; of these, found in the store
+  std::uint64_t cells = 0, kept = 0;  ///< cells with something in reach; those of them that the store had
 };
 
 /// Puts the closing of `solid`, with bricks of `header`, onto `closing`. `scale_world` is the same everywhere. Throws
-/// as close_stream(), out_of_resource if not even one cell fits in the memory.
+/// as close_stream() does; out_of_resource if not even one cell fits in the memory.
 CellClosingCounts close_cells(const StreamHeader& header, const BrickShelf& solid, Backends& backends,
                               double scale_world, const CellClosing& options, BrickShelf& closing);
 

@@ -21,11 +21,11 @@ namespace bp {
 
 namespace {
 
-constexpr std::size_t kBricksAtATime = 128;  // taken off the shelf together to be written: 8 MiB
-constexpr std::int32_t kMaxTileVox = 512;    // beyond, halos cost little and tiles get few
+constexpr std::size_t kBricksAtATime = 128;  // bricks that are taken off the shelf together to be written: 8 MiB
+constexpr std::int32_t kMaxTileVox = 512;    // beyond that, halos cost little and tiles get few
 
-/// Bytes that closing one tile of a grid takes, every voxel of tile and halo in play: the boxes of close_tile, and as
-/// much again as the tile itself for the components of its empty voxels.
+/// Returns the bytes that closing one tile of a grid takes if every voxel of tile and halo is occupied: the boxes of
+/// close_tile(), and as much again as the tile itself for the components of its empty voxels.
 double tile_bytes(const VoxelCoord& grid, std::int32_t tile, const Halo& halo, bool turned) {
   const auto box_bytes = [&](std::int32_t margin) {
     double bytes = 1.0 / 8;
@@ -37,15 +37,15 @@ double tile_bytes(const VoxelCoord& grid, std::int32_t tile, const Halo& halo, b
   const double side = std::min(double(tile) + 2.0 * halo.total_vox(), double(std::max({grid.x, grid.y, grid.z})));
   const double distances = 6 * (side + 160) * (side + 2);  // three slices of a varying cube dilation
   constexpr double kTransform = 8 << 20;                   // a block of rows of the ball transform
-  // Of turned cubes: what is open, and two sets of tables with 4 slices, whose rows are as long as two reaches more.
+  // Turned cubes need their open voxels, and two sets of tables with 4 slices, whose rows are longer by two reaches.
   const double levels = std::bit_width(std::uint32_t(2 * halo.dilation_vox + 1));
   const double rows = turned ? 3 * dilation + (4 * levels + 8) / 8 * (side + 320) * (side + 24) : 0;
   const double cubes = turned ? double(turned_cubes_bytes(halo.dilation_vox)) : 0;
   return 3 * solid + 4 * dilation + 4 * core + distances + kTransform + rows + cubes;
 }
 
-/// The tile size that promises most: workers that fit in memory and find enough tiles, times the share of the voxels
-/// they read that are not halo.
+/// Returns the tile size with the best product: of the workers that fit in memory and find enough tiles, and of the
+/// share of the voxels they read that are not halo.
 std::int32_t choose_tile(const VoxelCoord& grid, const Halo& halo, std::size_t workers, std::uint64_t memory_bytes,
                          std::int32_t largest, bool turned) {
   std::int32_t best = kBrickEdge;
@@ -65,13 +65,13 @@ std::int32_t choose_tile(const VoxelCoord& grid, const Halo& halo, std::size_t w
   return best;
 }
 
-/// Of a worker's share of the memory, beside its tile.
+/// Returns the bytes of a worker's share of the memory that its tile leaves.
 std::size_t left_of(std::uint64_t memory_bytes, double tile_bytes, std::size_t workers) {
-  constexpr double kShare = 0.75;  // lists of what is open come on top
+  constexpr double kShare = 0.75;  // the lists of open voxels come on top
   return std::size_t(std::max(0.0, kShare * (double(memory_bytes) / double(workers) - tile_bytes)));
 }
 
-/// Closes a stream. A slab is one step of tiles across the slab axis.
+/// Closes a stream. A slab here is one step of tiles across the slab axis.
 class StreamCloser {
  public:
   StreamCloser(BrickSource& source, BrickSink& sink, Backends& backends, const ScaleField& scale,
@@ -122,7 +122,7 @@ class StreamCloser {
   void fill_cavities(std::int32_t slab, SlabTiles& tiles);
   void emit_done(std::int32_t current_slab);
   void emit(const SlabTiles& tiles);
-  /// First voxel across the slab axis that is no longer in the slab.
+  /// Returns the first voxel across the slab axis that is no longer in the slab.
   [[nodiscard]] std::int64_t end_of(std::int32_t slab) const {
     return tiles_.voxels.min[axis_] + (std::int64_t(slab) + 1) * tiles_.edge_vox;
   }
@@ -139,28 +139,29 @@ class StreamCloser {
   const std::unique_ptr<BrickShelf> solid_, closing_;
   TileGrid tiles_;
   std::unique_ptr<TileCloser> closer_;
-  std::unique_ptr<Pool<std::unique_ptr<BitBox>>> boxes_;  ///< of closed tiles: as many as threads work on them
+  std::unique_ptr<Pool<std::unique_ptr<BitBox>>> boxes_;  ///< closed tiles: as many as threads work on them
   CloseCounts counts_;
   std::uint64_t done_ = 0;
   std::atomic<std::uint64_t> tiles_closed_{0}, cavity_voxels_{0};
   std::atomic<std::int32_t> halo_vox_{0};
   std::atomic<double> reading_{0}, writing_{0};
 
-  Brick brick_;  ///< read, not yet taken
+  Brick brick_;  ///< read from the source, and not yet taken
   bool more_ = true;
-  std::vector<TileCoord> queue_;  ///< of the slab being closed, last first
+  std::vector<TileCoord> queue_;  ///< tiles of the slab that is closed now, last first
   std::int32_t next_slab_ = 0;
   std::mutex slabs_mutex_;
-  std::map<std::int32_t, SlabTiles> slabs_;  ///< not yet emitted: their tiles with a solid brick in reach
+  /// Slabs that are not yet emitted: their tiles with a solid brick in reach.
+  std::map<std::int32_t, SlabTiles> slabs_;
 };
 
 void StreamCloser::lay_tiles(Backends& backends) {
   const VoxelBox grid = voxels_of(closing_bricks(header_, scale_, params_));
   const MemoryShare& memory = options_.context.memory;
   const bool turned = params_.turned();
-  // A GPU has few backends: while they compute, the other threads label and shelve what came back.
+  // A GPU has few backends: while they compute, the other threads label and shelve tiles.
   const std::size_t workers = std::max(backends.size(), std::size_t(thread_count()));
-  // And its halos are cheap, so that small tiles keep all busy.
+  // Halos are cheap on a GPU, so that small tiles keep all threads busy.
   const bool small = backends.size() < workers && widest_.total_vox() <= kMaxTileVox / 8;
   const std::int32_t edge = options_.tile_vox != 0 ? options_.tile_vox
                                                    : choose_tile(grid.size(), widest_, workers, memory.bytes,
@@ -180,7 +181,7 @@ void StreamCloser::lay_tiles(Backends& backends) {
     fail(ErrorCode::bad_argument, {Remedy::larger_tiles}, "the grid has {:.0f} tiles of {} voxels", tiles_.total(),
          edge);
   const auto fit = std::size_t(std::max(1.0, std::min(double(workers), double(memory.bytes) / bytes)));
-  // What is left is for the rows of turned cubes: with more at once, the solid is swept less often.
+  // The rest of the memory is for the rows of turned cubes: the more cubes at once, the fewer sweeps over the solid.
   if (turned) params_.cube_bytes = turned_cubes_bytes(widest_.dilation_vox) + left_of(memory.bytes, bytes, fit);
   closer_ =
       std::make_unique<TileCloser>(TileCloser::Input{header_, *solid_, scale_, params_}, *closing_, backends, fit);
@@ -192,7 +193,7 @@ void StreamCloser::lay_tiles(Backends& backends) {
   counts_.tiles = std::uint64_t(tiles_.total());
 }
 
-/// Slab by slab, once all bricks that any tile of the slab can see have been taken.
+/// Returns the next tile, slab by slab, once all bricks that any tile of the slab can see have been taken.
 bool StreamCloser::next_tile(TileCoord& tile) {
   while (queue_.empty()) {
     if (next_slab_ == tiles_.count[axis_]) return false;
@@ -243,7 +244,7 @@ void StreamCloser::close(TileCoord tile) {
   closer_->keep(box, *closed);
 }
 
-/// Fills and emits the slabs that are left: one is filled while the one before is written.
+/// Fills and emits the remaining slabs. One is filled while the one before is written.
 void StreamCloser::finish_slabs() {
   std::vector<std::pair<std::int32_t, SlabTiles>> left(slabs_.begin(), slabs_.end());
   slabs_.clear();
@@ -263,7 +264,8 @@ void StreamCloser::finish_slabs() {
       });
 }
 
-/// Cavities reach into tiles that hold no voxel; a slab of none but such tiles is open to the outside.
+/// Fills the cavities of a slab, also in tiles that hold no voxel. A slab of nothing but such tiles is open to the
+/// outside.
 void StreamCloser::fill_cavities(std::int32_t slab, SlabTiles& tiles) {
   TileCoord count = tiles_.count;
   count[axis_] = 1;
@@ -295,7 +297,7 @@ void StreamCloser::emit_done(std::int32_t current) {
   }
 }
 
-/// Both layers of the bricks of these tiles, in slab order. Every solid brick lies in the closing.
+/// Emits both layers of the bricks of these tiles, in slab order. Every solid brick lies in the closing.
 void StreamCloser::emit(const SlabTiles& tiles) {
   const Stopwatch watch(writing_);
   std::vector<BrickCoord> bricks;

@@ -17,21 +17,22 @@ namespace bp {
 namespace {
 
 constexpr std::int64_t kCellLattice = std::int64_t(kColorCellVox) * kLatticePerVoxel;
-constexpr double kEnough = 1.0 / 16;          // of a cell's area; of a ball's surface a ninth looks any one way
+constexpr double kEnough = 1.0 / 16;          // of a cell's area; a ninth of a ball's surface looks any one way
 constexpr std::size_t kSumsInHand = 1 << 16;  // a large triangle alone may cover millions of cells
 
 static_assert(ColorGrid::kEdge * kColorCellVox == kBrickEdge, "a brick of cells is a brick of voxels");
 
-/// What is seen of cells of a brick, if `shelf` has the voxels that are outermost. A face that lies between two layers
-/// of voxels fills both, and its samples fall into the upper one. The lower one may be all that is outermost. So a cell
-/// is seen that holds a voxel, or has one right below it along some axes.
+/// Returns what is seen of the cells of a brick. `shelf` has the outermost voxels. A face that lies between two layers
+/// of voxels fills both, and its samples fall into the upper one; but the lower one alone may be outermost. So a cell
+/// is seen if it holds a voxel, or has one right below it along some axis.
 ColorGrid::Mask mask_of(const BrickShelf& shelf, ColorBrick coord) {
   constexpr std::int32_t e = ColorGrid::kEdge, n = kColorCellVox;
   const VoxelCoord first = first_voxel(BrickCoord{coord.x, coord.y, coord.z}), one{1, 1, 1};
   BitBox bits(VoxelBox{first - one, first + VoxelCoord{kBrickEdge, kBrickEdge, kBrickEdge}});
   load_voxels(shelf, bits);
   auto mask = std::make_shared<std::vector<std::uint32_t>>(std::size_t(e) * e * e);
-  // Cells at the voxels (y, z) that have one of the row get `seen`, and so many times the row's voxels in them.
+  // Marks the cells at the voxels (y, z) that hold a voxel of the row with `seen`, and with so many times the row's
+  // voxels in them.
   const auto mark = [&](std::int32_t y, std::int32_t z, std::uint64_t row, std::uint32_t seen, std::uint32_t times) {
     if (y < 0 || z < 0 || y >= kBrickEdge || z >= kBrickEdge) return;
     for (std::int32_t x = 0; x < e; ++x)
@@ -55,7 +56,7 @@ ColorGrid::Mask mask_of(const BrickShelf& shelf, ColorBrick coord) {
   return [mask, coord](ColorCell c) { return (*mask)[ColorGrid::index_in(coord, c)]; };
 }
 
-/// Cells that belong to one of a box of voxels grown by a margin.
+/// Returns the cells that belong to a box of voxels grown by a margin.
 std::pair<ColorCell, ColorCell> cells_of(const VoxelBox& box, std::int32_t margin, const Vec3d& origin) {
   ColorCell lo, hi;
   for (int i = 0; i < 3; ++i) {
@@ -70,8 +71,8 @@ std::uint32_t weight_of(const ColorSum& sum) {
   return std::uint32_t(std::min<std::uint64_t>(sum.weight, std::numeric_limits<std::uint32_t>::max()));
 }
 
-/// Of the sides of a cell, by their shares. If that is less area than kEnough of the cell's, all sides count for the
-/// rest: shares that are nearly 0 would choose one side by rounding, or by a tree's twig.
+/// Returns the mean of the sides of a cell, by their shares. If that is less area than kEnough of the cell's, all sides
+/// count for the rest: among shares that are nearly 0, rounding or a tree's twig would choose one side.
 template <class Shares>
 LinearColor mean_of(std::span<const CellColor> sides, const Shares& shares) {
   std::array<double, 4> sum{}, plain{};
@@ -123,7 +124,7 @@ NearbyColors::NearbyColors(std::vector<CellColor> cells, ColorCell min, const Ve
   while (levels_.back().first.size() > 1) levels_.push_back(levels_.back().halved());
 }
 
-/// How much a side counts for a normal: 1 along it, 0 across it, little where they differ by 60 degrees.
+/// Returns how much each side counts for a normal: 1 along it, 0 across it, little at an angle of 60 degrees.
 NearbyColors::Shares NearbyColors::shares_along(const Vec3d& normal) {
   Shares shares{};
   const double squared = dot(normal, normal);
@@ -136,7 +137,7 @@ NearbyColors::Shares NearbyColors::shares_along(const Vec3d& normal) {
   return shares;
 }
 
-/// Of those with enough area that looks the right way, else of all.
+/// Returns the nearest cell with enough area that looks the right way; if there is none, the nearest of all.
 std::span<const CellColor> NearbyColors::nearest(const Cells& cells, const Vec3d& p, const Shares& shares) {
   const ColorCell own{std::int32_t(std::floor(p[0])), std::int32_t(std::floor(p[1])), std::int32_t(std::floor(p[2]))};
   const auto looks_there = [&](std::span<const CellColor> cell) {
@@ -155,7 +156,7 @@ std::span<const CellColor> NearbyColors::nearest(const Cells& cells, const Vec3d
         if (cell.empty()) continue;
         const Vec3d d{x + 0.5 - p[0], y + 0.5 - p[1], z + 0.5 - p[2]};
         const std::pair<bool, double> distance{!looks_there(cell), dot(d, d)};
-        if (distance >= least) continue;  // among equals the first
+        if (distance >= least) continue;  // the first of equal ones wins
         best = cell;
         least = distance;
       }
@@ -214,7 +215,7 @@ std::size_t SceneColors::number_of(const GridFrame& level) const {
   return std::size_t(n);
 }
 
-/// Corner of cell (0,0,0): that of the finest level's voxel (0,0,0), in lattice units of `level`.
+/// Returns the corner of cell (0,0,0), which is that of the finest level's voxel (0,0,0), in lattice units of `level`.
 Vec3d SceneColors::origin_in(const GridFrame& level) const {
   const double times = level.voxel / frame_.voxel;
   Vec3d origin;

@@ -5,13 +5,13 @@
 
 #include "lib/pass/color/detail/face_colors.h"
 
-// [KBS11] Kavan, Bargteil and Sloan, Least squares vertex baking, 2011: minimises the squared difference between what
-// is interpolated over the faces and what was sampled there. We differ in the regularization: not towards smoothness
-// across edges but, weakly, towards each vertex's own weighted mean, which also decides where samples are too few;
-// samples far from what fits a face are outliers and count little (face_colors.cpp), because a least squares fit of a
-// step is a slope over all of the face; and a vertex has a colour for each group of faces whose colours go on from one
-// to the next. The matrix is then bounded by its diagonal whatever the mesh is, and ten rounds of conjugate gradients
-// are far below a step of 8 bits.
+// Source: [KBS11] Kavan, Bargteil and Sloan, Least squares vertex baking, 2011. It minimises the squared difference
+// between the colours that are interpolated over the faces and those that were sampled there. We differ in three ways.
+// The regularization pulls weakly towards each vertex's own weighted mean, not towards smoothness across edges; it also
+// decides where samples are too few. Samples far from a face's fit are outliers and count little (face_colors.cpp),
+// because a least squares fit of a step is a slope over the whole face. A vertex has a colour for each group of faces
+// whose colours go on from one to the next. So the diagonal bounds the matrix, whatever the mesh is, and ten rounds of
+// conjugate gradients are far below a step of 8 bits.
 
 namespace bp {
 
@@ -42,7 +42,7 @@ class Baker {
   }
 
  private:
-  /// Corners that share a colour.
+  /// The corners that share a colour.
   struct Group {
     double mass = 0, diagonal = 0;
     Rgb mean{}, right{}, low{65535, 65535, 65535}, high{};
@@ -90,7 +90,7 @@ class Baker {
     }
   }
 
-  /// Conjugate gradients from the means on, each equation divided by its diagonal.
+  /// Runs conjugate gradients from the means on, with each equation divided by its diagonal.
   void solve(std::size_t channel) {
     const std::size_t n = groups_.size();
     std::vector<double> x(n), r(n), p(n), q(n);
@@ -130,7 +130,7 @@ class Baker {
   LatticeMesh& mesh_;
   const NearbyColors& colors_;
   const std::vector<FaceColors> faces_;
-  std::vector<std::array<std::uint32_t, 3>> group_;  // of each face's corners
+  std::vector<std::array<std::uint32_t, 3>> group_;  // by face: groups of its corners
   std::vector<Group> groups_;
 };
 

@@ -13,7 +13,7 @@ namespace bp {
 namespace {
 
 using Shelf = std::unique_ptr<BrickShelf>;
-constexpr int kLayers = 2;  // of voxels of the scene that are seen
+constexpr int kLayers = 2;  // layers of the scene's voxels that are seen
 
 CloseOptions close_options(const HiddenOptions& o, bool keep_cavities) {
   CloseOptions c;
@@ -28,7 +28,7 @@ ScaleField uniform(double scale) {
   return field;
 }
 
-/// Puts solid voxels on a shelf, and those that they enclose. Returns the number of these.
+/// Puts solid voxels on a shelf, and adds those that they enclose. Returns the number of these.
 std::uint64_t fill(const StreamHeader& header, BrickShelf& solid, Backends& backends, const HiddenOptions& o,
                    BrickShelf& filled) {
   StreamHeader around = header;
@@ -38,7 +38,7 @@ std::uint64_t fill(const StreamHeader& header, BrickShelf& solid, Backends& back
   return close_stream(source, sink, backends, uniform(0), {o.element}, close_options(o, false)).cavity_voxels;
 }
 
-/// What is enclosed, and C.
+/// Puts the enclosed voxels and C on a shelf.
 Shelf walls(const BrickShelf& enclosed, const BrickShelf& closed, const BrickShelf& closed_filled,
             const HiddenOptions& o) {
   Shelf out = o.context.make_shelf();
@@ -59,7 +59,7 @@ void keep_common(const BitBox& with, BitBox& voxels) {
   for (std::int64_t i = 0; i < voxels.word_count(); ++i) voxels.data()[i] &= with.data()[i];
 }
 
-/// A brick of what the outside does not reach, less what it sees of the scene.
+/// Returns a brick of the unreached voxels, without those of the scene that the outside sees.
 BitBox unseen_brick(const BrickShelf& unreached, const BrickShelf& touched, BrickCoord at) {
   const VoxelBox brick = voxels_of({at, {at.x + 1, at.y + 1, at.z + 1}});
   BitBox behind(brick.grown(kLayers)), scene(behind.box());
@@ -85,11 +85,11 @@ Shelf enclosed_voxels(const StreamHeader& header, BrickShelf& touched, Backends&
   return out;
 }
 
-// Closed is U, what G encloses and G, and not G itself: that has less of a boundary, and the same O'. A path by faces
-// from a voxel outside U to one in U crosses G no farther away, along each axis, so it is as near to U as to G. So both
-// have the same dilation outside U, and the same erosion: a voxel that takes something away there is not in U, for G
-// would be in reach of it. O cannot enter U in either case. So C of U is C of G without U. What G and C enclose holds
-// U anyway; without C it is U.
+// The closing is that of U: G and the voxels that G encloses. It is not that of G, since U has less boundary and gives
+// the same O'. A path over faces from a voxel outside U to one in U crosses G no farther away, along each axis, so the
+// voxel is as near to U as to G. So U and G have the same dilation outside U. They have the same erosion, too: a voxel
+// that erodes another one there is not in U, for G would be in reach of it. O cannot enter U in either case. So C of U
+// is C of G without U. The voxels that G and C enclose hold U anyway; without C they are U.
 Shelf unreached_voxels(const StreamHeader& header, BrickShelf& enclosed, Backends& backends, const HiddenOptions& o) {
   Shelf closed = close_shelf(header, enclosed, backends, uniform(o.scale_world), {o.element}, close_options(o, true));
   Shelf closed_filled = o.context.make_shelf();

@@ -19,8 +19,8 @@ namespace bp {
 
 namespace {
 
-constexpr std::size_t kMostDeep = 12;  // octants of octants
-constexpr double kAround = 0.125;      // of a box's side: as far normals of faces are joined
+constexpr std::size_t kMostDeep = 12;  // octants within octants, at most
+constexpr double kAround = 0.125;      // of a box's side: normals of faces within this distance are joined
 
 Bounds3d grown(const Bounds3d& box) {
   Bounds3d out = box;
@@ -32,7 +32,7 @@ Bounds3d grown(const Bounds3d& box) {
   return out;
 }
 
-/// In an order that depends on nothing but what they are.
+/// Returns the triangles in an order that depends only on their content.
 std::vector<TexturedTriangle> triangles_in(const SceneLooks& looks, const Bounds3d& box) {
   std::vector<TexturedTriangle> all;
   looks.visit(box, [&](const TexturedTriangle& t) { all.push_back(t); });
@@ -127,7 +127,8 @@ class LeafCutter {
     for (const LeafVertex* p : {&a, &b, &c}) add_to_bounds(*p);
   }
 
-  /// The vertex is relative to the leaf's origin. Where the sum of both is rounded, the doubles around it are added.
+  /// Adds a vertex, which is relative to the leaf's origin. If the sum of both is rounded, the doubles around it are
+  /// added.
   void add_to_bounds(const LeafVertex& v) {
     Vec3d low, high;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -156,7 +157,7 @@ class LeafCutter {
   const SceneLooks& looks_;
   const Bounds3d box_;
   SceneLeaf leaf_;
-  std::map<ResultKey, GrowingPart> parts_;  // by all that decides how it looks
+  std::map<ResultKey, GrowingPart> parts_;  // by everything that decides how the part looks
 };
 
 LeafBox counted(const SceneLooks& looks, const Bounds3d& box, std::string path) {
@@ -165,7 +166,7 @@ LeafBox counted(const SceneLooks& looks, const Bounds3d& box, std::string path) 
   return out;
 }
 
-/// Octants help if few triangles reach into several of them.
+/// Divides a box into octants if that helps: if few triangles reach into several of them.
 void find_boxes(const SceneLooks& looks, const LeafBox& at, std::vector<LeafBox>& out) {
   if (at.triangles == 0) return;
   std::array<LeafBox, 8> octants;
@@ -201,7 +202,7 @@ double leaf_unit(double voxel, std::int32_t edge_vox) {
 }
 
 double leaf_error(double unit) {
-  return unit * 0.87;  // half a diagonal, and what doubles round
+  return unit * 0.87;  // half a diagonal, and the rounding of doubles
 }
 
 void add_leaf_to(KeyHash& hash, const SceneLooks& looks, const Bounds3d& box) {

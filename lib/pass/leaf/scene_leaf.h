@@ -4,10 +4,10 @@
 
 #include "lib/pass/bake/scene_looks.h"
 
-/// Pieces of a scene as it is: its own triangles, cut by the faces of boxes (docs/decisions/0025-leaves.md).
+/// Pieces of the scene itself: its own triangles, cut by the faces of boxes (docs/decisions/0025-leaves.md).
 namespace bp {
 
-/// Positions are whole multiples of a short double, so that float32 holds them, and neighbours agree.
+/// A vertex. Its position is a whole multiple of a short double, so float32 holds it, and neighbours agree.
 struct LeafVertex {
   std::array<std::int32_t, 3> at{};  ///< from SceneLeaf::origin, in units
   std::array<float, 3> normal{};     ///< of length 1
@@ -16,7 +16,7 @@ struct LeafVertex {
   friend auto operator<=>(const LeafVertex&, const LeafVertex&) = default;
 };
 
-/// Triangles that look alike.
+/// The triangles that look alike.
 struct LeafPart {
   std::uint32_t material = TriangleTexture::kNoMaterial;
   std::vector<LeafVertex> vertices;
@@ -31,33 +31,34 @@ struct SceneLeaf {
   [[nodiscard]] std::uint64_t triangles() const;
 };
 
-/// A box, and the octants from the cell to it: a digit each (octant_of()).
+/// A box, and its octants from the cell down to it, one digit each (octant_of()).
 struct LeafBox {
   Bounds3d box;
   std::string path;
-  std::uint64_t triangles = 0;  ///< of the scene that meet it, by their bounds
+  std::uint64_t triangles = 0;  ///< triangles of the scene that meet it, by their bounds
 };
 
-/// Triangles that meet a leaf, at most, unless smaller boxes do not help.
+/// The triangles that meet a leaf, at most, unless smaller boxes do not help.
 constexpr std::uint64_t kMostLeafTriangles = std::uint64_t(1) << 16;
 
-/// While a leaf is cut and written; those around it count, too.
+/// Memory while a leaf is cut and written. Triangles around it count, too.
 constexpr std::uint64_t kLeafBytesPerTriangle = 1000;
 
-/// A cell, or octants of it that have few enough triangles; none where there are no triangles.
+/// Returns a cell, or octants of it that have few enough triangles; nothing if there are no triangles.
 [[nodiscard]] std::vector<LeafBox> leaf_boxes(const SceneLooks& looks, const Bounds3d& cell);
 
-/// The lattice of all leaves of cells with `edge_vox` voxels of `voxel`: float32 holds half a cell of its units.
+/// Returns the unit of the lattice of all leaves of cells with `edge_vox` voxels of `voxel`: float32 holds half a cell
+/// in it.
 [[nodiscard]] double leaf_unit(double voxel, std::int32_t edge_vox);
-/// No vertex of a leaf lies farther than this from where it is in the scene.
+/// Returns a bound on how far a vertex of a leaf lies from its place in the scene.
 [[nodiscard]] double leaf_error(double unit);
 
-/// Everything that decides cut_leaf().
+/// Adds everything that decides cut_leaf().
 void add_leaf_to(KeyHash& hash, const SceneLooks& looks, const Bounds3d& box);
 
-/// The scene in the closed box. Where the scene has no normals, those of faces that meet at less than kCreaseDegrees
-/// are joined. The same for any order of the scene's triangles. Memory: kLeafBytesPerTriangle for each of
-/// LeafBox::triangles.
+/// Returns the scene in the closed box. Where the scene has no normals, those of faces that meet at less than
+/// kCreaseDegrees are joined. The result does not depend on the order of the scene's triangles. Memory:
+/// kLeafBytesPerTriangle for each of LeafBox::triangles.
 [[nodiscard]] SceneLeaf cut_leaf(const SceneLooks& looks, const Bounds3d& box, double unit);
 
 }  // namespace bp

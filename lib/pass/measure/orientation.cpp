@@ -19,12 +19,12 @@ using detail::Frame;
 using detail::FrameLattice;
 using detail::FrameTensor;
 
-constexpr std::int32_t kMostCellsAlong = 32;         ///< along an axis
-constexpr double kPlaceWeight = 1000;                ///< of a frame at a place; 1: a cell's side full of surface
+constexpr std::int32_t kMostCellsAlong = 32;  ///< cells along an axis
+constexpr double kPlaceWeight = 1000;         ///< weight of a frame at a place; 1 is a cell's side full of surface
 constexpr double kUpright = 0.99984769515639123915;  ///< cosine of a degree
 constexpr double kMerged = 0.99939082701909573001;   ///< cosine of 2 degrees: a cube turned by them looks the same
 
-/// The smallest cells that will do.
+/// Returns the edge of the smallest allowed cells.
 std::int32_t cell_edge(const VoxelBox& voxels, double scale_vox) {
   std::int32_t edge = kScaleStep;
   const auto too_many = [&] {
@@ -42,7 +42,7 @@ FixedQuaternion fixed(const std::array<double, 4>& q) {
   return {part(q[0]), part(q[1]), part(q[2]), part(q[3])};
 }
 
-/// A little of the whole scene, where a cell has walls of one direction only.
+/// Adds a little of the whole scene's tensor, for cells with walls of one direction only.
 void add_mean(const FrameLattice& lattice, std::vector<FrameTensor>& tensors) {
   constexpr double kShare = 0.02;
   FrameTensor mean;
@@ -57,7 +57,7 @@ void add_mean(const FrameLattice& lattice, std::vector<FrameTensor>& tensors) {
   }
 }
 
-/// An axis within a degree of one of the grid becomes that: what stands upright is closed faster.
+/// Replaces an axis within a degree of one of the grid's by that one: upright parts are closed faster.
 Frame upright(Frame frame) {
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t g = 0; g < 3; ++g) {
@@ -80,7 +80,7 @@ class Palette {
  public:
   Palette() { add({Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}}); }
 
-  /// The nearest rotation within kMerged, or a new one. Cost: a look at those nearby.
+  /// Returns the number of the nearest rotation within kMerged, or of a new one. Cost: a look at the rotations nearby.
   std::uint16_t index(const Frame& frame) {
     const Place at = place(detail::least_turn(frame));
     double best = kMerged;
@@ -101,7 +101,8 @@ class Palette {
   [[nodiscard]] const std::vector<FixedQuaternion>& rotations() const { return rotations_; }
 
  private:
-  /// Of the last three parts of a quaternion: those of rotations within kMerged are in it, or in one beside it.
+  /// A cell for the last three parts of a quaternion. Rotations within kMerged are in the same cell, or in one next to
+  /// it.
   using Place = std::array<int, 3>;
   static Place place(const std::array<double, 4>& q) {
     constexpr double kEdge = 0.022;  // rotations that move each axis by 2 degrees at most are 2.45 degrees apart
@@ -120,7 +121,8 @@ class Palette {
 
   std::vector<Frame> frames_;
   std::vector<FixedQuaternion> rotations_;
-  std::map<Place, std::vector<std::uint16_t>> places_;  ///< of each, whichever of the 24 turns comes near
+  /// Rotations by place: each is listed for whichever of the 24 turns comes near.
+  std::map<Place, std::vector<std::uint16_t>> places_;
 };
 
 }  // namespace
@@ -128,7 +130,7 @@ class Palette {
 struct OrientationMaker::Sums {
   GridFrame frame;
   OrientationField field;  ///< its lattice
-  FrameLattice lattice;    ///< known: sums, until made
+  FrameLattice lattice;    ///< `known` holds sums until make() is called
 
   [[nodiscard]] std::size_t cell_of(const Vec3d& p) const {
     const Vec3d at = frame.to_voxels(p);
@@ -211,7 +213,7 @@ OrientationField OrientationMaker::make() const {
   field.cells.resize(lattice.count());
   for (const std::size_t i : order) field.cells[i] = palette.index(frames[i]);
   field.rotations = palette.rotations();
-  if (std::find(field.cells.begin(), field.cells.end(), 0) == field.cells.end()) {  // all are turned
+  if (std::find(field.cells.begin(), field.cells.end(), 0) == field.cells.end()) {  // all cubes are turned
     field.rotations.erase(field.rotations.begin());
     for (std::uint16_t& cell : field.cells) --cell;
   }

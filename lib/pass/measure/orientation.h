@@ -10,20 +10,20 @@ namespace bp {
 
 class OrientationMaker {
  public:
-  /// For a closing of the grid of `header` by cubes of about this scale: cells are as large as the scale, or larger,
-  /// and at most 32 along each axis. Throws bad_input if the header has no scene.
+  /// Prepares a field for a closing of the grid of `header` by cubes of about this scale. Cells are as large as the
+  /// scale, or larger, and at most 32 along each axis. Throws bad_input if the header has no scene.
   OrientationMaker(const StreamHeader& header, double scale_world);
   ~OrientationMaker();
   OrientationMaker(const OrientationMaker&) = delete;
   OrientationMaker& operator=(const OrientationMaker&) = delete;
 
-  /// A triangle of the scene: cubes stand on it, by its area.
+  /// Adds a triangle of the scene. Cubes stand on it, with a weight by its area.
   void add(const TriangleD& triangle);
-  /// A frame at a place, at right angles, of unit length: what is there is turned so.
+  /// Adds a frame at a place: axes at right angles, of unit length. Cubes there are turned like it.
   void add(const Vec3d& at, const std::array<Vec3d, 3>& axes);
 
-  /// Smooth between what was added, and nearly constant where it can be: rotations within 2 degrees of each other are
-  /// one. The same field for any number of threads.
+  /// Returns a field that is smooth between what was added, and nearly constant where possible: rotations within 2
+  /// degrees of each other become one. The same field for any number of threads.
   [[nodiscard]] OrientationField make() const;
 
  private:

@@ -17,33 +17,33 @@ namespace {
 
 constexpr std::size_t kMostBoxes = 4096;
 constexpr double kMostCells = 1 << 28;      // bits of all levels: 32 MiB
-constexpr double kBoxesAtWork = 10;         // of a tile and its halo, in openings()
+constexpr double kBoxesAtWork = 10;         // boxes at work in openings(), each of a tile and its halo
 constexpr double kLargestBelow = 15. / 16;  // the largest scale with a reach of r is r and this
-constexpr std::int32_t kMostReach = 4094;   // of a scale
+constexpr std::int32_t kMostReach = 4094;   // voxels; the largest reach of a scale
 
 std::int32_t longest_side(const VoxelBox& box) {
   const VoxelCoord size = box.size();
   return std::max({size.x, size.y, size.z});
 }
 
-/// What a rule means in voxels.
+/// A rule in voxels.
 struct Reaches {
-  std::int32_t thin = 0;             ///< h of thin_parts(); 0: of all parts
-  std::int32_t closes = -1;          ///< reach of the free cubes that keep a place open; -1: nothing is closed
-  std::vector<std::int32_t> levels;  ///< as openings() takes them; empty: none is kept open
-  std::vector<std::int32_t> scales;  ///< of each level, voxels, without kLargestBelow
-  /// Voxels around a tile that decide about it.
+  std::int32_t thin = 0;             ///< h of thin_parts(); 0: all parts count
+  std::int32_t closes = -1;          ///< reach of the free cubes that keep a place open; -1: no place closes
+  std::vector<std::int32_t> levels;  ///< for openings(); empty: no opening is kept
+  std::vector<std::int32_t> scales;  ///< scale of each level, voxels, without kLargestBelow
+  /// Returns how many voxels around a tile decide about it.
   [[nodiscard]] std::int32_t halo() const {
     const std::int32_t widest = levels.empty() ? 0 : levels[0];
     return std::max({4 * widest + 1, thin > 0 ? 2 * widest + 1 + 4 * thin : 0, 2 * closes, 1});
   }
-  /// Farthest that a voxel may lie from the solid to be marked.
+  /// Returns how far a voxel may lie from the solid and still be marked.
   [[nodiscard]] std::int32_t farthest() const { return std::max(2 * (levels.empty() ? 0 : levels[0]), closes) + 1; }
-  /// Farthest beyond the solid's bounding box: there and farther out, cubes of every reach are free.
+  /// Returns how far beyond the solid's bounding box marks may lie: farther out, cubes of every reach are free.
   [[nodiscard]] std::int32_t outermost() const { return std::max(levels.empty() ? 0 : levels[0], closes) + 1; }
 };
 
-/// `longest_side` of the scene, voxels.
+/// Returns a rule in voxels. `longest_side` is that of the scene.
 Reaches reaches_of(const ShapeRule& rule, const ScaleField& before, const GridFrame& frame, std::int32_t longest_side) {
   Reaches r;
   const double length_vox = std::min(rule.length / frame.voxel, 4. * kMostReach);
@@ -105,13 +105,13 @@ class ShapeMeasurer {
   }
 
  private:
-  /// Cells of the samples, or larger ones where these would be too many.
+  /// Lays the cells of the samples, or larger ones if there would be too many.
   void lay_cells() {
     const std::size_t levels = std::max<std::size_t>(reaches_.levels.size(), 1);
     while (double(space_.volume()) / std::pow(step_, 3) * double(levels) > kMostCells) step_ *= 2;
     cells_.assign(levels, BitBox(cells_of(space_)));
   }
-  /// Of all levels, and of what few_boxes_of() takes of one.
+  /// Returns the bytes of all levels, and of few_boxes_of() for one level.
   [[nodiscard]] double cell_bytes() const {
     return 8 * double(cells_[0].word_count()) * double(cells_.size() + 2) + 2 * kMostBoxes * sizeof(VoxelBox);
   }
@@ -140,7 +140,7 @@ class ShapeMeasurer {
     tiles_ = TileGrid(space_, edge);
     return int(std::clamp((memory - cells) / bytes, 1.0, double(thread_count())));
   }
-  /// Voxels of the largest box of a tile and its halo, in whole words.
+  /// Returns the voxels of the largest box of a tile and its halo, in whole words.
   [[nodiscard]] double box_volume(std::int32_t tile) const {
     const auto side = [&](int axis) { return std::min(tile + 2.0 * reaches_.halo(), double(space_.size()[axis])); };
     return (side(0) + 64) * side(1) * side(2);
@@ -185,7 +185,7 @@ class ShapeMeasurer {
     for (std::int32_t z = box.min.z; z < box.max.z; ++z) {
       for (std::int32_t y = box.min.y; y < box.max.y; ++y) {
         const std::uint64_t* row = voxels.row(y, z);
-        for (std::int32_t x = box.min.x; x < box.max.x; x += 8) {  // a byte of a row is in one cell
+        for (std::int32_t x = box.min.x; x < box.max.x; x += 8) {  // a byte of a row lies in one cell
           const std::int32_t at = x - voxels.box().min.x;
           if ((row[at >> 6] >> (at & 63) & 0xff) != 0) return true;
         }
@@ -222,7 +222,7 @@ class ShapeMeasurer {
     return rules;
   }
 
-  /// The sample at the least corner of a cell: what lies between the samples of a box has its scale.
+  /// Returns the sample at the least corner of a cell. Everything between the samples of a box has its scale.
   [[nodiscard]] Vec3d sample_at(VoxelCoord cell, std::int32_t unit) const {
     const auto along = [&](std::int32_t c) {
       return std::int64_t(c) * unit * step_ * kLatticePerVoxel + kLatticePerVoxel / 2;
@@ -236,9 +236,9 @@ class ShapeMeasurer {
   const Reaches& reaches_;
   const MeasureOptions& options_;
   const VoxelBox space_;            // whole bricks
-  TileGrid tiles_;                  // of it
-  std::int32_t step_ = kScaleStep;  // of the cells, voxels
-  std::vector<BitBox> cells_;       // of each level; of level 0, what closes
+  TileGrid tiles_;                  // tiles of `space_`
+  std::int32_t step_ = kScaleStep;  // edge of the cells, voxels
+  std::vector<BitBox> cells_;       // of each level; level 0 holds the places that close
   std::mutex mutex_;
 };
 

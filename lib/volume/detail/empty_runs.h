@@ -8,8 +8,8 @@
 
 /// The empty voxels of a tile as runs along x, each with a provisional label of its connected component.
 ///
-/// Runs come (begin, end) from the packed words, each is united with those that overlap it in the row before and in the
-/// slice before. Only two slices of runs are alive; a second scan repeats the same provisional labels instead of
+/// Runs come (begin, end) from the packed words. Each is united with the runs that overlap it in the row before and in
+/// the slice before. Only two slices of runs are alive; a second scan repeats the same provisional labels instead of
 /// storing them.
 namespace bp::detail {
 
@@ -18,15 +18,15 @@ struct Run {
   std::uint32_t label;
 };
 
-/// Bits [begin, end) of a word.
+/// Returns the bits [begin, end) of a word.
 [[nodiscard]] inline std::uint64_t bit_range(std::int32_t begin, std::int32_t end) {
   return (~std::uint64_t(0) << begin) & (~std::uint64_t(0) >> (64 - end));
 }
 
-/// emit(begin, end) for each run of zero bits in bits [first, last) of `row`; positions count from `first`.
+/// Calls emit(begin, end) for each run of zero bits in bits [first, last) of `row`. Positions count from `first`.
 template <class Emit>
 void for_empty_runs(const std::uint64_t* row, std::int32_t first, std::int32_t last, const Emit& emit) {
-  std::int32_t open = -1;  // begin of the run that reaches the current word, in bits of the row
+  std::int32_t open = -1;  // where the run that reaches the current word begins, in bits of the row
   for (std::int32_t base = first & ~63; base < last; base += 64) {
     std::uint64_t empty = ~row[base / 64] & bit_range(std::max(first - base, 0), std::min(last - base, 64));
     if (empty == ~std::uint64_t(0)) {
@@ -71,11 +71,11 @@ struct Slice {
 
 constexpr std::uint32_t kNoLabel = ~std::uint32_t(0);
 
-/// A cursor over the runs of a neighbouring row; calls get ascending runs.
+/// A cursor over the runs of a neighbouring row. Calls must come with ascending runs.
 class Neighbours {
  public:
   Neighbours(const Run* begin, const Run* end) : at_(begin), end_(end) {}
-  /// touch(label) for each run that overlaps [begin, end).
+  /// Calls touch(label) for each run that overlaps [begin, end).
   template <class Touch>
   void overlaps(std::int32_t begin, std::int32_t end, const Touch& touch) {
     while (at_ != end_ && at_->end <= begin) ++at_;
@@ -86,16 +86,16 @@ class Neighbours {
   const Run *at_, *end_;
 };
 
-/// True if bits [first, last) of `row` are zero, both multiples of 64.
+/// Returns true if bits [first, last) of `row`, both multiples of 64, are zero.
 [[nodiscard]] inline bool empty_words(const std::uint64_t* row, std::int32_t first, std::int32_t last) {
   std::uint64_t any = 0;
   for (std::int32_t word = first / 64; word < last / 64; ++word) any |= row[word];
   return any == 0;
 }
 
-/// A scan of the empty runs of `tile`, in a fixed order. Each gets the provisional label of the first run that overlaps
-/// it in the row before, else in the slice before, else fresh(); unite(a, b) reports every other overlap. Then
-/// visit(run, y, z), y and z from the tile's corner. Two scans of the same bits give the same labels.
+/// Scans the empty runs of `tile` in a fixed order. A run gets the provisional label of the first run that overlaps it
+/// in the row before, else in the slice before, else fresh(); unite(a, b) reports every other overlap. Then visit(run,
+/// y, z) is called, with y and z from the tile's corner. Two scans of the same bits give the same labels.
 template <class Fresh, class Unite, class Visit>
 class RunScan {
  public:
@@ -114,7 +114,7 @@ class RunScan {
     for (std::int32_t z = 0; z < size.z; ++z) {
       now_.clear();
       for (std::int32_t y = 0; y < size.y; ++y) {
-        now_.reserve_row(size.x);  // pointers to the runs beside stay valid
+        now_.reserve_row(size.x);  // pointers to the adjacent runs stay valid
         const std::uint64_t* const row = solid_.row(tile_.min.y + y, tile_.min.z + z);
         if (aligned && y > 0 && beside_is_empty(y, size.x) && empty_words(row, first_, last_)) {
           add_empty_row(y, z);
@@ -132,7 +132,7 @@ class RunScan {
     return now_.end(y - 1) - now_.begin(y - 1) == 1 && now_.runs.back().begin == 0 && now_.runs.back().end == width;
   }
 
-  /// Most rows are empty beside empty ones: the run beside takes them in, whatever lies below.
+  /// Adds an empty row. Most empty rows lie next to empty ones: the adjacent run takes them in, whatever lies below.
   void add_empty_row(std::int32_t y, std::int32_t z) {
     const std::uint32_t label = now_.runs.back().label;
     if (z > 0) {

@@ -7,16 +7,16 @@
 /// Connected components of the empty voxels of one tile.
 namespace bp::detail {
 
-/// Components of one tile. Those that touch a face are numbered 0, 1, ... by first appearance in the scan; the others
-/// are enclosed already.
+/// The components of one tile. Components that touch a face are numbered 0, 1, ... by first appearance in the scan. The
+/// others are enclosed already.
 struct Components {
   DisjointSets forest;
-  std::vector<std::uint8_t> at_face;   ///< per provisional label
-  std::vector<std::uint32_t> face_id;  ///< per provisional label; kNoLabel inside
+  std::vector<std::uint8_t> at_face;   ///< by provisional label
+  std::vector<std::uint32_t> face_id;  ///< by provisional label; kNoLabel for enclosed ones
   std::uint32_t face_count = 0;
   bool any_inside = false;
 
-  /// After the scan: numbers the components.
+  /// Numbers the components, after the scan.
   void number() {
     forest.flatten();
     for (std::uint32_t i = 0; i < forest.size(); ++i) at_face[forest.parent(i)] |= at_face[i];
@@ -30,7 +30,7 @@ struct Components {
   }
 };
 
-/// First scan; visit as in scan().
+/// Makes the first scan; visit() as in scan().
 template <class Visit>
 void find_components(const BitBox& solid, const VoxelBox& tile, Components& c, const Visit& visit) {
   const VoxelCoord size = tile.size();

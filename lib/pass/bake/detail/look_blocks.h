@@ -9,12 +9,12 @@
 
 namespace bp {
 
-/// Some triangles that lie near each other, ready to be looked for.
+/// Some neighbouring triangles, ready for searches.
 class LookBlock {
  public:
   explicit LookBlock(const std::vector<TexturedTriangle>& triangles);
   [[nodiscard]] const TriangleBvh& triangles() const { return triangles_; }
-  /// Of an item of triangles().
+  /// Returns the colours of an item of triangles().
   [[nodiscard]] const TriangleColors& colors(std::uint32_t item) const { return colors_[triangles_.item(item).id]; }
   [[nodiscard]] const TriangleTexture& texture(std::uint32_t item) const { return textures_[triangles_.item(item).id]; }
   [[nodiscard]] std::uint64_t bytes() const;
@@ -25,26 +25,26 @@ class LookBlock {
   std::vector<TriangleTexture> textures_;
 };
 
-/// All triangles of a scene, in blocks that wait in a store; those at work are in memory. Thread-safe after close().
+/// All triangles of a scene, in blocks that wait in a store. Blocks in use are in memory. Thread-safe after close().
 class LookBlocks {
  public:
-  /// Of a block, at most. Few enough that its hierarchy is built without other threads.
+  /// The most triangles of a block: so few that its hierarchy is built without other threads.
   static constexpr std::size_t kTriangles = 2048;
-  /// Bytes of a triangle at work, at most.
+  /// The most bytes of a triangle in use.
   static constexpr std::uint64_t kBytesEach = sizeof(TriangleBvh::Item) + 2 * 56 + 64;
 
   explicit LookBlocks(std::unique_ptr<Scratch> store) : store_(std::move(store)) {}
 
   void add(std::span<const TexturedTriangle> triangles);
-  /// After the last add(). `memory_bytes`: for blocks at work; what someone holds comes on top.
+  /// Ends the blocks after the last add(). `memory_bytes` is for blocks in use; blocks that someone holds come on top.
   void close(std::uint64_t memory_bytes);
 
   [[nodiscard]] Scratch& store() { return *store_; }
   [[nodiscard]] std::shared_ptr<const LookBlock> get(std::uint32_t block) const;
-  /// As the store keeps them.
+  /// Returns the triangles as the store keeps them.
   [[nodiscard]] std::vector<TexturedTriangle> load(std::uint32_t block) const;
   [[nodiscard]] const Bounds3d& box(std::uint32_t block) const { return boxes_[block]; }
-  /// Calls f(block) for each whose box meets this one, in any order.
+  /// Calls f(block) for each block whose box meets this one, in any order.
   template <class F>
   void visit(const Bounds3d& box, const F& f) const {
     tree_->visit(box, [&](const TriangleBvh::Item& item) { return f(item.id), false; });
@@ -54,7 +54,7 @@ class LookBlocks {
   std::unique_ptr<Scratch> store_;
   std::vector<Scratch::Handle> handles_;
   std::vector<Bounds3d> boxes_;
-  std::unique_ptr<TriangleBvh> tree_;  // of triangles that have these boxes
+  std::unique_ptr<TriangleBvh> tree_;  // over triangles that stand for the blocks' boxes
   mutable std::unique_ptr<LruCache<LookBlock>> at_work_;
 };
 

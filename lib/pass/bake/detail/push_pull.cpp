@@ -12,7 +12,7 @@ struct Channels {
   std::size_t begin, end;
 };
 
-/// Texels beside known ones get the mean of those, and are known, too.
+/// Gives texels next to known ones the mean of those, and makes them known.
 void grow(TextureImage& image, std::vector<std::uint8_t>& known, Channels c) {
   constexpr std::uint8_t kNew = 2;
   for (int y = 0; y < image.height; ++y) {
@@ -35,7 +35,7 @@ void grow(TextureImage& image, std::vector<std::uint8_t>& known, Channels c) {
   }
 }
 
-/// Half as large; known where one of four texels is.
+/// Returns a copy half as large. A texel is known if one of its four texels is.
 TextureImage halved(const TextureImage& image, const std::vector<std::uint8_t>& known, Channels c,
                     std::vector<std::uint8_t>& half_known) {
   TextureImage half((image.width + 1) / 2, (image.height + 1) / 2);
@@ -59,7 +59,7 @@ TextureImage halved(const TextureImage& image, const std::vector<std::uint8_t>& 
   return half;
 }
 
-/// From copies half, a quarter ... as large.
+/// Fills texels from copies half, a quarter ... as large.
 void push_pull(TextureImage& image, const std::vector<std::uint8_t>& known, Channels c) {
   if (image.width <= 1 && image.height <= 1) return;
   if (std::find(known.begin(), known.end(), 0) == known.end()) return;
@@ -79,7 +79,7 @@ void fill(TextureImage& image, std::vector<std::uint8_t> known, Channels c) {
   push_pull(image, known, c);
 }
 
-/// 1 for those that f(what) takes, else 0.
+/// Returns a mask: 1 for texels that f(texel) takes, else 0.
 template <class F>
 std::vector<std::uint8_t> those(const std::vector<BakedTexel>& texels, const F& f) {
   std::vector<std::uint8_t> known(texels.size());

@@ -25,15 +25,15 @@ auto held(Held& all, std::uint32_t number, const Get& get) {
   return all.back().second;
 }
 
-/// Bits: a place in an image may be no number.
+/// Returns the bits of the places, since a place in an image may be no number.
 std::array<std::array<std::uint32_t, 2>, 3> bits_of(const TriangleTexture& t) {
   return std::bit_cast<std::array<std::array<std::uint32_t, 2>, 3>>(t.uv);
 }
 
-constexpr Vec3d kUp = {0, 0, 1};  // of what has no direction
+constexpr Vec3d kUp = {0, 0, 1};  // for a vector without a direction
 
-/// The unit normal of a place by what its image of directions says there; the same one where the triangle has no area
-/// in the image.
+/// Returns the unit normal at a place, bent as its image of directions says. It stays if the triangle has no area in
+/// the image.
 Vec3d bent(const Vec3d& normal, const TriangleD& t, const TriangleTexture& texture, const LinearTexel& said,
            double scale) {
   const auto& [a, b, c] = texture.uv;
@@ -73,7 +73,7 @@ const MipImage* SceneEye::image(std::uint32_t number, MipImage::Kind kind) {
       .get();
 }
 
-/// Blocks that are no farther away than `most`, the nearest first.
+/// Calls for blocks that are no farther away than `most`, the nearest first.
 template <class Distance>
 void SceneEye::find_candidates(const Bounds3d& box, double most, const Distance& distance) {
   candidates_.clear();
@@ -122,7 +122,8 @@ std::optional<SceneEye::Seen> SceneEye::first_along(const Vec3d& start, const Ve
   return Seen{along, at(*best.block, best.item, start + along * direction, size)};
 }
 
-/// Of those that accept(block, item) takes, at most the root of `most` away; none: no block.
+/// Returns the nearest item that accept(block, item) takes, at most the root of `most` away. If there is none, it has
+/// no block.
 template <class Accept>
 SceneEye::Place SceneEye::nearest_place(const Vec3d& p, double most, const Accept& accept) {
   Bounds3d box;
@@ -211,7 +212,7 @@ LinearTexel SceneEye::numbers_at(const TextureMap& map, const TriangleD& t, cons
   return seen->at(spot.uv[0], spot.uv[1], texels, map.wrap);
 }
 
-/// None if its image is broken.
+/// Returns no light if the image is broken.
 std::array<float, 3> SceneEye::light_at(const TextureSurface& surface, const TriangleD& t,
                                         const TriangleTexture& texture, const Spot& spot) {
   if (surface.emission_factor == std::array<float, 3>{}) return {};
@@ -222,8 +223,8 @@ std::array<float, 3> SceneEye::light_at(const TextureSurface& surface, const Tri
   return light;
 }
 
-/// Normals of corners, else of the triangle; then the image of directions, in a tangent space that follows from the
-/// triangle's places in it, as viewers have it that know no tangents.
+/// Adds the surface: the normals of corners, else of the triangle; then the image of directions. Its tangent space
+/// follows from the triangle's places in it, as in viewers that know no tangents.
 void SceneEye::add_surface(const LookBlock& block, std::uint32_t item, const Spot& spot, Look& look) {
   const TriangleD& t = block.triangles().item(item).corners;
   const TriangleTexture& texture = block.texture(item);

@@ -5,27 +5,27 @@
 
 namespace bp {
 
-/// Looks at a scene. Keeps the blocks and images at hand that it had last. Not thread-safe: one for each thread.
+/// Looks at a scene. It keeps the blocks and images that it used last. Not thread-safe: each thread has its own.
 class SceneEye {
  public:
-  /// `surfaces`: looks have all, not colours and alpha only.
+  /// `surfaces`: looks are complete, not only colours and alpha.
   explicit SceneEye(const SceneLooks& looks, bool surfaces = false) : looks_(looks), surfaces_(surfaces) {}
 
-  /// The side of surfaces that is looked at: normals are turned this way.
+  /// Sets the side that surfaces are seen from. Normals are turned to it.
   void look_from(const Vec3d& side) { side_ = side; }
 
-  /// What is seen from `start` up to start + direction, over about `size` scene units along each side.
+  /// The look from `start` up to start + direction, over about `size` scene units along each side.
   struct Seen {
     double along = 1;
     Look look;
   };
-  /// `threshold`: what covers at least that much of what is behind is seen, and alone; `through`: set if something was
-  /// in the way that covers less.
+  /// Finds the first surface along a line. `threshold`: a surface counts if it covers at least this much, and then it
+  /// counts alone. `through` is set if a surface that covers less was in the way.
   [[nodiscard]] std::optional<Seen> first_along(const Vec3d& start, const Vec3d& direction, double size,
                                                 float threshold, bool& through);
-  /// The nearest place within `reach`, with an alpha of 1, or of 0 if it is a hole: it covers less than `threshold`. An
-  /// edge of holes may lie on a wall, so another place counts that covers, up to twice as far away, or two sizes
-  /// farther.
+  /// Finds the nearest place within `reach`. Its alpha is 1, or 0 for a hole, which covers less than `threshold`. An
+  /// edge of holes may lie on a wall. So another place that covers counts instead, up to twice as far away, or two
+  /// sizes farther.
   [[nodiscard]] std::optional<Look> nearest(const Vec3d& p, double reach, double size, float threshold);
 
  private:
@@ -45,9 +45,9 @@ class SceneEye {
   [[nodiscard]] Block block(std::uint32_t number);
   [[nodiscard]] const MipImage* image(std::uint32_t number, MipImage::Kind kind = MipImage::Kind::color);
   [[nodiscard]] Look at(const LookBlock& block, std::uint32_t item, const Vec3d& p, double size);
-  /// Where an image is looked at.
+  /// The place at which an image is looked at.
   struct Spot {
-    std::array<double, 3> part{};  ///< of the triangle's corners
+    std::array<double, 3> part{};  ///< shares of the triangle's corners
     std::array<double, 2> uv{};
     double size = 0;  ///< scene units
   };
@@ -60,7 +60,7 @@ class SceneEye {
   [[nodiscard]] Vec3d nearest_of(const Place& place, const Vec3d& p) const;
   template <class Accept>
   [[nodiscard]] Place nearest_place(const Vec3d& p, double most, const Accept& accept);
-  /// Of two triangles at one place, which is seen.
+  /// Decides which of two triangles at one place is seen.
   [[nodiscard]] bool before(const LookBlock& a, std::uint32_t item_a, const LookBlock& b, std::uint32_t item_b) const;
   template <class Distance>
   void find_candidates(const Bounds3d& box, double most, const Distance& distance);
@@ -71,10 +71,10 @@ class SceneEye {
   Held<LookBlock> blocks_;
   Held<MipImage> images_;
   std::vector<Candidate> candidates_;
-  Place near_;  // found last
+  Place near_;  // the place found last
 };
 
-/// Texels of an image of this size along a length of 1 on a triangle; 0 if it cannot be told.
+/// Returns the texels of an image of this size along a length of 1 on a triangle; 0 if that is unknown.
 [[nodiscard]] double texels_per_unit(const TriangleD& t, const TriangleTexture& texture,
                                      const std::array<int, 2>& size);
 

@@ -10,9 +10,9 @@ namespace bp {
 
 namespace {
 
-constexpr std::size_t kAtOnce = 1024;  // of a run that is merged
+constexpr std::size_t kAtOnce = 1024;  // triangles of a run in memory while runs are merged
 constexpr int kMortonBits = 57;
-/// Sizes: larger than an eighth of the scene, a 64th, a 512th, and all others.
+/// Classes of size: larger than an eighth of the scene, a 64th, a 512th, and all others.
 constexpr int kSizes = 4;
 
 double longest_side(const Bounds3d& b) {
@@ -21,7 +21,7 @@ double longest_side(const Bounds3d& b) {
 
 }  // namespace
 
-/// A run that comes back.
+/// A run that is read back.
 class TriangleSorter::Run {
  public:
   Run(Scratch& store, std::span<const Scratch::Handle> chunks) : store_(store), chunks_(chunks) { load(); }
@@ -49,7 +49,7 @@ class TriangleSorter::Run {
   std::size_t at_ = 0;
 };
 
-/// Triangles in their order, cut into groups.
+/// Cuts the triangles, in their order, into groups.
 class TriangleSorter::Groups {
  public:
   Groups(std::size_t most, const std::function<void(std::span<const TexturedTriangle>)>& body)
@@ -93,7 +93,7 @@ void TriangleSorter::add(const TexturedTriangle& triangle) {
   waiting_.push_back({key_of(triangle.corners), triangle});
 }
 
-/// Equal ones stay in the order of the scene.
+/// Returns the order. Equal triangles stay in the order of the scene.
 std::vector<std::uint32_t> TriangleSorter::order() const {
   std::vector<std::uint32_t> order(waiting_.size());
   std::iota(order.begin(), order.end(), 0);
@@ -125,7 +125,8 @@ void TriangleSorter::finish(std::size_t most, const std::function<void(std::span
   put_run();
   std::vector<Keyed>().swap(waiting_);
   std::vector<Run> runs;
-  using Next = std::pair<std::uint64_t, std::size_t>;  // key, run: of equal ones the earlier in the scene
+  // key, run; of equal keys the run that is earlier in the scene comes first
+  using Next = std::pair<std::uint64_t, std::size_t>;
   std::priority_queue<Next, std::vector<Next>, std::greater<>> next;
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     runs.emplace_back(store_, runs_[r]);

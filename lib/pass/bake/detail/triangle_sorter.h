@@ -8,16 +8,16 @@
 
 namespace bp {
 
-/// Puts triangles that lie near each other together, out of core: runs are sorted in memory and wait in the store; then
-/// all are merged.
+/// Puts neighbouring triangles together, out of core: runs are sorted in memory and wait in the store; then all are
+/// merged.
 class TriangleSorter {
  public:
-  /// `bounds`: of all of them. `memory_bytes`: for a run.
+  /// `bounds` of all triangles. `memory_bytes`: for a run.
   TriangleSorter(const Bounds3d& bounds, Scratch& store, std::uint64_t memory_bytes);
 
   void add(const TexturedTriangle& triangle);
-  /// After the last: all, neighbours together, at most `most` at once, and none that is far larger than another. The
-  /// same groups for any memory.
+  /// Ends the input. Calls body() for groups of neighbours, at most `most` triangles each, none of which is far larger
+  /// than another. The groups do not depend on the memory.
   void finish(std::size_t most, const std::function<void(std::span<const TexturedTriangle>)>& body);
 
  private:

@@ -41,7 +41,7 @@ bool TileCloser::in_reach(const VoxelBox& tile, const Halo& halo) const {
   return fill_of(tile.grown(halo.total_vox())) != BrickFill::empty;
 }
 
-/// Empty or full if all bricks that hold voxels of the box are.
+/// Returns empty or full if all bricks that hold voxels of the box are so.
 BrickFill TileCloser::fill_of(const VoxelBox& voxels) const {
   bool all_empty = true, all_full = true;
   const BrickBox wanted = bricks_of(voxels), there = intersect(wanted, input_.header.bricks);

@@ -24,38 +24,38 @@ class Stopwatch {
   Clock::time_point start_;
 };
 
-/// The halo of any tile where `s` is the largest scale.
+/// Returns the halo of a tile where `s` is the largest scale.
 [[nodiscard]] Halo widest_halo(Scale s, const ClosingParams& params);
 
-/// Closes the tiles of a grid one by one, and then fills what the closing encloses, over all tiles. close_stream() and
-/// close_cells() bring the tiles. Thread-safe, but for the constructor and resolve().
+/// Closes the tiles of a grid one by one, and then fills the enclosed cavities over all tiles. close_stream() and
+/// close_cells() bring the tiles. Thread-safe, except for the constructor and resolve().
 class TileCloser {
  public:
-  /// What is closed. `solid` holds the bricks of `header`.
+  /// The voxels to close. `solid` holds the bricks of `header`.
   struct Input {
     const StreamHeader& header;
     const BrickShelf& solid;
     const ScaleField& scale;
     ClosingParams params;
   };
-  /// Keeps references. `shelf` gets the closing. At most `at_work` of the backends are used. Throws bad_argument if
+  /// Keeps references. The closing goes to `shelf`. At most `at_work` of the backends are used. Throws bad_argument if
   /// there is none.
   TileCloser(const Input& input, BrickShelf& shelf, Backends& backends, std::size_t at_work);
-  /// Tiles that are kept from now on are labelled, for fill().
+  /// From now on, tiles that are kept are labelled, so that fill() can be called.
   void flood(const VoxelBox& grid, std::int32_t tile_vox);
 
   [[nodiscard]] const Halo& widest() const { return widest_; }
   [[nodiscard]] Halo halo(const VoxelBox& tile) const;
-  /// True if solid bricks lie in the tile or its halo.
+  /// Returns true if solid bricks lie in the tile or its halo.
   [[nodiscard]] bool in_reach(const VoxelBox& tile, const Halo& halo) const;
   void close(const VoxelBox& tile, const Halo& halo, BitBox& closed);
-  void keep(const VoxelBox& tile, const BitBox& closed);   ///< puts it onto the shelf, and labels it
-  void label(const VoxelBox& tile, const BitBox& closed);  ///< of a tile that is on the shelf already
+  void keep(const VoxelBox& tile, const BitBox& closed);   ///< puts the tile onto the shelf, and labels it
+  void label(const VoxelBox& tile, const BitBox& closed);  ///< labels a tile that is on the shelf already
 
   [[nodiscard]] bool floods() const { return flood_ != nullptr; }
-  void resolve() { flood_->resolve(); }  ///< when all tiles are kept
+  void resolve() { flood_->resolve(); }  ///< to be called when all tiles are kept
   [[nodiscard]] bool has_enclosed(const VoxelBox& tile) const { return flood_->has_enclosed(tile); }
-  /// Fills cavities of a tile on the shelf, and returns their voxels. `bits`: scratch.
+  /// Fills the cavities of a tile on the shelf, and returns the number of filled voxels. `bits`: scratch.
   std::uint64_t fill(const VoxelBox& tile, BitBox& bits);
 
   std::atomic<double> waiting{0}, closing{0}, labelling{0}, shelving{0}, filling{0};  ///< seconds, as CloseTimes

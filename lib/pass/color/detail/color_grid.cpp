@@ -21,7 +21,7 @@ ColorBrick brick_of(ColorCell c) {
 
 constexpr std::uint64_t kLayers = kColorCellVox, kSides = 16, kOfCell = kSides * kLayers;  // numbers in an index
 static_assert(kColorSides.size() <= kSides);
-constexpr std::uint64_t kFewest = 16;  // of what looks along an axis in a cell, the part that is enough
+constexpr std::uint64_t kFewest = 16;  // of the surface along an axis in a cell: a 16th of it is enough
 
 ColorCell cell_of(ColorBrick brick, std::uint64_t index) {
   constexpr std::int32_t e = ColorGrid::kEdge;
@@ -51,7 +51,7 @@ void ColorGrid::merge(std::vector<Entry>& entries) {
   entries.resize(kept);
 }
 
-// Sorted before the lock is taken, so that a brick is looked up once for all its cells.
+// The sums are sorted before the lock is taken, so that a brick is looked up once for all its cells.
 void ColorGrid::add(std::vector<ColorCellSum>& sums) {
   std::sort(sums.begin(), sums.end(), [](const ColorCellSum& a, const ColorCellSum& b) {
     const ColorBrick p = brick_of(a.cell), q = brick_of(b.cell);
@@ -106,7 +106,8 @@ std::vector<ColorGrid::Entry> ColorGrid::all_of(const Brick& brick) const {
   return entries;
 }
 
-/// `entries`: sorted. Layers become one: those that are seen, else those above one that is, else all.
+/// Keeps what is seen of `entries`, which are sorted. The layers of a cell become one: the seen ones; if there are
+/// none, those above a seen one; else all.
 void ColorGrid::keep_seen(std::vector<Entry>& entries, ColorBrick coord, const Mask& seen) {
   std::size_t kept = 0;
   for (std::size_t i = 0, end = 0; i < entries.size(); i = end) {

@@ -17,41 +17,42 @@ using ColorBrick = Coord3<struct ColorBrickSpace, std::int32_t>;  ///< cells [16
 class ColorGrid {
  public:
   static constexpr std::int32_t kEdge = 16;  ///< cells along a side of a brick
-  /// Of a cell: 0 if nothing of it is seen from outside, else kSeen, and a bit for each layer of it that is: 4 bits for
-  /// each of kColorAxes. kAbove times that: layers above one that is.
+  /// Returns a mask for a cell. It is 0 if nothing of it is seen from outside; otherwise it has kSeen, and a bit for
+  /// each layer that is seen: 4 bits for each of kColorAxes. Bits times kAbove mark layers above a seen one.
   using Mask = std::function<std::uint32_t(ColorCell)>;
   static constexpr std::uint32_t kSeen = 1U << 31, kAbove = 1U << 12;
 
-  /// x + 16 (y + 16 z) in the brick.
+  /// Returns x + 16 (y + 16 z) in the brick.
   [[nodiscard]] static std::uint64_t index_in(ColorBrick brick, ColorCell c) {
     return std::uint64_t((c.x - brick.x * kEdge) + kEdge * ((c.y - brick.y * kEdge) + kEdge * (c.z - brick.z * kEdge)));
   }
-  /// Of the grid of cells twice as large, the one around `c`.
+  /// Returns the cell around `c` in the grid of cells twice as large.
   [[nodiscard]] static ColorCell half_of(ColorCell c) {
     return {floor_div(c.x, 2), floor_div(c.y, 2), floor_div(c.z, 2)};
   }
 
-  /// memory_bytes: of cells that are not in the store yet. The store may be shared.
+  /// memory_bytes: for cells that are not in the store yet. The store may be shared.
   ColorGrid(std::shared_ptr<Scratch> store, std::uint64_t memory_bytes);
   ~ColorGrid();
   ColorGrid(const ColorGrid&) = delete;
   ColorGrid& operator=(const ColorGrid&) = delete;
 
-  /// Adds to what is there, and leaves `sums` empty; on any thread.
+  /// Adds sums to the cells, and leaves `sums` empty. May be called on any thread.
   void add(std::vector<ColorCellSum>& sums);
-  /// After the last add(): cells of which nothing is seen go. So does what looks along an axis in layers that are not
-  /// seen, if the cell has more that looks there. seen() makes the mask of a brick, on any thread.
+  /// Ends the input after the last add(). Cells of which nothing is seen go. In the others, surfaces along an axis go
+  /// if they lie in layers that are not seen, unless the cell has no other such surface. seen() makes the mask of a
+  /// brick, on any thread.
   void finish(const std::function<Mask(ColorBrick)>& seen);
 
-  // After finish(), on any thread:
+  // Valid after finish(), on any thread:
   [[nodiscard]] bool empty() const { return bricks_.empty(); }
   [[nodiscard]] bool all_white() const { return all_white_; }
   [[nodiscard]] std::uint64_t cells() const { return cells_; }
-  /// Cells [min, max), in order of (z, y, x, side).
+  /// Returns cells [min, max), in order of (z, y, x, side).
   [[nodiscard]] std::vector<CellColor> load(ColorCell min, ColorCell max) const;
-  /// Cells twice as large: cell c of this grid lies in half_of(c).
+  /// Returns a grid with cells twice as large: cell c of this grid lies in half_of(c).
   [[nodiscard]] std::unique_ptr<ColorGrid> reduced() const;
-  /// All cells lie in [first, second).
+  /// Returns bounds: all cells lie in [first, second).
   [[nodiscard]] std::pair<ColorCell, ColorCell> bounds() const;
 
  private:
@@ -61,7 +62,7 @@ class ColorGrid {
   };
   struct Brick {
     std::vector<Entry> entries;
-    std::size_t merged = 0;  ///< of the entries, that many are sorted, each once
+    std::size_t merged = 0;  ///< number of entries that are sorted, each once
     std::vector<Scratch::Handle> chunks;
   };
   static void merge(std::vector<Entry>& entries);

@@ -10,16 +10,18 @@ namespace bp {
 
 namespace {
 
-constexpr double kSpacing = kColorCellVox * kLatticePerVoxel / 2;  // lattice units: as the scene was sampled
+constexpr double kSpacing = kColorCellVox * kLatticePerVoxel / 2;  // lattice units; the scene was sampled as densely
 constexpr int kLeastRows = 2;
 constexpr double kMostSamples = 1 << 14;  // of a face, about: they are in memory together
 constexpr int kFitRounds = 3;
 constexpr std::size_t kColorsTried = 16;
-constexpr double kPatternFar = 0.25, kMostFar = 0.5;  // of a face: may be a pattern; is no outlier
-constexpr double kOneSide = 0.3;                      // of a pattern's variance, most that a slope may explain
-constexpr double kNear = 0.05 * 65535;                // of a colour and the fit: it counts half there
-constexpr double kLittle = kNear * kNear / 100;       // variance: all is near
-/// Colours that differ: by so much of the range of what is seen, and by so many standard deviations within the faces.
+// Shares of a face: from here on it may be a pattern; it is no outlier.
+constexpr double kPatternFar = 0.25, kMostFar = 0.5;
+constexpr double kOneSide = 0.3;                 // largest share of a pattern's variance that a slope may explain
+constexpr double kNear = 0.05 * 65535;           // distance of a colour from the fit at which it counts half
+constexpr double kLittle = kNear * kNear / 100;  // variance: below it all colours are near
+/// Two colours differ if they do so by such a share of the visible range, and by so many standard deviations within the
+/// faces.
 constexpr double kLeastStep = 0.1, kLeastDeviations = 1;
 
 Rgb rgb_of(LinearColor c) {
@@ -35,14 +37,14 @@ TriangleD corners_of(const LatticeMesh& mesh, std::size_t f) {
   return t;
 }
 
-/// Of a face: how much each corner counts there, the area it stands for, and the colour.
+/// A sample of a face: the weights of the corners, the area that it stands for, and the colour.
 struct Sample {
   std::array<double, 3> w;
   double area;
   Rgb color;
 };
 
-/// area_of(sample): as how much area it counts.
+/// area_of(sample): the area that it counts for.
 template <class Area>
 FaceColors sum_of(const std::vector<Sample>& samples, const Area& area_of) {
   FaceColors face;
@@ -64,10 +66,10 @@ FaceColors sum_of(const std::vector<Sample>& samples, const Area& area_of) {
   return face;
 }
 
-/// The linear function that is nearest to a face's colours, if nothing else is asked of it.
+/// The linear function that is nearest to a face's colours, without regard to its neighbours.
 struct FaceFit {
   std::array<Rgb, 3> corners;  // by channel
-  double variance = 0;         // of the colours around it, the sum over the channels
+  double variance = 0;         // of the colours around it, summed over the channels
 };
 
 FaceFit fit_of(const FaceColors& face) {
@@ -102,7 +104,7 @@ double squared_distance(const Sample& sample, const FaceFit& fit) {
   return sum;
 }
 
-/// What is far from a fit counts less.
+/// Returns the area that a sample counts for: less if it is far from the fit.
 double near_area(const Sample& sample, const FaceFit& fit) {
   return sample.area / (1 + squared_distance(sample, fit) / (kNear * kNear));
 }
@@ -113,7 +115,7 @@ double near_area(const std::vector<Sample>& samples, const FaceFit& fit) {
   return sum;
 }
 
-/// The same colour everywhere: of those tried, the one that most of the face is near to.
+/// Returns a fit with one colour everywhere: the colour that most of the face is near to, of those tried.
 FaceFit most_frequent(const std::vector<Sample>& samples) {
   FaceFit best;
   double most = -1;
@@ -134,7 +136,7 @@ struct Refined {
   FaceFit fit;
 };
 
-/// Rounds in which what is far from the fit of the round before counts less.
+/// Refines a fit in rounds. Samples far from the fit of the round before count less.
 Refined refined(const std::vector<Sample>& samples, const FaceFit& start, double area) {
   Refined r{{}, start};
   for (int round = 0; round < kFitRounds; ++round) {
@@ -145,11 +147,11 @@ Refined refined(const std::vector<Sample>& samples, const FaceFit& start, double
   return r;
 }
 
-/// True if what is far from the fit is half of the face, or a quarter that lies all over it, as stripes do. Another
-/// surface's colour lies at one side of it. The measure is the share of the variance of "far: 1, near: 0" that a linear
-/// function over the triangle explains: with moments of a triangle, 12 p / (1 - p) times the squared distance of what
-/// is far, p of the area, from the centre, in weights of the corners. It is above 0.5 for a band along an edge, and at
-/// most 0.2 for stripes.
+/// Returns true if the part far from the fit is half of the face, or a quarter that lies all over it, as stripes do.
+/// The colour of another surface lies at one side. The measure is the share of the variance of "far: 1, near: 0" that a
+/// linear function over the triangle explains. With the moments of a triangle it is 12 p / (1 - p) times the squared
+/// distance from the centre to the far part, which is p of the area, in weights of the corners. It is above 0.5 for a
+/// band along an edge, and at most 0.2 for stripes.
 bool is_pattern(const std::vector<Sample>& samples, const FaceFit& fit, double area) {
   Vec3d far{};  // by corner
   for (const Sample& s : samples)
@@ -160,10 +162,11 @@ bool is_pattern(const std::vector<Sample>& samples, const FaceFit& fit, double a
   return 12 * dot(off, off) < kOneSide * p * (1 - p);
 }
 
-/// What is far from a fit counts less: a band of another colour, as the foot of a wall, would tint all of the face.
-/// What fades fits, and all of it counts. Of two starts, the nearest fit to all and the most frequent colour, the one
-/// counts that ends nearer to more of the face: the first stays between two colours. All of a face with a pattern
-/// counts: its mean is what is seen from afar.
+/// Returns the colours of a face. Samples far from a fit count less: a band of another colour, such as the foot of a
+/// wall, would tint the whole face. A colour that fades over the face fits, and counts as a whole. There are two
+/// starts: the nearest fit to all samples, which stays between two colours, and the most frequent colour. The one that
+/// ends nearer to more of the face is taken. A face with a pattern counts as a whole: its mean is what is seen from
+/// afar.
 FaceColors sampled(const TriangleD& corners, const NearbyColors& colors) {
   const double area = area_of(corners);
   const Vec3d normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
@@ -182,14 +185,14 @@ FaceColors sampled(const TriangleD& corners, const NearbyColors& colors) {
   return is_pattern(samples, best.fit, plain.area()) ? plain : best.face;
 }
 
-/// Of the two faces' colours, in the middle of the edge that begins at these places in them.
+/// Returns whether two faces' colours differ in the middle of the edge that begins at these places in them.
 bool differ(const FaceFit& a, std::size_t in_a, const FaceFit& b, std::size_t in_b) {
   double difference = 0, step = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const double p = (a.corners[i][in_a] + a.corners[i][(in_a + 1) % 3]) / 2,
                  q = (b.corners[i][in_b] + b.corners[i][(in_b + 1) % 3]) / 2;
     difference += (p - q) * (p - q);
-    step = std::max(step, std::abs(std::sqrt(p / 65535) - std::sqrt(q / 65535)));  // about what sRGB does
+    step = std::max(step, std::abs(std::sqrt(p / 65535) - std::sqrt(q / 65535)));  // about as sRGB does
   }
   return step > kLeastStep && difference > kLeastDeviations * kLeastDeviations * (a.variance + b.variance);
 }

@@ -7,19 +7,19 @@ namespace bp {
 
 using Rgb = std::array<double, 3>;  ///< as LinearColor
 
-/// The pull of a fit towards the mean, in shares of its weights: where few samples tell, it stays bounded.
+/// The pull of a fit towards the mean, as a share of its weights. It bounds the fit where samples are few.
 constexpr double kTowardsMean = 0.05;
 
-/// The colours over a face, summed up over samples.
+/// The colours over a face, as sums over samples.
 struct FaceColors {
   std::array<double, 6> products{};  ///< of the corners' weights: 00 11 22 01 12 20
   std::array<double, 3> mass{};      ///< weights, by corner
   std::array<Rgb, 3> sums{};         ///< weights times colours, by corner
-  Rgb squares{};                     ///< of colours
+  Rgb squares{};                     ///< of the colours
   Rgb low{65535, 65535, 65535}, high{};
 
   [[nodiscard]] double area() const { return mass[0] + mass[1] + mass[2]; }
-  /// Lets all samples count so many times as much.
+  /// Makes all samples count so many times as much.
   void scale(double times) {
     for (double& x : products) x *= times;
     for (double& x : mass) x *= times;
@@ -31,8 +31,8 @@ struct FaceColors {
 
 [[nodiscard]] std::vector<FaceColors> face_colors(const LatticeMesh& mesh, const NearbyColors& colors);
 
-/// Corners (3 * triangle + place) that share a colour: those at a vertex, unless the colours of the faces differ at the
-/// edges between them by more than they vary within the faces.
+/// Returns groups of corners (3 * triangle + place) that share a colour. They are the corners at a vertex, unless the
+/// colours of the faces differ at the edges between them by more than they vary within the faces.
 [[nodiscard]] DisjointSets color_groups(const LatticeMesh& mesh, const std::vector<FaceColors>& faces);
 
 }  // namespace bp

@@ -12,7 +12,7 @@ namespace bp {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr std::size_t kMostFaces = 64;  // at a point
+constexpr std::size_t kMostFaces = 64;  // faces at a point
 
 /// A corner of a face: 3 * triangle + place in it.
 using Corner = std::uint32_t;

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 // Sutherland and Hodgman's clipping: x, y, z, the lower face before the upper one. An edge of the polygon is a piece of
-// a segment: an edge of the triangle, or all that it has of the plane of a face. Every point is computed from the ends
-// of the whole segment, the lesser first. So triangles on both sides of an edge, and boxes on both sides of a face,
-// have the same points, bit for bit, whatever else cuts them.
+// a segment: an edge of the triangle, or the whole section of the triangle with the plane of a face. Every point is
+// computed from the ends of the whole segment, the lesser end first. So triangles on both sides of an edge, and boxes
+// on both sides of a face, have the same points, bit for bit, whatever else cuts them.
 
 namespace bp {
 
@@ -22,7 +22,7 @@ struct CutCorner {
   std::size_t segment;
 };
 
-/// Between a and b, whatever is rounded.
+/// Returns a point between a and b, never beyond them by rounding.
 template <std::size_t N>
 std::array<double, N> between(const std::array<double, N>& a, const std::array<double, N>& b, double part) {
   std::array<double, N> out;
@@ -50,7 +50,7 @@ class TriangleCutter {
     }
   }
 
-  /// Keeps what lies on the upper side of a face, or on the lower one.
+  /// Keeps the part on the upper side of a face, or on the lower one.
   void cut(std::size_t axis, double face, bool upper) {
     const auto is_in = [&](const CutPoint& p) { return upper ? p.at[axis] >= face : p.at[axis] <= face; };
     std::vector<CutCorner> kept;
@@ -63,7 +63,7 @@ class TriangleCutter {
         kept.push_back({crossing(segments_[p.segment], axis, face), p.segment});
       if (!is_in(p.point)) continue;
       if (in_face == kNone)
-        in_face = add_segment(axis, face);  // where the polygon is left, its edge in the face begins
+        in_face = add_segment(axis, face);  // where the outline leaves the polygon, its edge in the face begins
       kept.back().segment = in_face;
     }
     polygon_ = std::move(kept);
@@ -79,7 +79,8 @@ class TriangleCutter {
  private:
   static constexpr std::size_t kNone = ~std::size_t(0);
 
-  /// Where the triangle, which has corners on both sides of the face or on it, meets its plane.
+  /// Adds the segment in which the triangle meets the plane of the face. The triangle has corners on both sides of it,
+  /// or on it.
   std::size_t add_segment(std::size_t axis, double face) {
     std::vector<CutPoint> ends;
     for (std::size_t k = 0; k < 3; ++k) {

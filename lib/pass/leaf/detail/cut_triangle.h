@@ -13,9 +13,9 @@ struct CutPoint {
   std::array<double, 3> color{};  ///< linear light, 0 to 65535
 };
 
-/// What of a triangle lies in the closed box: a convex polygon, or nothing. Triangles with a common edge are cut at the
-/// same points of it, and boxes with a common face have the same points on that face, bit for bit; a box may have more
-/// points there than its neighbour. The triangle's corners may come in any order.
+/// Returns the part of a triangle in the closed box: a convex polygon, or nothing. Triangles with a common edge are cut
+/// at the same points of it. Boxes with a common face have the same points on that face, bit for bit; one box may have
+/// more points there than its neighbour. The triangle's corners may come in any order.
 [[nodiscard]] std::vector<CutPoint> cut_triangle(const std::array<CutPoint, 3>& triangle, const Bounds3d& box);
 
 }  // namespace bp

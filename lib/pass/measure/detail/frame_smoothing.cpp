@@ -8,7 +8,7 @@ namespace {
 
 using Numbers = std::vector<double>;
 
-/// out = sum over the neighbours of (in there - in here).
+/// Sets `out` to the sum over the neighbours of (value there - value here).
 void laplacian(const std::array<std::int32_t, 3>& n, const Numbers& in, Numbers& out) {
   const std::size_t step[3] = {1, std::size_t(n[0]), std::size_t(n[0]) * std::size_t(n[1])};
   std::size_t i = 0;
@@ -33,7 +33,7 @@ double product(const Numbers& a, const Numbers& b) {
   return sum;
 }
 
-/// (weight + L L) u = weight * known, or with -L in place of L L, for one part of the tensors.
+/// Solves (weight + L L) u = weight * known, or with -L in place of L L, for one part of the tensors.
 class Solver {
  public:
   Solver(const FrameLattice& lattice, std::size_t part) : lattice_(lattice), part_(part), scratch_(lattice.count()) {}
@@ -77,7 +77,7 @@ class Solver {
     for (std::size_t i = 0; i < in.size(); ++i) out[i] = sign * out[i] + lattice_.weight[i] * in[i];
   }
   void precondition(const Numbers& in, Numbers& out) const {
-    const double diagonal = lattice_.places ? 42 : 6;  // of L L, and of L, inside
+    const double diagonal = lattice_.places ? 42 : 6;  // diagonal of L L, or of L, inside
     for (std::size_t i = 0; i < in.size(); ++i) out[i] = in[i] / (diagonal + lattice_.weight[i]);
   }
 

@@ -48,7 +48,7 @@ Frame transposed_inverse(const Frame& m) {
   return {(1 / det) * a, (1 / det) * b, (1 / det) * c};
 }
 
-/// The nearest rotation of a matrix with a positive determinant.
+/// Returns the nearest rotation of a matrix with a positive determinant.
 Frame polar(Frame m) {
   double change = 1;
   for (int i = 0; i < 60 && change > 1e-28; ++i) {
@@ -95,8 +95,8 @@ std::array<double, 4> quaternion_of(const Frame& r) {
   return q;
 }
 
-/// Each step takes the axes nearest to the gradients, which makes a convex function no worse. A little of the frame
-/// itself is kept, for tensors that say nothing about a direction.
+/// Ascends to a better frame. Each step takes the axes nearest to the gradients, which never lowers a convex function.
+/// A little of the frame itself is kept, for tensors that say nothing about a direction.
 Frame ascend(const FrameTensor& tensor, Frame frame, double keep) {
   constexpr int kMostSteps = 200;
   for (int step = 0; step < kMostSteps; ++step) {
@@ -132,7 +132,7 @@ Vec3d FrameTensor::gradient(const Vec3d& x) const {
 }
 
 Frame best_frame(const FrameTensor& tensor) {
-  // Not turned; by 45 degrees around each axis; and around both diagonals of the octants, one way and the other.
+  // Starts: not turned; turned by 45 degrees around each axis; and around both diagonals of the octants, both ways.
   constexpr double kTurn = 0.41421356237309503, kSkew = 0.25;
   static constexpr std::array<std::array<double, 4>, 12> kStarts{{{1, 0, 0, 0},
                                                                   {1, kTurn, 0, 0},
@@ -147,7 +147,7 @@ Frame best_frame(const FrameTensor& tensor) {
                                                                   {1, -kSkew, kSkew, kSkew},
                                                                   {1, kSkew, -kSkew, -kSkew}}};
   const double total =
-      tensor.m[0] + tensor.m[1] + tensor.m[2] + 2 * (tensor.m[9] + tensor.m[10] + tensor.m[11]);  // of all weights
+      tensor.m[0] + tensor.m[1] + tensor.m[2] + 2 * (tensor.m[9] + tensor.m[10] + tensor.m[11]);  // sum of all weights
   if (!(total > 0)) return {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
   Frame best{};
   double most = -1;
@@ -155,7 +155,7 @@ Frame best_frame(const FrameTensor& tensor) {
     const Frame frame = ascend(tensor, frame_of(start), 1e-3 * total);
     double value = 0;
     for (const Vec3d& axis : frame) value += dot(axis, tensor.gradient(axis));
-    if (value > most + 1e-9 * total) best = frame, most = value;  // the first of equals
+    if (value > most + 1e-9 * total) best = frame, most = value;  // the first of equal ones wins
   }
   return best;
 }

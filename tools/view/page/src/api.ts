@@ -1,4 +1,4 @@
-// What the server tells and takes (tools/view/session.h).
+// Requests to the server and its answers (tools/view/session.h).
 
 export type Vec3 = [number, number, number];
 export interface Rule {
@@ -22,7 +22,7 @@ async function checked(response: Response): Promise<Response> {
   throw new Error(message || `the server answered ${response.status}`);
 }
 
-/// Shows the token of the link once, and takes it out of the address.
+/// Sends the token of the link once, and removes it from the address.
 export async function enter(): Promise<void> {
   const token = location.hash.slice(1);
   if (!token) return;
@@ -42,7 +42,7 @@ export async function state(): Promise<State> {
   return (await checked(await fetch('/api/state'))).json();
 }
 
-/// Calls `tell` with each state; `lost` while the server does not answer.
+/// Calls `tell` with each state, and `lost` while the server does not answer.
 export function listen(tell: (state: State) => void, lost: () => void): void {
   const events = new EventSource('/api/events');
   events.onmessage = (event) => tell(JSON.parse(event.data));

@@ -1,4 +1,4 @@
-// Strokes: what the pointer does on the surface, and the rule that comes of it (docs/bpscale.1.md).
+// Strokes of the pointer on the surface, and the rules that they become (docs/bpscale.1.md).
 import * as THREE from 'three';
 import type { Rule, Vec3 } from './api';
 import { toWorld, type Length } from './lengths';
@@ -22,7 +22,7 @@ export class Brush {
 
   constructor(private canvas: HTMLCanvasElement, private view: View, private facts: () => State['scene'],
     private send: (rule: Rule, again: boolean) => void, private hover: (at: Vec3 | null) => void) {
-    // Before OrbitControls: a stroke that begins on the surface does not turn the view.
+    // This listener comes before OrbitControls, so a stroke that begins on the surface does not turn the view.
     canvas.addEventListener('pointerdown', (event) => this.down(event), { capture: true });
     canvas.addEventListener('pointermove', (event) => { this.last = event; this.schedule(); });
     canvas.addEventListener('pointerup', (event) => this.up(event));
@@ -40,7 +40,7 @@ export class Brush {
   private down(event: PointerEvent): void {
     if (event.button !== 0 || this.tool === 'turn' || event.altKey) return;
     const at = this.pickAt(event);
-    if (!at) return;  // beside the surface the view turns
+    if (!at) return;  // a drag that begins beside the surface turns the view
     event.stopImmediatePropagation();
     event.preventDefault();
     this.canvas.parentElement?.focus();
@@ -61,7 +61,7 @@ export class Brush {
     if (this.points.length > 1) this.send(this.rule(), true);
   }
 
-  /// One look at the surface for each frame, however many events come.
+  /// Looks at the surface once a frame, however many events come.
   private schedule(): void {
     if (this.pending) return;
     this.pending = true;

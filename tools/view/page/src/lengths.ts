@@ -3,7 +3,7 @@ import type { State } from './api';
 
 export type Length = number | string;
 
-/// In scene units; NaN if it is no length.
+/// Returns scene units; NaN if the text is no length.
 export function toWorld(length: Length, scene: State['scene']): number {
   if (typeof length === 'number') return length;
   const match = /^\s*([0-9.eE+-]+)\s*(%|vx)?\s*$/.exec(length), value = match ? Number(match[1]) : NaN;
@@ -11,7 +11,7 @@ export function toWorld(length: Length, scene: State['scene']): number {
   return match[2] === '%' ? (value / 100) * scene.diagonal : match[2] === 'vx' ? value * scene.voxel : value;
 }
 
-/// As JSON has it: a bare number is a number.
+/// Returns the value for JSON: a number without a unit becomes a number.
 export function parse(text: string): Length {
   const trimmed = text.trim();
   return trimmed !== '' && Number.isFinite(Number(trimmed)) ? Number(trimmed) : trimmed.replace(/\s+/g, '');
@@ -25,7 +25,7 @@ export function percent(world: number, scene: State['scene']): string {
   return `${show((world / scene.diagonal) * 100, 2)}%`;
 }
 
-/// A slider from 0 to 1000 over so many percent, by powers; at the left end it is 0 if `zero`.
+/// Maps a slider from 0 to 1000 to percent, by powers. With `zero` the left end is 0.
 export const slide = {
   least: 0.05, most: 20,
   toPercent(at: number, zero = false): number { return zero && at === 0 ? 0 : slide.least * Math.pow(slide.most / slide.least, at / 1000); },

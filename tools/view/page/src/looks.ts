@@ -1,7 +1,7 @@
 // How surfaces look: a matcap, colours by scale, and the brush drawn onto them.
 import * as THREE from 'three';
 
-/// What all materials share.
+/// Uniforms that all materials share.
 export const shared = {
   uBrush: { value: new THREE.Vector4(0, 0, 0, 0) },  // centre, relative to the middle of the scene, and radius; 0: none
   uBrushColor: { value: new THREE.Color('#2463c9') },

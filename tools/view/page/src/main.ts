@@ -1,4 +1,4 @@
-// The page of bpview. docs/bpview.1.md says what a person does here.
+// The page of bpview (docs/bpview.1.md).
 import { bytes, enter, listen, post, state as askState, type State, type Vec3 } from './api';
 import { Brush, type Tool } from './brush';
 import { show } from './lengths';
@@ -9,7 +9,7 @@ import { readMesh, readScene, readSurface } from './wire';
 const byId = <T extends HTMLElement>(id: string): T => document.getElementById(id) as T;
 let state: State;
 const shown: Record<Layer, boolean> = { scene: false, closing: true, proxy: false };
-/// What the tests wait for and read.
+/// State that the tests wait for and read.
 const told = { generation: 0, proxy: 0, revision: 0, ready: false, frames: () => view.frames };
 (window as any).bpview = told;
 
@@ -21,7 +21,7 @@ function send(path: string, body: unknown = {}): Promise<unknown> {
   queue = queue.then(() => post(path, body)).catch(complain);
   return queue;
 }
-/// Of what follows quickly, only the last waits.
+/// Runs one task at a time. If tasks follow quickly, only the last one waits; it replaces those before.
 let waiting: (() => void) | null = null;
 function sendLast(body: unknown): void {
   const idle = waiting === null;
@@ -102,7 +102,7 @@ addEventListener('keydown', (event) => {
   acts[key]?.();
 });
 
-/// Geometry that is newer than what is shown, one request at a time.
+/// Fetches geometry that is newer than what is shown, one request at a time.
 let fetching = false;
 async function follow(): Promise<void> {
   if (fetching) return;

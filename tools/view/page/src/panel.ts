@@ -1,4 +1,4 @@
-// The panel beside the view: it shows the state, and says what a person changes.
+// The panel beside the view: it shows the state, and sends a person's changes.
 import type { Rule, State } from './api';
 import { faceSlide, parse, percent, show, slide, toWorld, type Length } from './lengths';
 
@@ -30,7 +30,7 @@ export class LengthField {
       this.changed(value, false);
     });
   }
-  /// Not while a person moves it: the server's answer lags behind.
+  /// Shows a value, unless a person moves the slider: the server's answer lags behind.
   follow(value: Length): void {
     if (performance.now() - this.touched > 700 && document.activeElement !== input(this.name)) this.set(value);
   }

@@ -1,4 +1,4 @@
-// The point of the surface under the pointer: one pixel is drawn with distances in place of colours. So pieces that arrive
+// Finds the point of the surface under the pointer: one pixel is drawn with distances in place of colours. So pieces that arrive
 // with each stroke need no search tree of their own.
 import * as THREE from 'three';
 
@@ -20,7 +20,7 @@ export class Picker {
 
   constructor(private renderer: THREE.WebGLRenderer, private scene: THREE.Scene) {}
 
-  /// `x`, `y` in pixels of the canvas; null: the background.
+  /// Returns the point at pixel (`x`, `y`) of the canvas; null: the background.
   pick(camera: THREE.PerspectiveCamera, x: number, y: number, width: number, height: number, hidden: THREE.Object3D[]): THREE.Vector3 | null {
     const far = camera.far;
     this.material.uniforms.uFar.value = far;

@@ -1,4 +1,4 @@
-// What is seen: scene, closing and proxy around the middle of the scene, in scene units.
+// Draws scene, closing and proxy around the middle of the scene, in scene units.
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import type { State, Vec3 } from './api';
@@ -61,7 +61,7 @@ export class View {
     this.frame();
   }
 
-  /// The scene fills the view, from where it is seen now; at first from the front, right and above.
+  /// Makes the scene fill the view, from the present direction; at first from the front, right and above.
   frame(): void {
     const up = this.camera.up, half = new THREE.Vector3().subVectors(new THREE.Vector3(...this.facts.max), new THREE.Vector3(...this.facts.min)).multiplyScalar(0.5);
     let from = this.camera.position.clone().sub(this.controls.target);
@@ -151,7 +151,7 @@ export class View {
     this.draw();
   }
 
-  /// In scene units, relative to the middle; null: no brush.
+  /// Places the brush: scene units, relative to the middle; null: no brush.
   setBrush(at: THREE.Vector3 | null, radius: number, color: string): void {
     shared.uBrush.value.set(at?.x ?? 0, at?.y ?? 0, at?.z ?? 0, at ? radius : 0);
     shared.uBrushColor.value.set(color);
@@ -165,7 +165,7 @@ export class View {
     this.draw();
   }
 
-  /// The point of what is shown there, relative to the middle; a proxy that is seen through is passed by.
+  /// Returns the visible point there, relative to the middle. A transparent proxy is ignored.
   pick(x: number, y: number): THREE.Vector3 | null {
     const hidden: THREE.Object3D[] = [this.edges, this.stroke];
     if (this.proxyLook.transparent) hidden.push(this.layers.proxy);

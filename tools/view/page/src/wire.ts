@@ -1,4 +1,4 @@
-// Geometry as the server sends it (tools/view/wire.h).
+// Reads geometry as the server sends it (tools/view/wire.h).
 
 export interface Mesh { positions: Float32Array; normals?: Int8Array; corners?: Uint32Array }
 export interface Piece { key: string; brick: [number, number, number]; vertices: number; bytes: ArrayBuffer; corners: Uint32Array }
