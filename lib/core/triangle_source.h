@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "lib/core/box.h"
 #include "lib/core/color.h"
 #include "lib/core/coords.h"
 #include "lib/core/grid_frame.h"
@@ -139,6 +140,8 @@ class TriangleSource {
 
   [[nodiscard]] virtual const SceneCounts& counts() const = 0;  ///< since the last rewind
   [[nodiscard]] virtual std::string name() const = 0;           ///< for messages: file names
+  /// A box that is likely to be that of all triangles, if the scene tells before it is read. May read a part of it.
+  [[nodiscard]] virtual std::optional<Bounds3d> bounds() { return {}; }
   /// Axis that points up, if the scene tells (proxies of ours do); known from the first read() on.
   [[nodiscard]] virtual std::optional<UpAxis> up() const { return {}; }
 };
