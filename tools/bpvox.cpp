@@ -85,6 +85,7 @@ bp::SceneFiles scene_files(const Options& o, const bp::VoxelizeCounts& counts) {
 bp::VoxelizeOptions pass_options(const Options& o, const bp::VoxelizeBudget& budget, bp::Progress& progress) {
   bp::VoxelizeOptions v;
   v.voxel_size = [&o](const bp::Bounds3d& bounds) { return voxel_size(o, bounds); };
+  v.voxel_by_bounds = true;
   v.fill = o.voxels.fill;
   v.up = o.voxels.up;
   v.context.memory.bytes = budget.waiting;

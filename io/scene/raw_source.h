@@ -15,6 +15,7 @@ struct RawBatch {
   std::vector<TriangleTexture> textures;  ///< if asked for; fewer than triangles: the rest has none
   std::vector<std::uint8_t> inner_edges;  ///< TriangleSource::read_faces(); fewer than triangles: the rest has none
   std::vector<std::byte> bytes;           ///< that complete() will make them of
+  std::vector<std::byte> vertices;        ///< memory of complete(), to be used again
   std::uint64_t records = 0, count = 0;   ///< faces in `bytes`, and their triangles if all are good
   std::uint64_t bad_faces = 0;            ///< met by complete()
 };
@@ -49,6 +50,7 @@ class RawSource {
   }
   virtual void complete(RawBatch&) const {}
   virtual void rewind() = 0;
+  [[nodiscard]] virtual std::optional<Bounds3d> bounds() { return {}; }  ///< TriangleSource::bounds()
   [[nodiscard]] virtual std::uint64_t instances() const { return 1; }
   [[nodiscard]] virtual std::optional<UpAxis> up() const { return {}; }  ///< TriangleSource::up()
   [[nodiscard]] virtual std::size_t animations() const { return 0; }     ///< SceneCounts::animations

@@ -123,6 +123,7 @@ class FilteredScene final : public TriangleSource {
   }
   [[nodiscard]] const SceneCounts& counts() const override { return counts_; }
   [[nodiscard]] std::string name() const override { return name_; }
+  [[nodiscard]] std::optional<Bounds3d> bounds() override { return raw_->bounds(); }
   [[nodiscard]] std::optional<UpAxis> up() const override { return raw_->up(); }
 
  private:
@@ -216,7 +217,8 @@ class FilteredScene final : public TriangleSource {
       if (batch.colored) batch.colors[kept] = batch.colors[i];
       if (batch.textured) batch.textures[kept] = batch.textures[i];
       if (!batch.inner_edges.empty()) batch.inner_edges[kept] = batch.inner_edges[i];
-      triangles[kept++] = t;
+      if (kept != i) triangles[kept] = t;
+      ++kept;
     }
     triangles.resize(kept);
     if (batch.colored) batch.colors.resize(kept);

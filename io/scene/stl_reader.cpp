@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <cstring>
+#include <mutex>
 
 #include "io/files/lower.h"
-#include "io/scene/byte_stream.h"
 #include "io/scene/detail/text_scanner.h"
 #include "io/scene/raw_source.h"
+#include "lib/core/error.h"
+#include "lib/core/parallel.h"
 
 // STL, ASCII and binary. Many binary files start with "solid" too, so the size decides first: 84 bytes and 50 for each
 // of the triangles that bytes 80 to 83 promise. Only then words count: "solid", and a "facet" or an "endsolid" near by.
@@ -19,25 +21,55 @@ static_assert(std::endian::native == std::endian::little, "binary STL is decoded
 
 class BinaryStl final : public RawSource {
  public:
-  BinaryStl(SceneFilePtr file, std::uint64_t triangles) : bytes_(std::move(file), kHeaderBytes), triangles_(triangles) {
-    if (triangles < bytes_.remaining() / kTriangleBytes) {  // other readers go by the size
+  BinaryStl(SceneFilePtr file, std::uint64_t triangles) : file_(std::move(file)), triangles_(triangles) {
+    const std::uint64_t room = (file_->size() - kHeaderBytes) / kTriangleBytes;
+    if (triangles < room) {  // other readers go by the size
       fail(ErrorCode::bad_input, "{}: its header promises {} triangles, and it holds {}; the file is damaged",
-           bytes_.file().name(), triangles, bytes_.remaining() / kTriangleBytes);
+           file_->name(), triangles, room);
     }
-    if (triangles > bytes_.remaining() / kTriangleBytes) {
-      fail(ErrorCode::bad_input, "{}: promises {} triangles, but has room for {}; the file is truncated",
-           bytes_.file().name(), triangles, bytes_.remaining() / kTriangleBytes);
+    if (triangles > room) {
+      fail(ErrorCode::bad_input, "{}: promises {} triangles, but has room for {}; the file is truncated", file_->name(),
+           triangles, room);
     }
   }
   bool read(std::vector<TriangleD>& out) override {
-    out.clear();
-    for (; out.size() < kBatch && next_ < triangles_; ++next_) out.push_back(decode(bytes_.take(kTriangleBytes)));
-    return !out.empty();
+    const bool more = next(one_);
+    complete(one_);
+    out.swap(one_.triangles);
+    return more;
   }
-  void rewind() override {
-    bytes_.seek(kHeaderBytes);
-    next_ = 0;
+  bool next(RawBatch& batch) override {
+    batch.bad_faces = 0;
+    batch.records = std::min<std::uint64_t>(kBatch, triangles_ - next_);
+    fetch(next_, batch);
+    next_ += batch.records;
+    return batch.records > 0;
   }
+  void complete(RawBatch& batch) const override {
+    batch.triangles.resize(batch.records);
+    const std::byte* record = batch.bytes.data();
+    for (TriangleD& t : batch.triangles) {
+      t = decode(record);
+      record += kTriangleBytes;
+    }
+  }
+  [[nodiscard]] std::optional<Bounds3d> bounds() override {
+    Bounds3d all;
+    std::mutex mutex;
+    parallel_ranges(std::int64_t(triangles_), std::int64_t(kBatch), [&](std::int64_t begin, std::int64_t end) {
+      RawBatch batch;
+      batch.records = std::uint64_t(end - begin);
+      fetch(std::uint64_t(begin), batch);
+      Bounds3d part;
+      for (std::uint64_t i = 0; i < batch.records; ++i) {
+        for (const Vec3d& p : decode(batch.bytes.data() + i * kTriangleBytes)) part.add(p);
+      }
+      const std::lock_guard lock(mutex);
+      all.merge(part);
+    });
+    return all;
+  }
+  void rewind() override { next_ = 0; }
 
  private:
   static TriangleD decode(const std::byte* record) {
@@ -45,8 +77,15 @@ class BinaryStl final : public RawSource {
     std::memcpy(c, record + 12, sizeof c);  // behind the normal
     return {{{c[0], c[1], c[2]}, {c[3], c[4], c[5]}, {c[6], c[7], c[8]}}};
   }
-  ByteStream bytes_;
-  std::uint64_t triangles_, next_ = 0;
+  void fetch(std::uint64_t first, RawBatch& batch) const {
+    batch.bytes.resize(std::size_t(batch.records) * kTriangleBytes);
+    if (file_->read_at(kHeaderBytes + first * kTriangleBytes, batch.bytes) < batch.bytes.size())
+      fail(ErrorCode::bad_input, "{}: ends in the middle of its data; the file is truncated", file_->name());
+  }
+  const SceneFilePtr file_;
+  const std::uint64_t triangles_;
+  std::uint64_t next_ = 0;
+  RawBatch one_;
 };
 
 class AsciiStl final : public RawSource {

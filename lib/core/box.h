@@ -81,9 +81,15 @@ struct Bounds3d {
     }
   }
   void merge(const Bounds3d& b) {
-    if (b.empty()) return;
-    add(b.min);
-    add(b.max);
+    for (std::size_t i = 0; i < 3; ++i) {
+      min[i] = std::min(min[i], b.min[i]);
+      max[i] = std::max(max[i], b.max[i]);
+    }
+  }
+  [[nodiscard]] bool contains(const Bounds3d& b) const {
+    bool inside = true;
+    for (std::size_t i = 0; i < 3; ++i) inside &= b.min[i] >= min[i] && b.max[i] <= max[i];
+    return inside;
   }
   friend bool operator==(const Bounds3d&, const Bounds3d&) = default;
   [[nodiscard]] double diagonal() const;      ///< length of the diagonal, 0 when empty

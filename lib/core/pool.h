@@ -49,4 +49,30 @@ class Pool {
   std::vector<Pointer> idle_;
 };
 
+/// Memory that is used again instead of being given to the system and taken from it anew. Thread-safe.
+template <class T>
+class Spares {
+ public:
+  /// One that was given back, as it was then; else a new one.
+  [[nodiscard]] T take() {
+    const std::lock_guard lock(mutex_);
+    if (spares_.empty()) return T();
+    T spare = std::move(spares_.back());
+    spares_.pop_back();
+    return spare;
+  }
+  void give(T&& thing) {
+    const std::lock_guard lock(mutex_);
+    spares_.push_back(std::move(thing));
+  }
+  void clear() {
+    const std::lock_guard lock(mutex_);
+    std::vector<T>().swap(spares_);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<T> spares_;
+};
+
 }  // namespace bp

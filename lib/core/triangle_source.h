@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "lib/core/box.h"
 #include "lib/core/color.h"
 #include "lib/core/coords.h"
 #include "lib/core/grid_frame.h"
@@ -140,6 +141,9 @@ class TriangleSource {
 
   [[nodiscard]] virtual const SceneCounts& counts() const = 0;  ///< since the last rewind
   [[nodiscard]] virtual std::string name() const = 0;           ///< for messages: file names
+  /// Returns a box that is likely to be that of all triangles, if the scene tells it before it is read. May read a part
+  /// of the scene.
+  [[nodiscard]] virtual std::optional<Bounds3d> bounds() { return {}; }
   /// Returns the axis that points up, if the scene tells it, as our proxies do. Known from the first read() on.
   [[nodiscard]] virtual std::optional<UpAxis> up() const { return {}; }
 };

@@ -1,4 +1,6 @@
 #pragma once
+#include <bit>
+
 #include "lib/core/coords.h"
 #include "lib/core/grid_frame.h"
 
@@ -22,8 +24,43 @@ struct FixedTriangle {
   friend bool operator==(const FixedTriangle&, const FixedTriangle&) = default;
 };
 
-/// Nearest fixed-point position; the point must lie within the bounds the frame was made for (|result| < 2^47).
-[[nodiscard]] FixedPoint to_fixed(const GridFrame& frame, const Vec3d& point);
-[[nodiscard]] FixedTriangle to_fixed(const GridFrame& frame, const TriangleD& triangle);
+// The error of a coordinate, in units of 2^-16 voxel. The frame's origin o is exactly a double, and p and o are at most
+// 2^31 voxels apart (make_frame). With u = 2^-53, the three roundings are
+//   p - o        relative error u of at most 2^31 voxels                        2^-22 voxel
+//   / voxel      relative error u of the same                                   2^-22 voxel
+//   to integer   ties to even; the scaling by 2^16 before it is exact           1/2 unit
+// in sum 1/2 + 2 * 2^-22 * 2^16 (1 + u) < 1/2 + 2^-4 < 1 unit = kFixedSlack. Where the scene lies does not enter: the
+// subtraction cancels the offset before anything was rounded.
+
+/// Nearest integer of |x| < 2^51: the addition leaves no bits below one, so the hardware rounds.
+[[nodiscard]] inline std::int64_t round_to_integer(double x) {
+  constexpr double kShift = 6755399441055744.0;  // 1.5 * 2^52
+  return std::bit_cast<std::int64_t>(x + kShift) - std::bit_cast<std::int64_t>(kShift);
+}
+
+/// Nearest fixed-point positions. Points must lie within the bounds that the frame was made for (|result| < 2^47).
+class FixedFrame {
+ public:
+  explicit FixedFrame(const GridFrame& frame) : origin_(frame.world_origin()), voxel_(frame.voxel) {}
+  [[nodiscard]] FixedPoint operator()(const Vec3d& p) const { return {along(p, 0), along(p, 1), along(p, 2)}; }
+  [[nodiscard]] FixedTriangle operator()(const TriangleD& t) const {
+    return {(*this)(t[0]), (*this)(t[1]), (*this)(t[2])};
+  }
+
+ private:
+  [[nodiscard]] std::int64_t along(const Vec3d& p, std::size_t axis) const {  // as GridFrame::to_voxels()
+    return round_to_integer((p[axis] - origin_[axis]) / voxel_ * double(kFixedOne));
+  }
+  Vec3d origin_;
+  double voxel_;
+};
+
+/// The same for a few points.
+[[nodiscard]] inline FixedPoint to_fixed(const GridFrame& frame, const Vec3d& point) {
+  return FixedFrame(frame)(point);
+}
+[[nodiscard]] inline FixedTriangle to_fixed(const GridFrame& frame, const TriangleD& triangle) {
+  return FixedFrame(frame)(triangle);
+}
 
 }  // namespace bp

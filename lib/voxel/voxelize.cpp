@@ -1,9 +1,9 @@
 #include "lib/voxel/voxelize.h"
 
 #include <algorithm>
-#include <bit>
 
 #include "lib/voxel/overlap.h"
+#include "lib/voxel/voxelize_brick.h"
 
 // [SS10] Schwarz and Seidel, Fast parallel surface and solid voxelization on GPUs, 2010. We differ in that all
 // decisions are made in integers, and in that a large triangle is walked by rows: each half-space is linear, so that
@@ -22,28 +22,42 @@ CellRange intersect(const CellRange& a, const VoxelBox& b) {
   return r;
 }
 
-/// Sets bits [begin, end] of a row of words.
-void set_bits(std::uint64_t* row, std::int64_t begin, std::int64_t end) {
-  const std::uint64_t head = ~std::uint64_t(0) << (begin & 63), tail = ~std::uint64_t(0) >> (63 - (end & 63));
-  std::uint64_t* word = row + (begin >> 6);
-  std::uint64_t* const last = row + (end >> 6);
-  if (word == last) {
-    *word |= head & tail;
-    return;
-  }
-  *word++ |= head;
-  while (word != last) *word++ = ~std::uint64_t(0);
-  *word |= tail;
-}
-
-void set_box(const CellRange& r, BitBox& out) {
-  const std::int64_t x0 = r.min[0] - out.box().min.x;
-  for (std::int64_t z = r.min[2]; z < r.max[2]; ++z) {
-    for (std::int64_t y = r.min[1]; y < r.max[1]; ++y) {
-      set_bits(out.row(std::int32_t(y), std::int32_t(z)), x0, x0 + r.size(0) - 1);
+/// Where voxels are set: rows of a box, of which one thread has all.
+class BoxRows {
+ public:
+  explicit BoxRows(BitBox& bits) : bits_(bits) {}
+  [[nodiscard]] const VoxelBox& box() const { return bits_.box(); }
+  /// Voxels [begin, end] along x.
+  void set(std::int64_t begin, std::int64_t end, std::int64_t y, std::int64_t z) {
+    std::uint64_t* word = word_at(begin, y, z);
+    std::uint64_t* const last = word_at(end, y, z);
+    if (word == last) {
+      *word |= bits_between(begin, end);
+      return;
     }
+    *word++ |= bits_between(begin, 63);
+    while (word != last) *word++ = ~std::uint64_t(0);
+    *word |= bits_between(0, end);
   }
-}
+  /// ORs the low bits of a word, from voxel x on.
+  void set_few(std::uint64_t few, std::int64_t x, std::int64_t y, std::int64_t z) {
+    std::uint64_t* const word = word_at(x, y, z);
+    word[0] |= few << (x & 63);
+    const std::uint64_t rest = (few >> 1) >> (63 - (x & 63));
+    if (rest != 0) word[1] |= rest;
+  }
+  [[nodiscard]] bool has(std::int64_t begin, std::int64_t end, std::int64_t y, std::int64_t z) const {
+    const std::uint64_t* const word = word_at(begin, y, z);
+    const std::uint64_t bits = bits_between(begin, end);
+    return word == word_at(end, y, z) && (*word & bits) == bits;
+  }
+
+ private:
+  [[nodiscard]] std::uint64_t* word_at(std::int64_t x, std::int64_t y, std::int64_t z) const {
+    return bits_.row(std::int32_t(y), std::int32_t(z)) + ((x - bits_.box().min.x) >> 6);
+  }
+  BitBox& bits_;
+};
 
 /// emit(x0, x1, y, z) for each row of cells, first and last included, that the triangle meets.
 template <class EdgeInt, class PlaneInt, class Emit>
@@ -70,22 +84,12 @@ void for_each_row(const TriangleCells<EdgeInt, PlaneInt>& t, const Emit& emit) {
   }
 }
 
-template <class Triangle>
-void voxelize_rows(const Corners& corners, const CellRange& range, BitBox& out) {
+template <class Triangle, class Rows>
+void voxelize_rows(const Corners& corners, const CellRange& range, Rows& out) {
   const Triangle t(corners, range, kFixedOne);
-  const std::int64_t offset = range.min[0] - out.box().min.x;
   for_each_row(t, [&](std::int32_t x0, std::int32_t x1, std::int32_t y, std::int32_t z) {
-    set_bits(out.row(std::int32_t(range.min[1] + y), std::int32_t(range.min[2] + z)), offset + x0, offset + x1);
+    out.set(range.min[0] + x0, range.min[0] + x1, range.min[1] + y, range.min[2] + z);
   });
-}
-
-/// ORs the low `n` <= 64 bits, from voxel (range.min.x, y, z) on; y and z from the range's first.
-void set_row(const CellRange& range, std::int32_t y, std::int32_t z, std::uint64_t bits, BitBox& out) {
-  const std::int64_t x = range.min[0] - out.box().min.x;
-  std::uint64_t* word = out.row(std::int32_t(range.min[1] + y), std::int32_t(range.min[2] + z)) + (x >> 6);
-  word[0] |= bits << (x & 63);
-  const std::uint64_t rest = (bits >> 1) >> (63 - (x & 63));
-  if (rest != 0) word[1] |= rest;
 }
 
 /// Bit x is set where all the half-spaces hold, given their values at the row's first voxel.
@@ -102,7 +106,8 @@ std::uint64_t row_bits(std::int64_t (&value)[kCount], const std::int64_t (&step)
 }
 
 /// Tests each voxel of a range of a few.
-void voxelize_few(const Corners& corners, const CellRange& range, BitBox& out) {
+template <class Rows>
+void voxelize_few(const Corners& corners, const CellRange& range, Rows& out) {
   const SmallTriangle t(corners, range, kFixedOne);
   const std::int32_t nx = std::int32_t(range.size(0)), ny = std::int32_t(range.size(1)),
                      nz = std::int32_t(range.size(2));
@@ -115,13 +120,14 @@ void voxelize_few(const Corners& corners, const CellRange& range, BitBox& out) {
       std::int64_t value[8];
       for (int i = 0; i < 6; ++i) value[i] = t.edges[3 + i].value(0, y, z);
       for (int i = 0; i < 2; ++i) value[6 + i] = t.plane[i].value(0, y, z);
-      set_row(range, y, z, row_bits(value, step, nx), out);
+      out.set_few(row_bits(value, step, nx), range.min[0], range.min[1] + y, range.min[2] + z);
     }
   }
 }
 
 /// The triangle lies between the cubes' faces along `thin`: only the projection along it decides.
-void voxelize_flat(const Corners& corners, const CellRange& range, int thin, BitBox& out) {
+template <class Rows>
+void voxelize_flat(const Corners& corners, const CellRange& range, int thin, Rows& out) {
   const bool clockwise = normal_component<std::int64_t>(corners, thin) < 0;
   HalfSpace<std::int64_t> edges[3];
   std::int64_t step[3];
@@ -133,13 +139,14 @@ void voxelize_flat(const Corners& corners, const CellRange& range, int thin, Bit
     for (std::int32_t y = 0; y < range.size(1); ++y) {
       std::int64_t value[3];
       for (int e = 0; e < 3; ++e) value[e] = edges[e].value(0, y, z);
-      set_row(range, y, z, row_bits(value, step, std::int32_t(range.size(0))), out);
+      out.set_few(row_bits(value, step, std::int32_t(range.size(0))), range.min[0], range.min[1] + y, range.min[2] + z);
     }
   }
 }
 
 /// In blocks, so that the plane's values stay within 128 bits.
-void voxelize_wide(const Corners& corners, const CellRange& range, BitBox& out) {
+template <class Rows>
+void voxelize_wide(const Corners& corners, const CellRange& range, Rows& out) {
   CellRange block;
   for (block.min[2] = range.min[2]; block.min[2] < range.max[2]; block.min[2] += kWideCells) {
     for (block.min[1] = range.min[1]; block.min[1] < range.max[1]; block.min[1] += kWideCells) {
@@ -151,16 +158,24 @@ void voxelize_wide(const Corners& corners, const CellRange& range, BitBox& out) 
   }
 }
 
-void voxelize_triangle(const FixedTriangle& triangle, BitBox& out) {
+VoxelBox box_of(const CellRange& range) {
+  return {{std::int32_t(range.min[0]), std::int32_t(range.min[1]), std::int32_t(range.min[2])},
+          {std::int32_t(range.max[0]), std::int32_t(range.max[1]), std::int32_t(range.max[2])}};
+}
+
+template <class Rows>
+void voxelize_triangle(const FixedTriangle& triangle, Rows& out) {
   const Corners corners(triangle);
   const CellRange whole = voxel_range(corners), range = intersect(whole, out.box());
   if (range.empty()) return;
-  const int thin = int(whole.size(0) == 1) + int(whole.size(1) == 1) + int(whole.size(2) == 1);
-  if (thin >= 2) return set_box(range, out);  // connected, and inside the cubes in two axes: it meets each in the third
+  const bool thin = int(whole.size(0) == 1) + int(whole.size(1) == 1) + int(whole.size(2) == 1) >= 2;
+  if (settle_by_box(thin, box_of(range), out)) return;
   const std::int64_t extent = corners.extent();
   if (extent > kMediumExtent) return voxelize_wide(corners, range, out);
   if (extent > kSmallExtent) return voxelize_rows<MediumTriangle>(corners, range, out);
-  if (thin == 1) return voxelize_flat(corners, range, whole.size(0) == 1 ? 0 : whole.size(1) == 1 ? 1 : 2, out);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (whole.size(axis) == 1) return voxelize_flat(corners, range, axis, out);
+  }
   constexpr std::int64_t kFew = 64;
   if (range.size(0) * range.size(1) * range.size(2) <= kFew) return voxelize_few(corners, range, out);
   voxelize_rows<SmallTriangle>(corners, range, out);
@@ -170,7 +185,12 @@ void voxelize_triangle(const FixedTriangle& triangle, BitBox& out) {
 
 void voxelize_surface(std::span<const FixedTriangle> triangles, BitBox& out) {
   if (out.box().empty()) return;
-  for (const FixedTriangle& t : triangles) voxelize_triangle(t, out);
+  BoxRows rows(out);
+  for (const FixedTriangle& t : triangles) voxelize_triangle(t, rows);
+}
+
+void voxelize_brick(const FixedTriangle& triangle, SharedRows& out) {
+  voxelize_triangle(triangle, out);
 }
 
 namespace {

@@ -26,7 +26,7 @@ class WatchedSource : public TriangleSource {
   void rewind() override { source_.rewind(); }
   [[nodiscard]] const SceneCounts& counts() const override { return source_.counts(); }
   [[nodiscard]] std::optional<UpAxis> up() const override { return source_.up(); }
-  [[nodiscard]] const Bounds3d& bounds() const { return bounds_; }  ///< of all triangles read so far
+  [[nodiscard]] const Bounds3d& bounds_read() const { return bounds_; }  ///< of all triangles read so far
   [[nodiscard]] std::string name() const override { return source_.name(); }
 
  private:

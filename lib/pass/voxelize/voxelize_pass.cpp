@@ -10,10 +10,10 @@
 #include "lib/core/parallel.h"
 #include "lib/device/cpu/cpu_backend.h"
 #include "lib/grid/cells.h"
-#include "lib/grid/clip.h"
-#include "lib/grid/count_bits.h"
 #include "lib/pass/voxelize/detail/chunked_surface.h"
+#include "lib/pass/voxelize/detail/emit_bricks.h"
 #include "lib/pass/voxelize/detail/scene_passes.h"
+#include "lib/pass/voxelize/detail/surface_bricks.h"
 #include "lib/pass/voxelize/detail/tile_fill.h"
 #include "lib/pass/voxelize/detail/triangle_bins.h"
 #include "lib/voxel/winding.h"
@@ -42,8 +42,6 @@ class SceneVoxelizer {
   SceneVoxelizer(TriangleSource& source, Backends& backends, const VoxelizeOptions& options)
       : source_(source),
         options_(options),
-        shelf_(options.context.make_shelf()),
-        store_(options.context.make_scratch()),
         chunks_(options.context.results != nullptr && options.fill != FillMode::winding
                     ? std::make_unique<ChunkedSurface>(*options.context.results, options.context.turn)
                     : nullptr),
@@ -56,10 +54,12 @@ class SceneVoxelizer {
   }
 
   VoxelizeCounts operator()(const OpenSink& open) {
-    measure();
-    lay_grid();
+    const bool guessed = guess_grid();
+    measure(guessed);
+    lay_grid(guessed);
     BrickSink& sink = open(header_, counts_);
-    sort_triangles();
+    if (!sorted_) sort_triangles();
+    scene_.release();
     voxelize();
     fill_and_emit(sink);
     counts_.scratch_bytes = store_->scratch_bytes();
@@ -67,16 +67,17 @@ class SceneVoxelizer {
   }
 
  private:
-  struct Slab;
-
-  void measure();
-  void lay_grid();
+  [[nodiscard]] bool guess_grid();
+  void measure(bool guessed);
+  void lay_grid(bool guessed);
+  [[nodiscard]] StreamHeader header_of(const Bounds3d& bounds);
+  void cut_grid();
   using Portion = ScenePasses::Portion;
   using NextPortion = ScenePasses::NextPortion;
   void sort_triangles();
   void bin(const NextPortion& next);
   void bin(TriangleBatch&& batch);
-  [[nodiscard]] std::vector<FixedTriangle> to_fixed(std::span<const TriangleD> triangles) const;
+  [[nodiscard]] TriangleBatch sort(std::span<const TriangleD> triangles) const;
   void look_up_chunks();
   [[nodiscard]] std::vector<std::uint64_t> tiles_with_triangles() const;
   [[nodiscard]] std::uint64_t waiting_bytes() const;
@@ -84,8 +85,6 @@ class SceneVoxelizer {
   void voxelize();
   void voxelize_tile(std::uint64_t tile, bool& on_shelf, bool last);
   void fill_and_emit(BrickSink& sink);
-  void list_bricks(Slab& slab) const;
-  void emit(const Slab& slab, BrickSink& sink);
   [[nodiscard]] VoxelBox tile_box(std::uint64_t tile) const { return tiles_.box(tiles_.coord(tile)); }
 
   TriangleSource& source_;
@@ -101,27 +100,51 @@ class SceneVoxelizer {
   ScenePasses scene_;
   StreamHeader header_;
   TileGrid tiles_;
-  std::unique_ptr<TriangleBins> bins_;
+  std::unique_ptr<SurfaceBricks> bricks_;             ///< null: chunks have their own, or triangles are needed by tile
+  std::unique_ptr<TriangleBins> bins_;                ///< of triangles that bricks do not take
+  bool sorted_ = false;                               ///< all triangles are in these
   std::unordered_map<std::uint64_t, bool> on_shelf_;  ///< tiles: some of their triangles were voxelized early
   std::unique_ptr<TileFill> fill_;                    ///< null: FillMode::none
   std::atomic<std::uint64_t> surface_voxels_{0};
 };
 
-void SceneVoxelizer::measure() {
-  scene_.measure(options_.context.progress);
+/// A grid for the bounds that the source tells beforehand. Where they turn out to be right, the scene is read once.
+bool SceneVoxelizer::guess_grid() {
+  if (!options_.voxel_by_bounds || chunks_) return false;
+  const std::optional<Bounds3d> bounds = source_.bounds();
+  if (!bounds) return false;
+  try {
+    header_ = header_of(*bounds);
+    cut_grid();
+  } catch (const Error&) {  // what is wrong is told when the bounds are known
+    return false;
+  }
+  return true;
+}
+
+void SceneVoxelizer::measure(bool guessed) {
+  std::optional<ScenePasses::Sorter> sorter;
+  if (guessed) {
+    sorter = {header_.bounds, [&](std::span<const TriangleD> triangles) { return sort(triangles); },
+              [&](TriangleBatch&& batch) { bin(std::move(batch)); }};
+  }
+  scene_.measure(options_.context.progress, sorter);
   counts_.scene = source_.counts();
-  counts_.area = scene_.area();
-  counts_.extent = scene_.extent();
+  counts_.area = scene_.sums().area();
+  counts_.extent = scene_.sums().extent();
   counts_.stray = scene_.sums().stray();
   counts_.signed_volume = scene_.sums().volume();
   counts_.input_hash = scene_.input_hash();
-  counts_.read_twice = scene_.reads_twice();
 }
 
-void SceneVoxelizer::lay_grid() {
-  counts_.voxel_asked = options_.voxel_size(scene_.bounds());
-  header_ = solid_header(scene_.bounds(), counts_.voxel_asked,
-                         options_.up ? *options_.up : source_.up().value_or(UpAxis::y), options_);
+StreamHeader SceneVoxelizer::header_of(const Bounds3d& bounds) {
+  counts_.voxel_asked = options_.voxel_size(bounds);
+  const UpAxis up = options_.up ? *options_.up : source_.up().value_or(UpAxis::y);
+  return solid_header(bounds, counts_.voxel_asked, up, options_);
+}
+
+/// Cuts the grid of the header into tiles, and makes empty places for triangles and voxels.
+void SceneVoxelizer::cut_grid() {
   const VoxelBox grid = voxels_of(header_.bricks);
   const std::int32_t edge = options_.tile_vox > 0 ? options_.tile_vox : default_tile(grid);
   if (edge % kBrickEdge != 0 || edge > kMaxTileVox)
@@ -135,7 +158,14 @@ void SceneVoxelizer::lay_grid() {
   if (options_.fill == FillMode::winding && std::max({size.x, size.y, size.z}) > kWindingVoxels)
     fail(ErrorCode::bad_argument, {Remedy::flood_fill},
          "a grid over 2^24 voxels a side cannot be filled by winding numbers");
-  counts_.tiles = std::uint64_t(tiles_.total());
+  bins_.reset();
+  fill_.reset();
+  on_shelf_.clear();
+  shelf_ = options_.context.make_shelf();
+  store_ = options_.context.make_scratch();
+  bins_ = std::make_unique<TriangleBins>(tiles_, *store_);
+  if (!chunks_ && options_.fill != FillMode::winding)
+    bricks_ = std::make_unique<SurfaceBricks>(options_.context.memory.bytes / 10 * 3);
   // A GPU has few backends: the other threads load, label and shelve meanwhile.
   const std::uint64_t fit = std::max<std::uint64_t>(1, options_.tile_memory_bytes / work_bytes(edge));
   std::vector<std::unique_ptr<TileWork>> works(
@@ -146,14 +176,23 @@ void SceneVoxelizer::lay_grid() {
     fill_ = std::make_unique<TileFill>(options_.fill, tiles_, *shelf_, *store_, *backends_, *works_);
 }
 
+void SceneVoxelizer::lay_grid(bool guessed) {
+  const GridFrame guess = header_.frame;
+  const BrickBox guessed_bricks = header_.bricks;
+  header_ = header_of(scene_.sums().bounds());
+  sorted_ = guessed && scene_.sorted() && header_.frame == guess && header_.bricks == guessed_bricks;
+  if (!sorted_) cut_grid();
+  if (!sorted_ && guessed) scene_.read_twice();  // none of the triangles stayed
+  counts_.read_twice = scene_.reads_twice();
+  counts_.tiles = std::uint64_t(tiles_.total());
+}
+
 void SceneVoxelizer::sort_triangles() {
-  bins_ = std::make_unique<TriangleBins>(tiles_, *store_);
   if (chunks_) {
     look_up_chunks();
   } else {
     scene_.again([&](const NextPortion& next) { bin(next); });
   }
-  scene_.release();
 }
 
 /// The triangles of chunks that are known are not looked at again; if all are, the scene is not read twice.
@@ -168,18 +207,24 @@ void SceneVoxelizer::look_up_chunks() {
   scene_.again([&](const NextPortion& next) {
     const std::uint64_t memory = options_.context.memory.bytes;
     chunks_->add_missing(next, memory / 10, memory / 5 * 3, [&](std::uint64_t n, std::vector<TriangleD>&& large) {
-      if (!large.empty()) bin(bins_->sort(to_fixed(large)));
+      if (!large.empty()) bin(sort(large));
       steps.add(n);
     });
   });
   counts_.chunks_kept = chunks_->kept();
 }
 
-std::vector<FixedTriangle> SceneVoxelizer::to_fixed(std::span<const TriangleD> triangles) const {
-  std::vector<FixedTriangle> fixed;
-  fixed.reserve(triangles.size());
-  for (const TriangleD& t : triangles) fixed.push_back(bp::to_fixed(header_.frame, t));
-  return fixed;
+/// Sets the voxels of the triangles that bricks take; the others, by tile.
+TriangleBatch SceneVoxelizer::sort(std::span<const TriangleD> triangles) const {
+  std::vector<FixedTriangle> rest;
+  if (bricks_) {
+    bricks_->add(triangles, header_.frame, rest);
+  } else {
+    const FixedFrame to_fixed(header_.frame);
+    rest.reserve(triangles.size());
+    for (const TriangleD& t : triangles) rest.push_back(to_fixed(t));
+  }
+  return bins_->sort(rest);
 }
 
 void SceneVoxelizer::bin(TriangleBatch&& batch) {
@@ -187,7 +232,7 @@ void SceneVoxelizer::bin(TriangleBatch&& batch) {
   if (waiting_bytes() > options_.context.memory.bytes) make_room();
 }
 
-/// Triangles to fixed point, into the bins of their tiles.
+/// Triangles into bricks, or into the bins of their tiles.
 void SceneVoxelizer::bin(const NextPortion& next) {
   struct Item {
     Portion portion;
@@ -197,9 +242,12 @@ void SceneVoxelizer::bin(const NextPortion& next) {
   pipeline<Item>(
       thread_count() + 2, [&](Item& item) { return next(item.portion); },
       [&](Item& item) {
-        const std::vector<FixedTriangle> fixed = to_fixed(item.portion.triangles);
-        std::vector<TriangleD>().swap(item.portion.triangles);
-        item.batch = bins_->sort(fixed);
+        item.batch = sort(item.portion.triangles);
+        if (scene_.reads_twice()) {
+          scene_.give_back(std::move(item.portion.triangles));
+        } else {
+          std::vector<TriangleD>().swap(item.portion.triangles);
+        }
       },
       [&](Item& item) {
         bin(std::move(item.batch));
@@ -210,7 +258,8 @@ void SceneVoxelizer::bin(const NextPortion& next) {
 /// What fills memory_bytes. Were more than half of it put aside, the bins would have nothing to grow in.
 std::uint64_t SceneVoxelizer::waiting_bytes() const {
   const std::uint64_t aside = store_->memory_bytes() + shelf_->memory_bytes() + bins_->table_bytes();
-  return bins_->memory_bytes() + std::min(aside, options_.context.memory.bytes / 2);
+  return bins_->memory_bytes() + (bricks_ ? bricks_->memory_bytes() : 0) +
+         std::min(aside, options_.context.memory.bytes / 2);
 }
 
 /// Tiles with many triangles are voxelized now: their bits are far smaller. The triangles of the others go to the
@@ -238,8 +287,10 @@ void SceneVoxelizer::make_room() {
 
 std::vector<std::uint64_t> SceneVoxelizer::tiles_with_triangles() const {
   std::vector<std::uint64_t> tiles = bins_->tiles();
-  if (!chunks_) return tiles;
-  for (const BrickCoord brick : chunks_->bricks().coords()) {
+  std::vector<BrickCoord> bricks;
+  if (bricks_) bricks = bricks_->coords();
+  if (chunks_) bricks = chunks_->bricks().coords();
+  for (const BrickCoord brick : bricks) {
     const VoxelCoord from = first_voxel(brick) - tiles_.voxels.min;
     tiles.push_back(tiles_.index({from.x / tiles_.edge_vox, from.y / tiles_.edge_vox, from.z / tiles_.edge_vox}));
   }
@@ -271,6 +322,7 @@ void SceneVoxelizer::voxelize_tile(std::uint64_t tile, bool& on_shelf, bool last
   if (on_shelf) load_voxels(*shelf_, work->bits);
   on_shelf = true;
   if (chunks_) chunks_->bricks().take(work->bits);
+  if (bricks_ && last) bricks_->take(work->bits);
   bins_->for_each(tile, [&](std::span<const FixedTriangle> triangles) {
     work->crossings.clear();
     {
@@ -286,67 +338,23 @@ void SceneVoxelizer::voxelize_tile(std::uint64_t tile, bool& on_shelf, bool last
   if (fill_) fill_->add_surface(tile, work->bits);
 }
 
-/// The tiles, and then the bricks, of one step across the slab axis.
-struct SceneVoxelizer::Slab {
-  std::vector<std::uint64_t> tiles;
-  std::vector<BrickCoord> bricks;  ///< not empty, in slab order
-};
-
 void SceneVoxelizer::fill_and_emit(BrickSink& sink) {
+  const PassProgress& progress = options_.context.progress;
   if (options_.fill == FillMode::winding) {
-    fill_->fill_columns(options_.context.progress);
+    fill_->fill_columns(progress);
     counts_.open_columns = fill_->open_columns();
   }
-  const int axis = header_.slab_axis;
-  const int a = axis == 0 ? 1 : 0, b = axis == 2 ? 1 : 2;
-  PassSteps steps(options_.context.progress, "filling", "slabs", std::uint64_t(tiles_.count[axis]));
-  TileCoord at{};
-  pipeline<Slab>(
-      2,
-      [&](Slab& slab) {
-        if (at[axis] == tiles_.count[axis]) return false;
-        for (at[b] = 0; at[b] < tiles_.count[b]; ++at[b]) {
-          for (at[a] = 0; at[a] < tiles_.count[a]; ++at[a]) slab.tiles.push_back(tiles_.index(at));
-        }
-        ++at[axis];
-        return true;
+  const bool flood = options_.fill == FillMode::flood || options_.fill == FillMode::inside;
+  const ShelvedTiles tiles{
+      tiles_, *shelf_,
+      [&](std::uint64_t tile) {
+        if (flood) fill_->fill_flood(tile);
       },
-      [&](Slab& slab) {
-        if (options_.fill == FillMode::flood || options_.fill == FillMode::inside) {
-          parallel_for(std::int64_t(slab.tiles.size()),
-                       [&](std::int64_t i) { fill_->fill_flood(slab.tiles[std::size_t(i)]); });
-        }
-        list_bricks(slab);
-      },
-      [&](Slab& slab) {
-        emit(slab, sink);
-        steps.add(1);
-      });
-}
-
-void SceneVoxelizer::list_bricks(Slab& slab) const {
-  for (const std::uint64_t tile : slab.tiles) {
-    // Most tiles of a wide grid hold nothing: their bricks are not asked one by one.
-    if (!on_shelf_.contains(tile) && !(fill_ && fill_->has_filled(tile))) continue;
-    for_each_brick(tile_box(tile), [&](BrickCoord c) {
-      if (shelf_->fill(c) != BrickFill::empty) slab.bricks.push_back(c);
-    });
-  }
-  std::sort(slab.bricks.begin(), slab.bricks.end(),
-            [&](BrickCoord p, BrickCoord q) { return slab_order(header_.slab_axis, p, q); });
-}
-
-void SceneVoxelizer::emit(const Slab& slab, BrickSink& sink) {
-  Brick brick;
-  for (const BrickCoord c : slab.bricks) {
-    brick.coord = c;
-    brick.fill = shelf_->get(c, brick.bits);
-    shelf_->drop(c);
-    counts_.solid_voxels += count_bits(std::as_bytes(std::span(brick.bits)));
-    ++counts_.bricks;
-    if (brick.fill == BrickFill::full) ++counts_.full_bricks;
-    sink.write(brick);
-  }
+      [&](std::uint64_t tile) { return on_shelf_.contains(tile) || (fill_ && fill_->has_filled(tile)); }};
+  const EmittedBricks emitted = emit_bricks(tiles, header_.slab_axis, sink, progress);
+  counts_.solid_voxels = emitted.solid_voxels;
+  counts_.bricks = emitted.bricks;
+  counts_.full_bricks = emitted.full_bricks;
 }
 
 }  // namespace

@@ -10,15 +10,18 @@
 
 /// bpvox's work: a stream of triangles in, a stream of solid bricks out, tile by tile, out of core.
 ///
-/// The scene is read once for its bounds, and a second time if it did not fit in memory; its triangles are sorted by
-/// tile; each tile is voxelized by a backend; what the outside cannot reach, or what the winding number says is inside,
-/// is filled over all tiles; the bricks leave in slab order. Tile size, memory and threads change no voxel.
+/// If the source tells its bounds beforehand, the scene is read once. Else it is read for its bounds, and a second time
+/// if it did not fit in memory. Triangles set voxels in bricks that all threads share; those that are large or have no
+/// room there are sorted by tile, and each tile is voxelized by a backend. What the outside cannot reach, or what the
+/// winding number says is inside, is filled over all tiles; the bricks leave in slab order. Tile size, memory and
+/// threads change no voxel.
 namespace bp {
 
 struct VoxelizeOptions {
   /// Voxel size in scene units, given the scene's bounds; make_frame rounds it up a little.
   std::function<double(const Bounds3d&)> voxel_size;
-  std::int32_t cell_vox = 0;  ///< edge of cells that the frame is aligned to (lib/grid/cells.h); 0: none
+  bool voxel_by_bounds = false;  ///< it depends on nothing else: it may be asked for before the scene has been read
+  std::int32_t cell_vox = 0;     ///< edge of cells that the frame is aligned to (lib/grid/cells.h); 0: none
   FillMode fill = FillMode::flood;
   std::optional<UpAxis> up;  ///< of the header; empty: what the scene tells, else y
   /// For tiles at work: at least one, at most one a thread.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <mutex>
 
 #include "io/scene/detail/block_cache.h"
 #include "io/scene/detail/ply/ply_values.h"
@@ -103,6 +104,23 @@ class PackedPly final : public RawSource {
 
   [[nodiscard]] std::uint64_t points() const override { return layout_.vertex_count; }
 
+  /// Of all vertices: faces seldom leave out those that are farthest out.
+  [[nodiscard]] std::optional<Bounds3d> bounds() override {
+    Bounds3d all;
+    std::mutex mutex;
+    parallel_ranges(std::int64_t(layout_.vertex_count), kMeasured, [&](std::int64_t begin, std::int64_t end) {
+      std::vector<std::byte> records;
+      read_vertices(std::uint64_t(begin), std::uint64_t(end), records);
+      Bounds3d part;
+      const std::byte* record = records.data();
+      for (std::int64_t i = begin; i < end; ++i, record += layout_.stride)
+        part.add(layout_.together ? floats(record + layout_.at[0]) : position(record));
+      const std::lock_guard lock(mutex);
+      all.merge(part);
+    });
+    return all;
+  }
+
   bool read(std::vector<TriangleD>& out) override {
     const bool more = next(one_);
     complete(one_);
@@ -114,7 +132,6 @@ class PackedPly final : public RawSource {
   bool next(RawBatch& batch) override {
     batch.records = batch.bad_faces = batch.count = 0;
     if (record_ == layout_.face_count) return false;
-    hold_vertices();
     for (std::size_t want = RawSource::kBatch * layout_.record_bytes(3); batch.records == 0;) {
       batch.bytes.resize(std::size_t(std::min<std::uint64_t>(want, file_->size() - at_)));
       batch.bytes.resize(file_->read_at(at_, batch.bytes));
@@ -126,34 +143,18 @@ class PackedPly final : public RawSource {
   }
 
   void complete(RawBatch& batch) const override {
-    batch.triangles.clear();
+    batch.triangles.resize(batch.count);  // no fewer than there will be; those of the batch before are not cleared
     batch.inner_edges.clear();
-    batch.triangles.reserve(batch.count);
-    const auto index = [&](const std::byte* from) {
-      return std::uint64_t(decode_integer(from, layout_.index_type, layout_.swap));
-    };
-    if (batch.records == 0) return;
-    if (!held_) {
-      const Pool<std::unique_ptr<BlockCache>>::Lease cache(*caches_);
-      std::vector<std::byte> record(layout_.stride);
-      expand(batch, index, [&](std::uint64_t i) {
-        cache->read(layout_.vertices + i * layout_.stride, record.data(), record.size());
-        return position(record.data());
-      });
-    } else if (layout_.together && !layout_.swap && bytes_of(layout_.index_type) == 4) {
-      const bool is_signed = layout_.index_type == PlyType::i32;
-      const std::byte* const base = held_.get() + layout_.at[0];
-      const auto word = [is_signed](const std::byte* from) {
-        const auto bits = load_bits<std::uint32_t>(from, false);
-        return is_signed ? std::uint64_t(std::int32_t(bits)) : std::uint64_t(bits);
-      };
-      expand(batch, word, [&, stride = layout_.stride](std::uint64_t i) {
-        float p[3];
-        std::memcpy(p, base + i * stride, sizeof p);
-        return Vec3d{p[0], p[1], p[2]};
+    if (layout_.index_type == PlyType::u32 && !layout_.swap) {
+      complete(batch, [](const std::byte* from) { return std::uint64_t(load_bits<std::uint32_t>(from, false)); });
+    } else if (layout_.index_type == PlyType::i32 && !layout_.swap) {
+      complete(batch, [](const std::byte* from) {
+        return std::uint64_t(std::int32_t(load_bits<std::uint32_t>(from, false)));
       });
     } else {
-      expand(batch, index, [&](std::uint64_t i) { return position(held_.get() + i * layout_.stride); });
+      complete(batch, [this](const std::byte* from) {
+        return std::uint64_t(decode_integer(from, layout_.index_type, layout_.swap));
+      });
     }
   }
 
@@ -164,11 +165,18 @@ class PackedPly final : public RawSource {
 
  private:
   static constexpr std::int64_t kReadBytes = std::int64_t(4) << 20;
+  static constexpr std::int64_t kMeasured = std::int64_t(1) << 14;  // vertices at a time: some hundred kilobytes
 
   [[nodiscard]] Vec3d position(const std::byte* record) const {
     Vec3d p;
     for (std::size_t i = 0; i < 3; ++i) p[i] = decode_real(record + layout_.at[i], layout_.type[i], layout_.swap);
     return p;
+  }
+
+  [[nodiscard]] static Vec3d floats(const std::byte* from) {
+    float p[3];
+    std::memcpy(p, from, sizeof p);
+    return {p[0], p[1], p[2]};
   }
 
   [[nodiscard]] std::int64_t corners_at(const std::byte* list) const {
@@ -182,6 +190,18 @@ class PackedPly final : public RawSource {
     const std::size_t count_bytes = bytes_of(layout_.count_type), index_bytes = bytes_of(layout_.index_type);
     const std::size_t empty_bytes = layout_.record_bytes(0), end = batch.bytes.size();
     std::size_t at = 0, first_bytes = empty_bytes;
+    if (layout_.count_type == PlyType::u8) {  // triangles, in most files
+      const std::byte* const count = batch.bytes.data() + layout_.before;
+      const std::size_t size = layout_.record_bytes(3);
+      const std::uint64_t most =
+          std::min<std::uint64_t>({layout_.face_count - record_, RawSource::kBatch, std::uint64_t(end / size)});
+      while (batch.records < most && count[at] == std::byte{3}) {
+        at += size;
+        ++batch.records;
+      }
+      batch.count = batch.records;
+      record_ += batch.records;
+    }
     while (record_ < layout_.face_count && batch.count < RawSource::kBatch &&
            end - at >= layout_.before + count_bytes) {
       const std::int64_t n = corners_at(batch.bytes.data() + at + layout_.before);
@@ -199,41 +219,103 @@ class PackedPly final : public RawSource {
     return first_bytes;
   }
 
-  /// As PolygonSource makes them.
-  template <class Index, class Vertex>
-  void expand(RawBatch& batch, const Index& index, const Vertex& vertex) const {
+  /// body(list, n) for each record of a batch: its list of n indices.
+  template <class Body>
+  void for_each_face(const RawBatch& batch, const Body& body) const {
     const std::size_t count_bytes = bytes_of(layout_.count_type), index_bytes = bytes_of(layout_.index_type);
-    const std::uint64_t limit = layout_.vertex_count;
     const std::byte* at = batch.bytes.data();
-    FaceTriangles cut(fans_);
     for (std::uint64_t r = 0; r < batch.records; ++r) {
       at += layout_.before;
       const auto n = std::size_t(corners_at(at));
       const std::byte* const list = at + count_bytes;
       at = list + n * index_bytes + layout_.after;
+      body(list, n);
+    }
+  }
+
+  /// Vertices that follow each other in space do so in most files: then one read gets those of a batch, and as they lie
+  /// in the caches of this core, holding all of them would be no faster.
+  template <class Index>
+  void complete(RawBatch& batch, const Index& index) const {
+    const std::size_t index_bytes = bytes_of(layout_.index_type);
+    std::uint64_t first = layout_.vertex_count, end = 0;
+    for_each_face(batch, [&](const std::byte* list, std::size_t n) {
+      for (std::size_t k = 0; k < n; ++k) {
+        const std::uint64_t i = index(list + k * index_bytes);
+        if (i >= layout_.vertex_count) continue;
+        first = std::min(first, i);
+        end = std::max(end, i + 1);
+      }
+    });
+    if (first >= end) return expand(batch, index, nullptr, 0);
+    if ((end - first) * layout_.stride <= batch.count * sizeof(TriangleD)) {
+      read_vertices(first, end, batch.vertices);
+      return expand(batch, index, batch.vertices.data(), first);
+    }
+    std::call_once(hold_once_, [&] { isolated([&] { hold_vertices(); }); });
+    if (held_) return expand(batch, index, held_.get(), 0);
+    const Pool<std::unique_ptr<BlockCache>>::Lease cache(*caches_);
+    std::vector<std::byte> record(layout_.stride);
+    expand(batch, index, [&](std::uint64_t i) {
+      cache->read(layout_.vertices + i * layout_.stride, record.data(), record.size());
+      return position(record.data());
+    });
+  }
+
+  /// `records`: of the vertices from number `first` on.
+  template <class Index>
+  void expand(RawBatch& batch, const Index& index, const std::byte* records, std::uint64_t first) const {
+    const std::uint64_t stride = layout_.stride;
+    if (layout_.together) {
+      const std::byte* const x = records + layout_.at[0];
+      expand(batch, index, [x, first, stride](std::uint64_t i) { return floats(x + (i - first) * stride); });
+    } else {
+      expand(batch, index, [&](std::uint64_t i) { return position(records + (i - first) * stride); });
+    }
+  }
+
+  /// As PolygonSource makes them.
+  template <class Index, class Vertex>
+  void expand(RawBatch& batch, const Index& index, const Vertex& vertex) const {
+    const std::size_t index_bytes = bytes_of(layout_.index_type);
+    const std::uint64_t limit = layout_.vertex_count;
+    FaceTriangles cut(fans_);
+    std::size_t made = 0;
+    for_each_face(batch, [&](const std::byte* list, std::size_t n) {
+      if (n == 3) {
+        const std::uint64_t a = index(list), b = index(list + index_bytes), c = index(list + 2 * index_bytes);
+        if (a < limit && b < limit && c < limit) {
+          batch.triangles[made++] = {vertex(a), vertex(b), vertex(c)};
+        } else {
+          ++batch.bad_faces;
+        }
+        return;
+      }
       bool good = n >= 3;
       for (std::size_t i = 0; i < n; ++i) good = index(list + i * index_bytes) < limit && good;
       if (!good) {
         ++batch.bad_faces;
-        continue;
+        return;
       }
       const auto place = [&](std::size_t k) { return vertex(index(list + k * index_bytes)); };
-      if (n == 3) {
-        batch.triangles.push_back({place(0), place(1), place(2)});
-        continue;
-      }
       cut.cut(n, place);
-      batch.inner_edges.resize(batch.triangles.size());
+      batch.inner_edges.resize(made);
       for (std::size_t i = 0; i < cut.triangles(); ++i) {
-        batch.triangles.push_back(cut.places(cut[i], place));
+        batch.triangles[made++] = cut.places(cut[i], place);
         batch.inner_edges.push_back(cut.inner_edges(i));
       }
-    }
+    });
+    batch.triangles.resize(made);
   }
 
-  /// Reads the vertices, or, if there are too many, makes ready to read them one by one.
-  void hold_vertices() {
-    if (held_ || caches_) return;
+  /// Records of the vertices [begin, end).
+  void read_vertices(std::uint64_t begin, std::uint64_t end, std::vector<std::byte>& out) const {
+    out.resize(std::size_t((end - begin) * layout_.stride));
+    if (file_->read_at(layout_.vertices + begin * layout_.stride, out) < out.size()) fail_truncated();
+  }
+
+  /// Reads all vertices, or, if there are too many, makes ready to read them one by one.
+  void hold_vertices() const {
     const std::uint64_t bytes = layout_.vertex_count * layout_.stride;
     if (bytes > budget_) {
       const int threads = thread_count();
@@ -263,9 +345,10 @@ class PackedPly final : public RawSource {
   const std::uint64_t budget_;
   const bool fans_;
   const Layout layout_;
-  std::uint64_t at_, record_ = 0;      // of the next face
-  std::unique_ptr<std::byte[]> held_;  // records of all vertices
-  std::unique_ptr<Pool<std::unique_ptr<BlockCache>>> caches_;
+  std::uint64_t at_, record_ = 0;  // of the next face
+  mutable std::once_flag hold_once_;
+  mutable std::unique_ptr<std::byte[]> held_;  // records of all vertices
+  mutable std::unique_ptr<Pool<std::unique_ptr<BlockCache>>> caches_;
   RawBatch one_;
 };
 

@@ -20,52 +20,54 @@ std::string text_of(const ContentHash& hash) {
 struct ScenePasses::Item {
   std::vector<TriangleD> triangles;
   std::vector<std::uint32_t> places;
-  Bounds3d bounds;
-  double extent = 0;
-  std::optional<SurfaceSums> sums;
+  SurfaceSums sums;
+  TriangleBatch batch;
 };
 
-void ScenePasses::measure(const PassProgress& progress) {
+void ScenePasses::measure(const PassProgress& progress, const std::optional<Sorter>& sorter) {
   PassSteps steps(progress, "reading", "triangles", 0);
   ContentHash hash;
   std::optional<Vec3d> origin;
+  Spares<SurfaceSums> sums;
+  sorted_ = sorter.has_value();
   pipeline<Item>(
-      thread_count() + 2,
+      2 * thread_count() + 1,  // enough for all threads while the source fetches as many
       [&](Item& item) {
+        item.triangles = spare_.take();
         if (!source_.read(item.triangles)) return false;
-        if (!origin && !item.triangles.empty()) sums_ = SurfaceSums(*(origin = item.triangles[0][0]));
-        item.sums.emplace(origin.value_or(Vec3d{}));
+        if (!origin && !item.triangles.empty()) sums_.reset(*(origin = item.triangles[0][0]));
+        item.sums = sums.take();
+        item.sums.reset(origin.value_or(Vec3d{}));
         return true;
       },
       [&](Item& item) {
-        for (const TriangleD& t : item.triangles) {
-          Bounds3d box;
-          for (const Vec3d& p : t) box.add(p);
-          item.bounds.merge(box);
-          for (std::size_t i = 0; i < 3; ++i) item.extent += box.max[i] - box.min[i];
-        }
-        item.sums->add(item.triangles);
+        item.sums.add(item.triangles);
         if (chunks_) item.places = ChunkCutter::places(item.triangles);
-        if (item.triangles.capacity() > item.triangles.size() / 4 * 5) item.triangles.shrink_to_fit();
+        if (sorter && !sorter->bounds.contains(item.sums.bounds())) sorted_ = false;
+        if (sorted_) item.batch = sorter->sort(item.triangles);
+        if (!sorter && item.triangles.capacity() > item.triangles.size() / 4 * 5) item.triangles.shrink_to_fit();
       },
       [&](Item& item) {
         hash.add(std::as_bytes(std::span(item.triangles)));
         if (chunks_) chunks_->measure(item.triangles, item.places);
-        bounds_.merge(item.bounds);
-        sums_.merge(*item.sums);
-        item.sums.reset();
-        extent_ += item.extent;
+        sums_.merge(item.sums);
+        sums.give(std::move(item.sums));
         steps.add(item.triangles.size());
-        if (!reads_twice_) keep(std::move(item));
+        if (sorted_) sorter->add(std::move(item.batch));
+        if (sorter || reads_twice_) {
+          spare_.give(std::move(item.triangles));
+        } else {
+          keep(std::move(item.triangles));
+        }
       });
   input_hash_ = text_of(hash);
   if (!source_.counts().has_area()) refuse_empty_scene(source_.name(), source_.counts());
 }
 
-void ScenePasses::keep(Item&& item) {
-  kept_bytes_ += item.triangles.capacity() * sizeof(TriangleD);
-  const std::uint64_t count = item.triangles.size();
-  kept_.push_back({std::move(item.triangles), count});
+void ScenePasses::keep(std::vector<TriangleD>&& triangles) {
+  kept_bytes_ += triangles.capacity() * sizeof(TriangleD);
+  const std::uint64_t count = triangles.size();
+  kept_.push_back({std::move(triangles), count});
   if (chunks_) drop_met();
   if (kept_bytes_ <= memory_bytes_) return;
   reads_twice_ = true;
@@ -99,6 +101,7 @@ void ScenePasses::again(const std::function<void(const NextPortion&)>& body) {
   source_.rewind();
   ContentHash hash;
   body([&](Portion& portion) {
+    if (portion.triangles.capacity() == 0) portion.triangles = spare_.take();
     const bool more = source_.read(portion.triangles);
     portion.count = portion.triangles.size();
     hash.add(std::as_bytes(std::span(portion.triangles)));

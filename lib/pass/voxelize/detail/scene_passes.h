@@ -1,12 +1,16 @@
 #pragma once
+#include <atomic>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "lib/core/box.h"
+#include "lib/core/pool.h"
 #include "lib/pass/pass_progress.h"
 #include "lib/pass/voxelize/detail/chunked_surface.h"
 #include "lib/pass/voxelize/detail/surface_sums.h"
+#include "lib/pass/voxelize/detail/triangle_bins.h"
 
 namespace bp {
 
@@ -22,40 +26,49 @@ class ScenePasses {
   ScenePasses(TriangleSource& source, std::uint64_t memory_bytes, ChunkedSurface* chunks)
       : source_(source), memory_bytes_(memory_bytes), chunks_(chunks) {}
 
-  /// First pass. Throws bad_input if there is no triangle.
-  void measure(const PassProgress& progress);
-  [[nodiscard]] const Bounds3d& bounds() const { return bounds_; }
-  /// Sums over the triangles, scene units: areas, and sides of their boxes.
-  [[nodiscard]] double area() const { return sums_.area(); }
-  [[nodiscard]] double extent() const { return extent_; }
-  [[nodiscard]] const SurfaceSums& sums() const { return sums_; }
+  /// What is done with the triangles in the first pass already, if they lie in these bounds.
+  struct Sorter {
+    Bounds3d bounds;
+    std::function<TriangleBatch(std::span<const TriangleD>)> sort;  ///< on any thread
+    std::function<void(TriangleBatch&&)> add;                       ///< in order
+  };
+  /// First pass. With a sorter no triangles stay. Throws bad_input if there is no triangle.
+  void measure(const PassProgress& progress, const std::optional<Sorter>& sorter);
+  /// Whether the sorter was given all triangles.
+  [[nodiscard]] bool sorted() const { return sorted_; }
+  [[nodiscard]] const SurfaceSums& sums() const { return sums_; }              ///< of all triangles
   [[nodiscard]] const std::string& input_hash() const { return input_hash_; }  ///< of VoxelizeCounts
   [[nodiscard]] bool reads_twice() const { return reads_twice_; }
 
+  /// Memory for triangles that portions are done with.
+  void give_back(std::vector<TriangleD>&& triangles) { spare_.give(std::move(triangles)); }
   /// Those that did not stay are needed after all.
   void read_twice() { reads_twice_ = true; }
   /// Second pass, once: calls body with what gives all portions, and those that did not stay without triangles, unless
   /// the scene is read twice. Throws bad_input if it is not what it was.
   void again(const std::function<void(const NextPortion&)>& body);
-  /// Forgets the triangles that stayed.
-  void release() { std::vector<Portion>().swap(kept_); }
+  /// Forgets the triangles that stayed, and memory for others.
+  void release() {
+    std::vector<Portion>().swap(kept_);
+    spare_.clear();
+  }
 
  private:
   struct Item;
-  void keep(Item&& item);
+  void keep(std::vector<TriangleD>&& triangles);
   void drop_met();
 
   TriangleSource& source_;
   const std::uint64_t memory_bytes_;
   ChunkedSurface* const chunks_;
-  Bounds3d bounds_;
-  double extent_ = 0;
   SurfaceSums sums_;
   std::string input_hash_;
   bool reads_twice_ = false;
   std::vector<Portion> kept_;
   std::size_t dropped_ = 0;                         // first of kept_ that drop_met() has not settled
   std::uint64_t dropped_end_ = 0, kept_bytes_ = 0;  // triangles before it; of those that stay
+  std::atomic<bool> sorted_{false};
+  Spares<std::vector<TriangleD>> spare_;
 };
 
 }  // namespace bp

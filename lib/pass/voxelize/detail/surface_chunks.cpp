@@ -1,8 +1,10 @@
 #include "lib/pass/voxelize/detail/surface_chunks.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cstring>
+#include <unordered_map>
 
 #include "lib/grid/clip.h"
 #include "lib/grid/tile_grid.h"
@@ -53,13 +55,14 @@ bool take_brick(std::string_view& in, const BrickBox& grid, PackedBrick& out) {
   return true;
 }
 
+/// Other threads may add to the bits at the same time.
 void add_brick(const PackedBrick& brick, BrickBits& bits) {
   const char* from = brick.words;
   for (std::size_t i = 0; i < kMaskWords; ++i) {
     for (std::uint64_t left = brick.mask[i]; left != 0; left &= left - 1, from += sizeof(std::uint64_t)) {
       std::uint64_t word;
       std::memcpy(&word, from, sizeof word);
-      bits[i * 64 + std::size_t(std::countr_zero(left))] |= word;
+      std::atomic_ref(bits[i * 64 + std::size_t(std::countr_zero(left))]).fetch_or(word, std::memory_order_relaxed);
     }
   }
 }
@@ -183,54 +186,29 @@ bool BrickSum::add(const std::string& chunk) {
     if (!take_brick(in, grid_, brick)) return false;
   }
   for (std::string_view in = chunk; take_brick(in, grid_, brick);) {
-    Shard& shard = shard_of(brick.coord);
-    const std::lock_guard lock(shard.mutex);
-    if (shard.bricks.size() > limit_) make_room(shard);
-    std::unique_ptr<BrickBits>& bits = shard.bricks[brick.coord];
-    if (!bits) bits = std::make_unique<BrickBits>();
-    add_brick(brick, *bits);
+    if (BrickBits* const bits = bricks_.find(brick.coord)) {
+      add_brick(brick, *bits);
+      continue;
+    }
+    Shelved& shelved = shelved_[CoordHash()(brick.coord) % shelved_.size()];
+    const std::lock_guard lock(shelved.mutex);
+    BrickBits bits;
+    if (shelf_.get(brick.coord, bits) == BrickFill::empty) shelved.bricks.push_back(brick.coord);
+    add_brick(brick, bits);
+    shelf_.put(brick.coord, classify(bits), bits);
   }
   return true;
 }
 
-void BrickSum::make_room(Shard& shard) {
-  BrickBits there;
-  for (const auto& [coord, bits] : shard.bricks) {
-    if (shelf_.get(coord, there) == BrickFill::empty) shard.on_shelf.push_back(coord);
-    for (std::size_t i = 0; i < kBrickWords; ++i) there[i] |= (*bits)[i];
-    shelf_.put(coord, classify(there), there);
-  }
-  shard.bricks.clear();
-}
-
 std::vector<BrickCoord> BrickSum::coords() const {
-  std::vector<BrickCoord> all;
-  for (const Shard& shard : shards_) {
-    all.insert(all.end(), shard.on_shelf.begin(), shard.on_shelf.end());
-    for (const auto& [coord, bits] : shard.bricks) all.push_back(coord);
-  }
+  std::vector<BrickCoord> all = bricks_.coords();
+  for (const Shelved& shelved : shelved_) all.insert(all.end(), shelved.bricks.begin(), shelved.bricks.end());
   return all;
 }
 
 void BrickSum::take(BitBox& out) {
   load_voxels(shelf_, out);
-  for_each_brick(out.box(), [&](BrickCoord c) {
-    Shard& shard = shard_of(c);
-    std::unique_ptr<BrickBits> bits;
-    {
-      const std::lock_guard lock(shard.mutex);
-      const auto at = shard.bricks.find(c);
-      if (at == shard.bricks.end()) return;
-      bits = std::move(at->second);
-      shard.bricks.erase(at);
-    }
-    const VoxelCoord first = first_voxel(c);
-    const std::int32_t word = (first.x - out.box().min.x) / kBrickEdge;
-    for (std::int32_t z = 0; z < kBrickEdge; ++z) {
-      for (std::int32_t y = 0; y < kBrickEdge; ++y)
-        out.row(first.y + y, first.z + z)[word] |= (*bits)[std::size_t(z * kBrickEdge + y)];
-    }
-  });
+  bricks_.take(out);
 }
 
 }  // namespace bp

@@ -1,16 +1,14 @@
 #pragma once
 #include <array>
-#include <memory>
 #include <mutex>
 #include <optional>
 #include <span>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 #include "lib/core/triangle_source.h"
-#include "lib/grid/coord_hash.h"
 #include "lib/grid/stream.h"
+#include "lib/pass/voxelize/detail/surface_bricks.h"
 #include "lib/store/result_key.h"
 
 /// The voxels that triangles touch, chunk by chunk: what a build keeps of a scene, so that the next one voxelizes only
@@ -59,34 +57,29 @@ class ChunkCutter {
 constexpr std::size_t kChunkBytes = std::size_t(4) << 20, kChunkMeetings = std::size_t(1) << 17;
 constexpr std::uint64_t kChunkWorkBytes = std::uint64_t(24) << 20;  ///< with its triangles, and packed for the store
 
-/// The union of chunks. Bricks are held as bits, and go to a shelf when there are too many of them.
+/// The union of chunks. Bricks that there is no room for go to a shelf.
 class BrickSum {
  public:
   BrickSum(const BrickBox& grid, std::uint64_t memory_bytes, BrickShelf& shelf)
-      : grid_(grid), limit_(memory_bytes / kShards / sizeof(BrickBits)), shelf_(shelf) {}
+      : grid_(grid), bricks_(memory_bytes), shelf_(shelf) {}
 
   /// False, and nothing is added, if these are not the bytes of a chunk in this grid. Thread-safe.
   [[nodiscard]] bool add(const std::string& chunk);
-  /// Of all bricks, in no order, some of them twice.
+  /// Of all bricks, in no order.
   [[nodiscard]] std::vector<BrickCoord> coords() const;
   /// Sets the voxels of the box, one of whole bricks, which are then forgotten. After the last add(). Thread-safe for
   /// boxes without common bricks.
   void take(BitBox& out);
 
  private:
-  static constexpr std::size_t kShards = 64;
-  struct Shard {
+  struct Shelved {
     std::mutex mutex;
-    std::unordered_map<BrickCoord, std::unique_ptr<BrickBits>, CoordHash> bricks;
-    std::vector<BrickCoord> on_shelf;
+    std::vector<BrickCoord> bricks;
   };
-  void make_room(Shard& shard);
-  [[nodiscard]] Shard& shard_of(BrickCoord c) { return shards_[CoordHash()(c) % kShards]; }
-
   const BrickBox grid_;
-  const std::size_t limit_;  // bricks in a shard
+  SurfaceBricks bricks_;
   BrickShelf& shelf_;
-  std::array<Shard, kShards> shards_;
+  std::array<Shelved, 64> shelved_;  // by hash, so that threads seldom wait
 };
 
 }  // namespace bp

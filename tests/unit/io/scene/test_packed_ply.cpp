@@ -61,15 +61,24 @@ struct Polygons {
   }
 };
 
+Bounds3d bounds_of(const std::vector<TriangleD>& triangles) {
+  Bounds3d bounds;
+  for (const TriangleD& t : triangles)
+    for (const Vec3d& p : t) bounds.add(p);
+  return bounds;
+}
+
 }  // namespace
 
 TEST_CASE("a packed PLY gives the triangles that the general reader gives", "[quick][io]") {
   const bool wide = GENERATE(false, true);
   const int faces = GENERATE(1, 700, 40000);  // one; one block; some blocks
   const ThreadLimit threads(GENERATE(1, 2));
-  const std::uint64_t memory = GENERATE(std::uint64_t(1) << 12, std::uint64_t(1) << 26);  // caches; all vertices held
+  const std::uint64_t memory =
+      GENERATE(std::uint64_t(1) << 12, std::uint64_t(1) << 26);  // caches; all vertices held if they are far apart
+  const int vertices = faces == 700 ? 100000 : 1000;             // too far apart for one read; near each other
   CAPTURE(wide, faces, memory);
-  const Polygons files(unsigned(faces), 1000, faces, wide);
+  const Polygons files(unsigned(faces), vertices, faces, wide);
   const TempDir dir;
   SceneOptions options;
   options.memory_bytes = memory;
@@ -91,6 +100,34 @@ TEST_CASE("a packed PLY gives the triangles that the general reader gives", "[qu
     CHECK((read_mesh(dir.path("b.ply")).inner_edges == read_mesh(dir.path("a.ply")).inner_edges));
     CHECK(read_mesh(dir.path("b.ply")).triangles.size() == read_mesh(dir.path("a.ply")).triangles.size());
   }
+}
+
+TEST_CASE("files of vertices and of triangles tell their bounds before they are read", "[quick][io]") {
+  const TempDir dir;
+  const ThreadLimit threads(GENERATE(1, 2));
+  for (const bool wide : {false, true}) {
+    const Polygons files(7, 40000, 200000, wide);  // every vertex has a face
+    for (const std::string& bytes : {files.little, files.big}) {
+      const auto source = open_scene(dir.file("a.ply", bytes));
+      CHECK(source->bounds() == bounds_of(read_all(*source)));
+      CHECK_FALSE(source->bounds()->empty());
+    }
+  }
+  std::mt19937 random(3);
+  std::string stl(80, ' ');
+  stl += raw(std::uint32_t(50000));
+  for (int i = 0; i < 50000; ++i) {
+    for (int k = 0; k < 12; ++k) stl += raw(float(int(random() % 2001) - 1000) / 7);
+    stl += raw(std::uint16_t(0));
+  }
+  const auto source = open_scene(dir.file("a.stl", stl));
+  const std::optional<Bounds3d> told = source->bounds();
+  const std::vector<TriangleD> triangles = read_all(*source);
+  CHECK(triangles.size() == 50000);
+  CHECK(told == bounds_of(triangles));
+  source->rewind();
+  CHECK((read_all(*source) == triangles));
+  CHECK_FALSE(open_scene(dir.file("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"))->bounds());
 }
 
 TEST_CASE("a packed PLY that is cut anywhere is refused", "[quick][io]") {
