@@ -24,13 +24,6 @@ std::uint64_t fewer(std::uint64_t n) {
   return n > 40 ? (n - 1) / 4 * 4 : (n - 1) / 2 * 2;
 }
 
-/// A proxy on the way, and what led to it.
-struct Stop {
-  LatticeMesh mesh;
-  SimplifyCounts simplified;
-  TightenCounts tightened;
-};
-
 class HullsWay {
  public:
   HullsWay(const SurfaceSource& dense, const Enclosed& enclosed, const SimplifyParams& params)
@@ -46,7 +39,7 @@ class HullsWay {
     if (std::optional<ConvexHull> hull = hull_of(at_.mesh.vertices)) hull_.push_back(std::move(*hull));
   }
 
-  [[nodiscard]] const Stop& at() const { return at_; }
+  [[nodiscard]] const TightProxy& at() const { return at_; }
   [[nodiscard]] std::uint64_t faces() const { return at_.mesh.triangles.size(); }
   /// The first proxy has few faces.
   [[nodiscard]] bool is_there() const { return faces() > 0 && faces() <= kFewFaces; }
@@ -62,8 +55,8 @@ class HullsWay {
  private:
   /// On to at most `n` faces; false if there is no way.
   bool go(std::uint64_t n) {
-    std::optional<Stop> best;
-    const auto offer = [&](Stop stop) {
+    std::optional<TightProxy> best;
+    const auto offer = [&](TightProxy stop) {
       if (stop.mesh.triangles.size() > n) return;
       if (!best || volume6_of(stop.mesh) < volume6_of(best->mesh)) best = std::move(stop);
     };
@@ -71,7 +64,7 @@ class HullsWay {
     const bool stuck = !best;
     if (stuck || std::find(kFresh.begin(), kFresh.end(), n) != kFresh.end()) offer(tight(grown_, n));
     if (stuck) offer(from_dense(n));
-    if (std::optional<Stop> hull = convex(n)) {
+    if (std::optional<TightProxy> hull = convex(n)) {
       const double now6 = best ? double(volume6_of(best->mesh)) : HUGE_VAL;
       if (double(volume6_of(hull->mesh)) < kPromising * now6) offer(tight(*hull, n));
     }
@@ -94,25 +87,21 @@ class HullsWay {
   }
 
   /// A proxy of n faces from another one of more.
-  [[nodiscard]] Stop tight(const Stop& from, std::uint64_t n) const {
-    Stop stop = from;
-    stop.mesh = tight_proxy(from.mesh, *outer_, params_for(n), stop.simplified, stop.tightened);
-    return stop;
+  [[nodiscard]] TightProxy tight(const TightProxy& from, std::uint64_t n) const {
+    return tight_proxy(from.mesh, *outer_, params_for(n));
   }
 
-  [[nodiscard]] Stop from_dense(std::uint64_t n) const {
-    Stop stop;
+  [[nodiscard]] TightProxy from_dense(std::uint64_t n) const {
     SimplifyParams params = params_for(n);
     params.dense = true;
-    stop.mesh = tight_proxy(dense_, enclosed_, params, stop.simplified, stop.tightened);
-    return stop;
+    return tight_proxy(dense_, enclosed_, params);
   }
 
   /// A hull of at most n faces around the hull of the first proxy.
-  [[nodiscard]] std::optional<Stop> convex(std::uint64_t n) {
+  [[nodiscard]] std::optional<TightProxy> convex(std::uint64_t n) {
     if (hull_.empty() || n > kFewForHull) return {};
     keep_to_faces(hull_, n, kFarOut);
-    Stop stop = at_;
+    TightProxy stop = at_;
     stop.mesh.vertices = hull_[0].vertices;
     stop.mesh.triangles = hull_[0].triangles;
     return stop;
@@ -124,17 +113,16 @@ class HullsWay {
   SimplifyParams params_;
   LatticeBox box_;
   std::vector<ConvexHull> hull_;  // one, if the scene is in one piece
-  Stop at_, grown_;
+  TightProxy at_, grown_;
 };
 
 }  // namespace
 
-LatticeMesh tight_proxy_of_few(const SurfaceSource& dense, const Enclosed& enclosed, const SimplifyParams& params,
-                               SimplifyCounts& simplified, TightenCounts& tightened) {
+TightProxy tight_proxy_of_few(const SurfaceSource& dense, const Enclosed& enclosed, const SimplifyParams& params) {
   HullsWay way(dense, enclosed, params);
   const std::uint64_t first = way.faces();
-  std::optional<Stop> best;
-  const auto offer = [&](const Stop& stop) {
+  std::optional<TightProxy> best;
+  const auto offer = [&](const TightProxy& stop) {
     if (stop.mesh.triangles.size() > params.faces) return;
     if (!best || volume6_of(stop.mesh) < volume6_of(best->mesh)) best = stop;
   };
@@ -144,21 +132,20 @@ LatticeMesh tight_proxy_of_few(const SurfaceSource& dense, const Enclosed& enclo
     if (!way.go()) break;
   }
   if (!best) {  // parts take more
-    LatticeMesh proxy = tight_proxy(dense, enclosed, params, simplified, tightened);
-    const std::uint64_t faces = proxy.triangles.size();
+    TightProxy proxy = tight_proxy(dense, enclosed, params);
+    const std::uint64_t faces = proxy.mesh.triangles.size();
     if (faces <= params.faces || !way.is_there() || way.faces() > faces) return proxy;
-    if (way.faces() == faces && volume6_of(way.at().mesh) >= volume6_of(proxy)) return proxy;
+    if (way.faces() == faces && volume6_of(way.at().mesh) >= volume6_of(proxy.mesh)) return proxy;
     best = way.at();
-    best->simplified.refused = simplified.refused;
-    best->simplified.stop = simplified.stop;
+    best->simplified.refused = proxy.simplified.refused;
+    best->simplified.stop = proxy.simplified.stop;
   }
-  simplified = best->simplified;
+  SimplifyCounts& simplified = best->simplified;
   simplified.faces_out = best->mesh.triangles.size();
   const std::uint64_t tried = std::min(params.faces, first);
   const bool least = simplified.faces_out < fewer(tried + 1);
   if (simplified.faces_out <= params.faces) simplified.stop = least ? StopReason::least_volume : StopReason::faces;
-  tightened = best->tightened;
-  return std::move(best->mesh);
+  return std::move(*best);
 }
 
 }  // namespace bp

@@ -15,8 +15,7 @@ constexpr std::uint64_t kFewFaces = 64;
 /// surface. Of a scene in one piece, one follows from the convex hull of the first proxy. Where the sequence ends above
 /// params.faces, the result is its last proxy or that of tight_proxy(): the one with fewer faces, or the smaller one.
 /// Cost: some fifty times tight_proxy() on a surface of some hundred faces.
-[[nodiscard]] LatticeMesh tight_proxy_of_few(const SurfaceSource& dense, const Enclosed& enclosed,
-                                             const SimplifyParams& params, SimplifyCounts& simplified,
-                                             TightenCounts& tightened);
+[[nodiscard]] TightProxy tight_proxy_of_few(const SurfaceSource& dense, const Enclosed& enclosed,
+                                            const SimplifyParams& params);
 
 }  // namespace bp

@@ -281,19 +281,20 @@ double volume_of(const HalfEdgeMesh& mesh) {
   return double(mesh.volume6()) / 6;
 }
 
-void tighten_on(ProxyEditor& editor, const TightenParams& params, TightenCounts& counts) {
-  counts = {};
+TightenCounts tighten_on(ProxyEditor& editor, const TightenParams& params) {
+  TightenCounts counts;
   const std::uint64_t tries = editor.counts().tries;
   counts.volume_before = volume_of(editor.mesh());
   Tightener(editor, params, counts).run();
   counts.volume_after = volume_of(editor.mesh());
   counts.tries = editor.counts().tries - tries;
+  return counts;
 }
 
 LatticeMesh tighten(ProxyEditor& editor, const GridFrame& frame, const TightenParams& params, TightenCounts& counts) {
   HalfEdgeMesh before = editor.mesh();
   erase_inner_shells(before, editor.inwards(), &editor.sense());  // those of collapses with the same editor
-  tighten_on(editor, params, counts);
+  counts = tighten_on(editor, params);
   editor.erase_inner_shells();
   counts.volume_before = volume_of(before);
   counts.volume_after = volume_of(editor.mesh());

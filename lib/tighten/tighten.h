@@ -28,7 +28,7 @@ struct TightenCounts {
 
 /// Tightens the mesh of the editor on the way to something else: it may come out larger, where vertices made room that
 /// others could not take and cannot go back themselves.
-void tighten_on(ProxyEditor& editor, const TightenParams& params, TightenCounts& counts);
+TightenCounts tighten_on(ProxyEditor& editor, const TightenParams& params);
 
 /// The mesh of the editor, tightened; as it was if that made it larger: sweeps keep a margin of less than a lattice
 /// unit. Deterministic. Every step is checked exactly before it is taken. Cost: a few exact tests per vertex and

@@ -167,10 +167,9 @@ class ThinPlanner {
 
 class Thinner final : public ThinOrder {
  public:
-  Thinner(ProxyEditor& editor, SimplifyCounts& counts)
+  explicit Thinner(ProxyEditor& editor)
       : editor_(editor),
         mesh_(editor.mesh()),
-        counts_(counts),
         planners_([&editor] { return std::make_unique<ThinPlanner>(editor); }),
         wave_(mesh_),
         serial_(3 * mesh_.face_capacity(), 0),
@@ -219,7 +218,7 @@ class Thinner final : public ThinOrder {
   [[nodiscard]] bool is_edge(HalfEdgeId h) const { return mesh_.alive(HalfEdgeMesh::face(h)) && mesh_.edge(h) == h; }
 
   void count() {
-    planners_.visit([&](ThinPlanner& planner) { planner.count(editor_, counts_); });
+    planners_.visit([&](ThinPlanner& planner) { planner.count(editor_, counts); });
   }
 
   void plan_wave(double next, double most) {
@@ -251,7 +250,7 @@ class Thinner final : public ThinOrder {
     } else {
       const VertexId u = mesh_.from(entry.edge);
       editor_.make_collapse(entry.edge, plan.to);
-      ++counts_.collapses;
+      ++counts.collapses;
       renew_around(u);
     }
   }
@@ -294,7 +293,6 @@ class Thinner final : public ThinOrder {
 
   ProxyEditor& editor_;
   const HalfEdgeMesh& mesh_;
-  SimplifyCounts& counts_;
   WaveWorkers<ThinPlanner> planners_;
   CostWave wave_;
   WaveBoxes boxes_;
@@ -310,8 +308,8 @@ class Thinner final : public ThinOrder {
 
 }  // namespace
 
-std::unique_ptr<ThinOrder> make_thin_order(ProxyEditor& editor, SimplifyCounts& counts) {
-  return std::make_unique<Thinner>(editor, counts);
+std::unique_ptr<ThinOrder> make_thin_order(ProxyEditor& editor) {
+  return std::make_unique<Thinner>(editor);
 }
 
 std::uint64_t faces_after(int stage, std::uint64_t from, std::uint64_t to) {
@@ -319,15 +317,13 @@ std::uint64_t faces_after(int stage, std::uint64_t from, std::uint64_t to) {
   return std::uint64_t(double(from) * std::pow(double(to) / double(from), double(stage) / kThinStages));
 }
 
-void thin(ProxyEditor& editor, std::uint64_t faces, const std::function<void()>& settle, SimplifyCounts& counts,
-          int first_stage) {
-  counts = {};
-  counts.faces_in = counts.faces_flat = editor.mesh().face_count();
-  Thinner order(editor, counts);
+SimplifyCounts thin(ProxyEditor& editor, std::uint64_t faces, const std::function<void()>& settle, int first_stage) {
+  Thinner order(editor);
+  const std::uint64_t faces_in = editor.mesh().face_count();
   bool enough = false;
   for (int stage = first_stage; stage <= kThinStages; ++stage) {
     order.renew();
-    const std::uint64_t wanted = faces_after(stage, counts.faces_in, faces);
+    const std::uint64_t wanted = faces_after(stage, faces_in, faces);
     enough = order.run(std::numeric_limits<double>::infinity(), wanted);
     while (!enough && editor.loosen()) {
       order.renew();
@@ -335,17 +331,18 @@ void thin(ProxyEditor& editor, std::uint64_t faces, const std::function<void()>&
     }
     if (stage < kThinStages) settle();
   }
-  counts.stop = enough ? StopReason::faces : counts.reason_left();
+  SimplifyCounts counts = order.counts;
+  counts.faces_in = counts.faces_flat = faces_in;
   counts.faces_out = editor.mesh().face_count();
+  counts.stop = enough ? StopReason::faces : counts.reason_left();
+  return counts;
 }
 
-void thin_free(ProxyEditor& editor, double most, SimplifyCounts& counts) {
-  counts = {};
-  counts.faces_in = counts.faces_flat = editor.mesh().face_count();
-  Thinner order(editor, counts);
+SimplifyCounts thin_free(ProxyEditor& editor, double most) {
+  Thinner order(editor);
   order.renew();
   order.run(most, 0);
-  counts.faces_out = editor.mesh().face_count();
+  return order.counts;
 }
 
 }  // namespace bp

@@ -16,10 +16,11 @@ class ThinOrder : public CostOrder {
   /// To be called at the beginning, and after other changes of the mesh: all vertices may have moved, and edges
   /// flipped, so costs are estimates, and edges without one get another chance.
   virtual void renew() = 0;
+  SimplifyCounts counts;  ///< collapses, fits and refusals
 };
 
-/// Keeps references; counts into `counts`. Deterministic. Cost: some ten fits and two exact tests a collapse.
-[[nodiscard]] std::unique_ptr<ThinOrder> make_thin_order(ProxyEditor& editor, SimplifyCounts& counts);
+/// Keeps a reference. Deterministic. Cost: some ten fits and two exact tests a collapse.
+[[nodiscard]] std::unique_ptr<ThinOrder> make_thin_order(ProxyEditor& editor);
 
 /// How many faces are to be left after stage 1, 2... kThinStages of the way from one number of faces to another: equal
 /// shares. Between stages the mesh is tightened, because what a collapse costs is known only of a tight proxy.
@@ -28,10 +29,10 @@ constexpr int kThinStages = 4;
 
 /// Collapses edges of a tight proxy until `faces` are left or nothing can be collapsed. `settle`: tightens the editor's
 /// mesh; called after each stage but the last. `first_stage`: those before it were done elsewhere.
-void thin(ProxyEditor& editor, std::uint64_t faces, const std::function<void()>& settle, SimplifyCounts& counts,
-          int first_stage = 1);
+[[nodiscard]] SimplifyCounts thin(ProxyEditor& editor, std::uint64_t faces, const std::function<void()>& settle,
+                                  int first_stage = 1);
 
-/// Collapses each edge that adds `most` or less, until none is left.
-void thin_free(ProxyEditor& editor, double most, SimplifyCounts& counts);
+/// Collapses each edge that adds `most` or less, until none is left. Returns its work.
+[[nodiscard]] SimplifyCounts thin_free(ProxyEditor& editor, double most);
 
 }  // namespace bp

@@ -24,7 +24,7 @@ class Editors {
     for_each([&](std::size_t i) {
       TightenParams own = params;
       own.volume = volume * double(regions_[i].faces.size()) / double(whole_.triangles.size());
-      tighten_on(parts_[i]->editor, own, parts_[i]->tightened);
+      parts_[i]->tightened = tighten_on(parts_[i]->editor, own);
     });
     for (const auto& part : parts_) {
       counts.sweeps = std::max(counts.sweeps, part->tightened.sweeps);
@@ -41,7 +41,7 @@ class Editors {
     take_cheapest(orders, excess);
   }
   void add_work(SimplifyCounts& counts) const {
-    for (const auto& part : parts_) counts.add_beside(part->simplified);
+    for (const auto& part : parts_) counts.add_beside(part->order->counts);
   }
 
   [[nodiscard]] std::uint64_t removed() const {
@@ -65,12 +65,11 @@ class Editors {
     Part(const Piece& whole, const Region& region, const Enclosed& enclosed, const ShapeLimits& limits)
         : mesh(mesh_of(whole, region)), editor(mesh, enclosed, limits) {}
     void renew_order() {
-      if (!order) order = make_thin_order(editor, simplified);
+      if (!order) order = make_thin_order(editor);
       order->renew();
     }
     HalfEdgeMesh mesh;
     ProxyEditor editor;
-    SimplifyCounts simplified;
     TightenCounts tightened;
     std::unique_ptr<ThinOrder> order;  // once it is needed
   };

@@ -46,9 +46,7 @@ struct Ground {
   [[nodiscard]] LatticeMesh proxy(std::uint64_t faces) const {
     SimplifyParams params;
     params.faces = faces;
-    SimplifyCounts simplified;
-    TightenCounts tightened;
-    return tight_proxy_of_few(*dense, *enclosed, params, simplified, tightened);
+    return tight_proxy_of_few(*dense, *enclosed, params).mesh;
   }
 };
 

@@ -30,12 +30,10 @@ double volume_around(const Solid& solid, const VoxelBox& box, const std::vector<
   const EnclosedTriangles enclosed(scene, frame);
   SimplifyParams params;
   params.faces = faces;
-  SimplifyCounts simplified;
-  TightenCounts tightened;
-  const LatticeMesh proxy = tight_proxy(ShelfSurface(shelf, frame), enclosed, params, simplified, tightened);
-  REQUIRE_NOTHROW(HalfEdgeMesh(proxy));
-  stop = simplified.stop;
-  return double(volume6_of(proxy)) / 6 / std::pow(double(kLatticePerVoxel), 3);
+  const TightProxy proxy = tight_proxy(ShelfSurface(shelf, frame), enclosed, params);
+  REQUIRE_NOTHROW(HalfEdgeMesh(proxy.mesh));
+  stop = proxy.simplified.stop;
+  return double(volume6_of(proxy.mesh)) / 6 / std::pow(double(kLatticePerVoxel), 3);
 }
 
 // A slab, thin for its length, half a voxel from the sides of its voxels.

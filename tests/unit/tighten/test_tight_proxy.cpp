@@ -97,9 +97,7 @@ TEST_CASE("a tight proxy of a ball of triangles touches neither it nor itself an
   SimplifyParams params;
   params.faces = 120;
   params.dense = false;
-  SimplifyCounts simplified;
-  TightenCounts tightened;
-  const LatticeMesh proxy = tight_proxy(dense, enclosed, params, simplified, tightened);
+  const auto [proxy, simplified, tightened] = tight_proxy(dense, enclosed, params);
   REQUIRE_NOTHROW(HalfEdgeMesh(proxy));
   CHECK(proxy.triangles.size() == 120);  // none is needless
   CHECK(simplified.faces_out == 120);
@@ -121,9 +119,7 @@ TEST_CASE("a proxy made in waves touches neither the scene nor itself, and is th
   std::vector<LatticeMesh> proxies;
   for (const int threads : {1, 2, 5}) {
     const ThreadLimit limit(threads);
-    SimplifyCounts simplified;
-    TightenCounts tightened;
-    proxies.push_back(tight_proxy(dense, enclosed, params, simplified, tightened));
+    proxies.push_back(tight_proxy(dense, enclosed, params).mesh);
     CHECK(proxies.back().vertices == proxies.front().vertices);
     CHECK(proxies.back().triangles == proxies.front().triangles);
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <unordered_map>
 
@@ -12,9 +13,8 @@
 #include "lib/geometry/crossing.h"
 #include "lib/geometry/triangle_bvh.h"
 #include "lib/geometry/welded_triangles.h"
-#include "lib/mesh/box_tree.h"
 #include "lib/mesh/constrained_minimum.h"
-#include "lib/mesh/half_edge_mesh.h"
+#include "lib/mesh/face_tree.h"
 #include "lib/mesh/lattice_geometry.h"
 
 namespace bp {
@@ -24,29 +24,10 @@ namespace {
 constexpr std::int64_t kGrain = 256;
 constexpr double kAbove = 2;  // lattice units from an apex to the planes around it: more than rounding takes back
 
-std::vector<LatticeBox> boxes_of(const LatticeMesh& mesh) {
-  std::vector<LatticeBox> boxes(mesh.triangles.size());
-  for (std::size_t f = 0; f < boxes.size(); ++f) {
-    const auto& [a, b, c] = mesh.triangles[f];
-    boxes[f] = box_of(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]);
-  }
-  return boxes;
+LatticeBox box_of_face(const LatticeMesh& mesh, const Triangle& face) {
+  const auto& [a, b, c] = face;
+  return box_of(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]);
 }
-
-BoxTree tree_of(const std::vector<LatticeBox>& boxes) {
-  std::vector<std::uint32_t> all(boxes.size());
-  for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
-  BoxTree tree;
-  tree.build(boxes, std::move(all));
-  return tree;
-}
-
-/// Boxes of the faces, and what finds them.
-struct Faces {
-  std::vector<LatticeBox> boxes;
-  BoxTree tree;
-  explicit Faces(const LatticeMesh& mesh) : boxes(boxes_of(mesh)), tree(tree_of(boxes)) {}
-};
 
 bool has_area(const LatticeMesh& mesh, std::size_t f) {
   const auto& [a, b, c] = mesh.triangles[f];
@@ -70,8 +51,35 @@ bool touches(const TriangleD& t, const TriangleD& face) {
                                      : triangles_intersect(t.data(), face.data());
 }
 
+/// The triangles that the mesh is to go around, each with a box.
+class SceneBoxes {
+ public:
+  SceneBoxes(std::span<const TriangleD> triangles, const GridFrame& frame) : triangles_(triangles) {
+    boxes_.resize(triangles.size());
+    parallel_ranges(std::int64_t(boxes_.size()), kGrain, [&](std::int64_t begin, std::int64_t end) {
+      for (auto i = std::size_t(begin); i < std::size_t(end); ++i) boxes_[i] = lattice_box(triangles[i], frame);
+    });
+  }
+  [[nodiscard]] std::span<const TriangleD> triangles() const { return triangles_; }
+  [[nodiscard]] const LatticeBox& box(std::size_t i) const { return boxes_[i]; }
+  /// Made when it is asked for first: a scene without folds needs none.
+  [[nodiscard]] const BoxTree& tree() {
+    if (tree_.size() == 0) {
+      std::vector<std::uint32_t> all(boxes_.size());
+      std::iota(all.begin(), all.end(), 0U);
+      tree_.build(boxes_, std::move(all));
+    }
+    return tree_;
+  }
+
+ private:
+  std::span<const TriangleD> triangles_;
+  std::vector<LatticeBox> boxes_;
+  BoxTree tree_;
+};
+
 /// Winding number of the mesh around a point of the scene that lies on no face.
-int winding(const LatticeMesh& mesh, const BoxTree& tree, const Vec3d& point) {
+int winding(const LatticeMesh& mesh, const FaceTree& tree, const Vec3d& point) {
   const LatticeCoord p = rounded(mesh.frame.to_lattice(point));
   int sum = 0;
   static_cast<void>(
@@ -85,14 +93,14 @@ int winding(const LatticeMesh& mesh, const BoxTree& tree, const Vec3d& point) {
 using Faults = std::vector<std::atomic<char>>;  // of each face
 
 /// Marks the faces that have no area, or meet others.
-void mark_met(const LatticeMesh& mesh, const Faces& faces, Faults& faulty) {
+void mark_met(const LatticeMesh& mesh, const FaceTree& tree, Faults& faulty) {
   parallel_ranges(std::int64_t(mesh.triangles.size()), kGrain, [&](std::int64_t begin, std::int64_t end) {
     for (auto f = std::uint32_t(begin); f < std::uint32_t(end); ++f) {
       if (!has_area(mesh, f)) {
         faulty[f] = 1;
         continue;
       }
-      static_cast<void>(faces.tree.query(faces.boxes[f], [&](std::uint32_t g) {
+      static_cast<void>(tree.query(box_of_face(mesh, mesh.triangles[f]), [&](std::uint32_t g) {
         if (g > f && has_area(mesh, g) &&
             triangles_meet_beyond_shared(mesh.vertices.data(), mesh.triangles[f], mesh.triangles[g]))
           faulty[f] = faulty[g] = 1;
@@ -103,11 +111,12 @@ void mark_met(const LatticeMesh& mesh, const Faces& faces, Faults& faulty) {
 }
 
 /// Marks the faces that touch the scene.
-void mark_touched(const LatticeMesh& mesh, const Faces& faces, std::span<const TriangleD> scene, Faults& faulty) {
-  parallel_ranges(std::int64_t(scene.size()), kGrain, [&](std::int64_t begin, std::int64_t end) {
+void mark_touched(const LatticeMesh& mesh, const FaceTree& tree, const SceneBoxes& scene, Faults& faulty) {
+  const std::span<const TriangleD> triangles = scene.triangles();
+  parallel_ranges(std::int64_t(triangles.size()), kGrain, [&](std::int64_t begin, std::int64_t end) {
     for (auto i = std::size_t(begin); i < std::size_t(end); ++i) {
-      static_cast<void>(faces.tree.query(lattice_box(scene[i], mesh.frame), [&](std::uint32_t f) {
-        if (has_area(mesh, f) && touches(scene[i], world_face(mesh, f))) faulty[f] = 1;
+      static_cast<void>(tree.query(scene.box(i), [&](std::uint32_t f) {
+        if (has_area(mesh, f) && touches(triangles[i], world_face(mesh, f))) faulty[f] = 1;
         return true;
       }));
     }
@@ -189,20 +198,18 @@ std::vector<Disc> discs_around(const HalfEdgeMesh& mesh, const std::vector<char>
 /// Puts tents over faults: a disc of faces around one gives way to the faces between its rim and an apex outside.
 class Tents {
  public:
-  Tents(LatticeMesh& mesh, std::span<const TriangleD> scene) : mesh_(mesh), scene_(scene) {
-    std::vector<LatticeBox> boxes(scene.size());
-    for (std::size_t i = 0; i < boxes.size(); ++i) boxes[i] = lattice_box(scene[i], mesh.frame);
-    scene_tree_ = tree_of(boxes);
-  }
+  /// `faces`: of the mesh as it is now.
+  Tents(LatticeMesh& mesh, const FaceTree& faces, SceneBoxes& scene)
+      : mesh_(mesh), faces_(faces), scene_(scene.triangles()), scene_tree_(scene.tree()) {}
 
   /// Where there is a place for one.
-  void put_over(const std::vector<Disc>& discs, const Faces& faces) {
+  void put_over(const std::vector<Disc>& discs) {
     std::vector<char> gone(mesh_.triangles.size());
     for (const Disc& disc : discs) {
       for (const FaceId f : disc.faces) gone[f] = 1;
     }
     for (const Disc& disc : discs) {
-      if (put_over(disc, faces, gone)) continue;
+      if (put_over(disc, gone)) continue;
       for (const FaceId f : disc.faces) gone[f] = 0;
     }
     std::vector<Triangle> kept;
@@ -214,7 +221,7 @@ class Tents {
   }
 
  private:
-  bool put_over(const Disc& disc, const Faces& faces, const std::vector<char>& gone) {
+  bool put_over(const Disc& disc, const std::vector<char>& gone) {
     const LatticeCoord origin = mesh_.vertices[disc.rim.front()];
     Vec3d middle{}, area{};
     for (std::size_t i = 0; i < disc.rim.size(); ++i) {
@@ -228,7 +235,7 @@ class Tents {
     const Vec3d up = (1 / length(area)) * area;
     for (const Vec3d& place : apexes(disc, origin, middle, up, size)) {
       const LatticeCoord apex = origin + rounded(place);
-      if (is_far(disc, apex) || !is_free(disc, apex, faces, gone)) continue;
+      if (is_far(disc, apex) || !is_free(disc, apex, gone)) continue;
       const std::vector<Triangle> tent = tent_over(disc, VertexId(mesh_.vertices.size()));
       mesh_.vertices.push_back(apex);
       mesh_.triangles.insert(mesh_.triangles.end(), tent.begin(), tent.end());
@@ -282,16 +289,16 @@ class Tents {
   }
 
   /// Whether the tent meets neither the scene nor the rest of the mesh. Tents that meet each other are found later.
-  bool is_free(const Disc& disc, const LatticeCoord& apex, const Faces& faces, const std::vector<char>& gone) {
+  bool is_free(const Disc& disc, const LatticeCoord& apex, const std::vector<char>& gone) {
     mesh_.vertices.push_back(apex);
     const std::vector<Triangle> tent = tent_over(disc, VertexId(mesh_.vertices.size() - 1));
     bool free = true;
     for (std::size_t i = 0; i < tent.size() && free; ++i) {
       const auto& [a, b, c] = tent[i];
       const LatticeCoord &p = mesh_.vertices[a], &q = mesh_.vertices[b], &r = mesh_.vertices[c];
-      const LatticeBox box = box_of(p, q, r);
+      const LatticeBox box = box_of_face(mesh_, tent[i]);
       const TriangleD world{mesh_.frame.world(p), mesh_.frame.world(q), mesh_.frame.world(r)};
-      free = normal_of(p, q, r) != LatticeCoord{} && faces.tree.query(box, [&](std::uint32_t f) {
+      free = normal_of(p, q, r) != LatticeCoord{} && faces_.query(box, [&](std::uint32_t f) {
         return gone[f] != 0 || !has_area(mesh_, f) ||
                !triangles_meet_beyond_shared(mesh_.vertices.data(), tent[i], mesh_.triangles[f]);
       }) && scene_tree_.query(box, [&](std::uint32_t t) { return !touches(scene_[t], world); });
@@ -303,8 +310,9 @@ class Tents {
   }
 
   LatticeMesh& mesh_;
+  const FaceTree& faces_;
   std::span<const TriangleD> scene_;
-  BoxTree scene_tree_;
+  const BoxTree& scene_tree_;
 };
 
 /// Marks the vertices of faulty faces, and those up to `rings` edges away.
@@ -328,20 +336,20 @@ bool mend_around(LatticeMesh& mesh, std::span<const TriangleD> scene) {
   constexpr int kRounds = 6;
   constexpr std::size_t kFewFaults = 50;  // one for so many faces: a scene of overlapping parts has more
   if (!std::all_of(scene.begin(), scene.end(), is_in_domain)) return false;
+  SceneBoxes inside(scene, mesh.frame);
   for (int round = 0; round < kRounds; ++round) {
-    const Faces faces(mesh);
+    const HalfEdgeMesh connected(mesh);
+    const FaceTree faces(connected);
     Faults faulty(mesh.triangles.size());
     mark_met(mesh, faces, faulty);
-    mark_touched(mesh, faces, scene, faulty);
+    mark_touched(mesh, faces, inside, faulty);
     const auto faults = std::size_t(std::count(faulty.begin(), faulty.end(), 1));
     if (faults * kFewFaults > mesh.triangles.size()) return false;
     if (faults == 0) {
       const std::vector<Vec3d> points = points_of_parts(scene);
-      return std::all_of(points.begin(), points.end(),
-                         [&](const Vec3d& p) { return winding(mesh, faces.tree, p) > 0; });
+      return std::all_of(points.begin(), points.end(), [&](const Vec3d& p) { return winding(mesh, faces, p) > 0; });
     }
-    const HalfEdgeMesh connected(mesh.vertices, mesh.triangles, kEverywhere);
-    Tents(mesh, scene).put_over(discs_around(connected, vertices_near(connected, faulty, round)), faces);
+    Tents(mesh, faces, inside).put_over(discs_around(connected, vertices_near(connected, faulty, round)));
   }
   return false;
 }
