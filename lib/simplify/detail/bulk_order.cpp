@@ -57,7 +57,7 @@ bool BulkOrder::try_edge(HalfEdgeId h, double bound) {
     worth_[h] = rounded_down(planner_.lower_bound(h));
     if (double(worth_[h]) > bound) return wait(h);
   }
-  planner_.plan(h, 0, bound, plan_);
+  planner_.plan(h, bound, plan_);
   if (plan_.outcome == CollapsePlan::Outcome::too_dear) {
     worth_[h] = rounded_down(plan_.cost);
     return wait(h);

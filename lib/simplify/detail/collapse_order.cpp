@@ -16,8 +16,7 @@ StrictOrder::StrictOrder(Collapser& collapser)
       planners_([&collapser] { return std::make_unique<CollapsePlanner>(collapser.ground()); }),
       wave_(mesh_),
       serial_(3 * mesh_.face_capacity(), 0),
-      refusal_(3 * mesh_.face_capacity(), Refusal::none),
-      attempt_(3 * mesh_.face_capacity(), 0) {
+      refusal_(3 * mesh_.face_capacity(), Refusal::none) {
   for (HalfEdgeId h = 0; h < serial_.size(); ++h) {
     if (is_edge(h)) renew(h);
   }
@@ -54,8 +53,7 @@ void StrictOrder::plan_wave(double next) {
   const std::vector<CostEntry>& members = wave_.members();
   if (plans_.size() < members.size()) plans_.resize(members.size());
   planners_.for_each(members.size(), kPlansPerThread, [&](CollapsePlanner& planner, std::size_t i) {
-    const HalfEdgeId edge = members[i].edge;
-    planner.plan(edge, attempt_[edge], std::max(members[i].cost, next), plans_[i]);
+    planner.plan(members[i].edge, std::max(members[i].cost, next), plans_[i]);
   });
 }
 
@@ -71,7 +69,6 @@ void StrictOrder::take_wave() {
 
 void StrictOrder::take(const CostEntry& entry, const CollapsePlan& plan) {
   if (plan.outcome == CollapsePlan::Outcome::too_dear) {  // not the best after all
-    attempt_[entry.edge] = std::uint8_t(plan.attempt);
     queue_.push({plan.cost, entry.edge, entry.serial});
     return;
   }
@@ -88,7 +85,6 @@ void StrictOrder::renew(HalfEdgeId h) {
   const HalfEdgeId e = mesh_.edge(h);
   if (mesh_.locked(mesh_.from(e)) || mesh_.locked(mesh_.to(e))) return;
   refusal_[e] = Refusal::none;
-  attempt_[e] = 0;
   renewed_.push_back({e, ++serial_[e]});
 }
 

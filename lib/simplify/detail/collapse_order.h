@@ -40,7 +40,6 @@ class StrictOrder : public CostOrder {
   WaveBoxes boxes_;
   std::vector<std::uint32_t> serial_;  // per half-edge: the one valid entry of its edge
   std::vector<Refusal> refusal_;       // per half-edge: why its edge must wait until its neighbourhood changes
-  std::vector<std::uint8_t> attempt_;  // per half-edge: which place its edge tries next
   CostQueue queue_;
   // Of the wave:
   std::vector<CollapsePlan> plans_;  // of the members

@@ -17,6 +17,7 @@ namespace {
 constexpr double kLeastTurn = 0.1;  // cosine between a face's normal before and after
 constexpr int kPlaces = 2;          // places tried before the growing one: the free minimum, and halfway between them
 constexpr int kFreePlaces = 4;      // of what keeps nothing inside
+constexpr int kNoOther = 4;         // the attempt after which there are no others
 
 }  // namespace
 
@@ -41,7 +42,8 @@ double CollapsePlanner::lower_bound(HalfEdgeId h) const {
   return std::max(0.0, q.value(minimum(q, midpoint(h))));
 }
 
-std::optional<CollapsePlanner::Candidate> CollapsePlanner::solve(HalfEdgeId h, int first_attempt, double most) {
+std::optional<CollapsePlanner::Candidate> CollapsePlanner::solve(HalfEdgeId h, int first_attempt) {
+  if (first_attempt == 0) refusal_ = Refusal::none;
   gather_star(h);
   if (!link_holds()) {
     refuse(Refusal::link);
@@ -54,7 +56,7 @@ std::optional<CollapsePlanner::Candidate> CollapsePlanner::solve(HalfEdgeId h, i
   weight_ = q.weight;
   if (params_.free) return place_free(q, prior, first_attempt);
   if (params_.enclosed != nullptr && first_attempt < kPlaces) {
-    if (const auto candidate = place_enclosing(q, prior, first_attempt, most)) return candidate;
+    if (const auto candidate = place_enclosing(q, prior, first_attempt)) return candidate;
   }
   return place_growing(q, prior);
 }
@@ -66,7 +68,7 @@ std::optional<CollapsePlanner::Candidate> CollapsePlanner::place_free(const Quad
   for (int attempt = first_attempt; attempt < kFreePlaces; ++attempt) {
     const LatticeCoord p = rounded(places[std::size_t(attempt)]);
     const double cost = q.value(to_double(p));
-    if (acceptable(p, cost)) return Candidate{origin_ + p, cost, attempt, attempt + 1 == kFreePlaces};
+    if (acceptable(p, cost)) return Candidate{origin_ + p, cost, attempt + 1 < kFreePlaces ? attempt : kNoOther};
   }
   return std::nullopt;
 }
@@ -81,28 +83,25 @@ std::optional<CollapsePlanner::Candidate> CollapsePlanner::place_growing(const Q
     if (!p) continue;
     const double cost = q.value(to_double(*p));
     if (!acceptable(*p, cost)) return std::nullopt;
-    return Candidate{origin_ + *p, cost, kPlaces, true};
+    return Candidate{origin_ + *p, cost, kNoOther};
   }
   refuse(Refusal::constraints);
   return std::nullopt;
 }
 
 /// Between the free minimum, which may cut into the solid, and the constrained one, which only grows it: the first
-/// point that keeps inside what must stay inside. Each costs more than the one before: one that costs more than `most`
-/// is not asked about, which takes far longer than to find it.
+/// point that keeps inside what must stay inside.
 std::optional<CollapsePlanner::Candidate> CollapsePlanner::place_enclosing(const Quadric& q, const Vec3d& prior,
-                                                                           int first_attempt, double most) {
+                                                                           int first_attempt) {
   const Vec3d free = minimum(q, prior);
+  const Vec3d grown = constrained_minimum(q, prior, constraints_).value_or(pushed_out(free));
   blocker_.count = 0;
   for (int attempt = first_attempt; attempt < kPlaces; ++attempt) {
-    Vec3d x = free;
-    if (attempt > 0) {
-      const Vec3d grown = constrained_minimum(q, prior, constraints_).value_or(pushed_out(free));
-      x = x + double(attempt) / kPlaces * (grown - free);
-    }
+    Vec3d x;
+    for (std::size_t i = 0; i < 3; ++i) x[i] = free[i] + double(attempt) / kPlaces * (grown[i] - free[i]);
     const LatticeCoord p = rounded(x);
     const double cost = q.value(to_double(p));
-    if (cost > most || (acceptable(p, cost) && keeps_inside(p))) return Candidate{origin_ + p, cost, attempt, false};
+    if (acceptable(p, cost) && keeps_inside(p)) return Candidate{origin_ + p, cost, attempt};
   }
   return std::nullopt;
 }
@@ -125,19 +124,17 @@ Vec3d CollapsePlanner::pushed_out(const Vec3d& x) const {
   return {x[0] + depth * mean[0], x[1] + depth * mean[1], x[2] + depth * mean[2]};
 }
 
-void CollapsePlanner::plan(HalfEdgeId h, int first_attempt, double most, CollapsePlan& plan) {
+void CollapsePlanner::plan(HalfEdgeId h, double most, CollapsePlan& plan) {
   plan.edge = h;
   plan.outcome = CollapsePlan::Outcome::refused;
-  refusal_ = Refusal::none;
-  std::optional<Candidate> candidate = solve(h, first_attempt, most);
-  while (candidate && candidate->cost <= most && !may_be_taken(candidate->position - origin_))
-    candidate = candidate->last ? std::nullopt : solve(h, candidate->attempt + 1, most);
+  std::optional<Candidate> candidate = solve(h, 0);
   if (candidate && candidate->cost > most) {
     plan.outcome = CollapsePlan::Outcome::too_dear;
     plan.cost = candidate->cost;
-    plan.attempt = candidate->attempt;
     return;
   }
+  while (candidate && !may_be_taken(candidate->position - origin_))
+    candidate = candidate->attempt == kNoOther ? std::nullopt : solve(h, candidate->attempt + 1);
   plan.refusal = refusal_;
   if (candidate) fill(*candidate, plan);
 }

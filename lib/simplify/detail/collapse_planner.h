@@ -30,7 +30,6 @@ struct CollapsePlan {
   Outcome outcome = Outcome::refused;
   Refusal refusal = Refusal::none;  ///< of the attempt that came furthest
   double cost = 0;                  ///< lattice units^4, unless refused
-  int attempt = 0;                  ///< too dear: the place that costs so much; those before it are refused
   // If allowed:
   LatticeCoord position;
   Quadric quadric;                ///< of the merged vertex
@@ -48,18 +47,17 @@ class CollapsePlanner {
   /// No collapse of the edge costs less: the minimum of its summed quadrics.
   [[nodiscard]] double lower_bound(HalfEdgeId h) const;
 
-  /// The first place, from number `first_attempt` on, where the edge may merge; not sought beyond the cost `most`.
-  void plan(HalfEdgeId h, int first_attempt, double most, CollapsePlan& plan);
+  /// The first place where the guard lets the edge merge; not sought if the first of all costs more than `most`.
+  void plan(HalfEdgeId h, double most, CollapsePlan& plan);
 
   std::uint64_t solved = 0;  ///< quadratic programs
 
  private:
-  /// A place that passed every test but the guard, or that costs too much to be tested.
+  /// A place that passed every test but the guard.
   struct Candidate {
     LatticeCoord position;
-    double cost = 0;    // of the summed quadrics at `position`, lattice units^4
-    int attempt = 0;    // which of the places to try it is
-    bool last = false;  // there are no others
+    double cost = 0;  // of the summed quadrics at `position`, lattice units^4
+    int attempt = 0;  // which of the places to try it is
   };
   /// A face around one of the edge's ends; coordinates relative to from(edge).
   struct StarFace {
@@ -71,8 +69,7 @@ class CollapsePlanner {
   };
 
   /// The first place from number `first_attempt` on for the vertex that the edge merges into; nothing if there is none.
-  /// Beyond the cost `most` the next place, tested or not.
-  [[nodiscard]] std::optional<Candidate> solve(HalfEdgeId h, int first_attempt, double most);
+  [[nodiscard]] std::optional<Candidate> solve(HalfEdgeId h, int first_attempt);
   [[nodiscard]] bool may_be_taken(const LatticeCoord& p);
   void fill(const Candidate& candidate, CollapsePlan& plan) const;
   [[nodiscard]] Quadric summed(HalfEdgeId h) const;
@@ -82,8 +79,7 @@ class CollapsePlanner {
   void gather_constraints();
   [[nodiscard]] std::optional<Candidate> place_growing(const Quadric& q, const Vec3d& prior);
   [[nodiscard]] std::optional<Candidate> place_free(const Quadric& q, const Vec3d& prior, int first_attempt);
-  [[nodiscard]] std::optional<Candidate> place_enclosing(const Quadric& q, const Vec3d& prior, int first_attempt,
-                                                         double most);
+  [[nodiscard]] std::optional<Candidate> place_enclosing(const Quadric& q, const Vec3d& prior, int first_attempt);
   [[nodiscard]] Vec3d pushed_out(const Vec3d& x) const;
   [[nodiscard]] std::optional<LatticeCoord> round_inside(const Vec3d& x, const Quadric& q) const;
   [[nodiscard]] bool outside_all(const LatticeCoord& p) const;
