@@ -150,7 +150,8 @@ void Build::make_room(VoxelizedScene& scene) {
 }
 
 void Build::note_scene(const VoxelizedScene& scene, std::optional<UpAxis> up_told) {
-  for (const std::string& text : scene_notes(scene.counts, scene.header)) note(text);
+  for (const std::string& text : scene_notes(scene.counts, scene.header, {options.voxels.scenes, scene_options(true)}))
+    note(text);
   note(up_note(size_.bounds, options.voxels.tell_up() || up_told));
   const char* const missing = options.profile == LodProfile::occluder
                                   ? "so nobody knows what is glass: all of the scene is taken for walls"
