@@ -57,13 +57,14 @@ struct Unfollowed {
   std::uint64_t skins = 0;       ///< meshes that joints have moved or bent
   std::uint64_t morphs = 0;      ///< meshes with morph targets that show
   std::uint64_t transforms = 0;  ///< nodes whose transform is read in different ways
+  std::uint64_t vertices = 0;    ///< meshes whose vertices are read in different ways
   std::uint64_t missing = 0;     ///< instances of what is not read, or in another file
 
-  [[nodiscard]] bool any() const { return skins + morphs + transforms + missing > 0; }
+  [[nodiscard]] bool any() const { return moves() || missing > 0; }
   /// Whether what was read may lie elsewhere.
-  [[nodiscard]] bool moves() const { return skins + morphs + transforms > 0; }
+  [[nodiscard]] bool moves() const { return skins + morphs + transforms + vertices > 0; }
   void add(const Unfollowed& u) {
-    skins += u.skins, morphs += u.morphs, transforms += u.transforms, missing += u.missing;
+    skins += u.skins, morphs += u.morphs, transforms += u.transforms, vertices += u.vertices, missing += u.missing;
   }
 };
 
