@@ -117,6 +117,16 @@ std::uint64_t limit_of_description(std::uint64_t bytes, const SceneOptions& opti
   return options.document.limit_with(std::uint64_t(std::ceil(double(bytes - most) * document)));
 }
 
+/// The shares of descriptions and of vertices keep their proportion, which limit_of_description() counts on.
+SceneOptions without_memory(SceneOptions options) {
+  constexpr std::uint64_t kReader = 16;
+  const double documents = double(options.document.bytes) / double(std::max<std::uint64_t>(1, options.memory_bytes));
+  options.document.bytes = std::uint64_t(std::max(1.0, std::ceil(documents * double(kReader))));
+  options.document.limit.bytes = 1;
+  options.memory_bytes = kReader;
+  return options;
+}
+
 std::string temp_dir_of(const SceneOptions& options) {
   if (!options.temp_dir.empty()) return options.temp_dir;
   const char* const set = std::getenv("TMPDIR");
