@@ -19,7 +19,7 @@ std::uint64_t limit_of_points(std::uint64_t bytes, const SceneOptions& options, 
 /// that is what does not fit.
 std::uint64_t limit_of_cage(const std::string& path, SceneOptions options) {
   options.mesh.memory.bytes = 1;
-  options.mesh.memory.limit.bytes = 1;  // of which nothing is left: the limit that is named is for the mesh alone
+  options.mesh.memory.limit.bytes = 8;  // of which nothing is left: the limit that is named is for the mesh alone
   try {
     (void)read_mesh(path, options);
   } catch (const Error& e) {
