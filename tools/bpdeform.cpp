@@ -1,4 +1,6 @@
 // bpdeform: binds a scene to a cage, and moves it as the cage is moved. Manual: docs/bpdeform.1.md
+#include <set>
+
 #include "io/files/lower.h"
 #include "io/scene/scene_format.h"
 #include "lib/core/error.h"
@@ -7,6 +9,7 @@
 #include "tools/cli/run_tool.h"
 #include "tools/deform/apply.h"
 #include "tools/deform/bind.h"
+#include "tools/deform/least_limit.h"
 #include "tools/run/make_backend.h"
 #include "tools/run/scene_budget.h"
 
@@ -97,16 +100,46 @@ bp::SceneOptions scene_options(const Options& o) {
   return options;
 }
 
+/// Of the same cage in many poses, once.
+bp::NoteOfCage note_once(const Options& o, bp::Report& report) {
+  return [&, told = std::set<std::string>()](const std::string& text) mutable {
+    if (told.insert(text).second) report.note(text, o.common);
+  };
+}
+
+/// Returns work(). If that is refused for memory, the limit that the message names is one at which all of it fits.
+template <class Work, class LeastLimit>
+auto naming_all(const Work& work, const LeastLimit& least) {
+  try {
+    return work();
+  } catch (const bp::Error& e) {
+    if (e.memory_bytes() == 0) throw;
+    std::uint64_t all = e.memory_bytes();
+    try {
+      all = std::max(all, least());
+    } catch (const bp::Error&) {  // of a file that is broken, too: the next run says so
+    }
+    throw bp::Error(e.code(), e.what(), e.remedies(), all);
+  }
+}
+
 void bind(const Options& o, bp::Report& report, bp::Progress& progress) {
   const auto output = bp::open_output(o.out, o.common.overwrite);
   bp::Backends backends;
   const auto make_backends = [&](double core_seconds) -> const bp::Backends& {
     return backends = bp::make_backends(o.common, core_seconds, &report);
   };
-  const bp::BindRequest request{
-      o.files[0],       o.files[1],   o.out, o.kind, o.outside == Outside::near, o.common.memory_bytes,
-      scene_options(o), make_backends};
-  const bp::WeightTotals totals = bp::bind_scene(request, *output, progress);
+  const bp::BindRequest request{o.files[0],
+                                o.files[1],
+                                o.out,
+                                o.kind,
+                                o.outside == Outside::near,
+                                o.common.memory_bytes,
+                                scene_options(o),
+                                make_backends,
+                                note_once(o, report)};
+  const bp::WeightTotals totals =
+      naming_all([&] { return bp::bind_scene(request, *output, progress); }, [&] { return bp::least_limit(request); });
   report.counts = {{"backends", bp::names_of(backends)}, {"vertices", totals.points}, {"outside", totals.outside}};
   if (totals.outside > 0)
     report.note(fmt::format("vertices outside the cage, which follow its nearest faces: {} of {}", totals.outside,
@@ -125,7 +158,21 @@ std::string numbered(const std::string& name, std::size_t i, std::size_t n) {
   return fmt::format("{}.{:0{}}{}", name.substr(0, dot), i, std::to_string(n - 1).size(), name.substr(dot));
 }
 
-/// Each scene appears when it is complete.
+/// Each scene appears when it is complete; returns how many there are.
+std::size_t apply_cages(const Options& o, const bp::ApplyRequest& request, std::span<const bp::MovedCage> cages,
+                        bp::Applied& applied, bp::Report& report, bp::Progress& progress) {
+  const bool animate = o.per_second > 0;
+  const std::size_t scenes = animate ? 1 : cages.size();
+  for (std::size_t i = 0; i < scenes; ++i) {
+    const auto output = bp::open_output(numbered(o.out, i, scenes), o.common.overwrite);
+    applied = animate ? bp::animate_cages(request, cages, o.per_second, *output, progress)
+                      : bp::apply_cage(request, cages[i], *output, progress);
+    output->commit();
+    report.bytes_out += output->bytes();
+  }
+  return scenes;
+}
+
 void apply(const Options& o, bp::Report& report, bp::Progress& progress) {
   const std::string scene = bp::scene_of(bp::WeightReader(o.files[0]), o.files[0]);
   bp::keep_inputs({scene});
@@ -137,18 +184,16 @@ void apply(const Options& o, bp::Report& report, bp::Progress& progress) {
   if (bp::scene_format_of(o.out) != format)
     fail(ErrorCode::bad_argument, "{}: the scene is written in its own format: name it .{}", o.out, format);
   const bool animate = o.per_second > 0;
-  const std::vector<bp::MovedCage> cages = bp::moved_cages(std::span(o.files).subspan(1), scene_options(o),
-                                                           animate ? std::optional(o.per_second) : std::nullopt);
-  const std::size_t scenes = animate ? 1 : cages.size();
-  const bp::ApplyRequest request{o.files[0], scene, o.common.memory_bytes, scene_options(o)};
+  const std::span<const std::string> files = std::span(o.files).subspan(1);
+  const bp::ApplyRequest request{o.files[0], scene, o.common.memory_bytes, scene_options(o), note_once(o, report)};
+  std::vector<bp::MovedCage> cages;
   bp::Applied applied;
-  for (std::size_t i = 0; i < scenes; ++i) {
-    const auto output = bp::open_output(numbered(o.out, i, scenes), o.common.overwrite);
-    applied = animate ? bp::animate_cages(request, cages, o.per_second, *output, progress)
-                      : bp::apply_cage(request, cages[i], *output, progress);
-    output->commit();
-    report.bytes_out += output->bytes();
-  }
+  const std::size_t scenes = naming_all(
+      [&] {
+        cages = bp::moved_cages(files, request.scene_options, animate ? std::optional(o.per_second) : std::nullopt);
+        return apply_cages(o, request, cages, applied, report, progress);
+      },
+      [&] { return bp::least_limit(request, files, animate ? std::max(cages.size(), files.size()) : 0); });
   report.counts = {{"vertices", applied.points}, {"scenes", scenes}};
   std::string written = numbered(o.out, 0, scenes);
   if (scenes > 1) {

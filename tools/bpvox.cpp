@@ -96,7 +96,8 @@ bp::VoxelizeOptions pass_options(const Options& o, const bp::VoxelizeBudget& bud
   return v;
 }
 
-void fill_report(bp::Report& report, const Options& o, const bp::StreamHeader& header, const bp::VoxelizeCounts& c) {
+void fill_report(bp::Report& report, const Options& o, const bp::StreamHeader& header, const bp::VoxelizeCounts& c,
+                 const bp::SceneOptions& scene) {
   report.options["options"] = header.provenance.back().options;
   report.options["memory"] = o.common.memory_bytes;
   report.bytes_in = bp::size_of_files(o.voxels.scenes);
@@ -123,7 +124,7 @@ void fill_report(bp::Report& report, const Options& o, const bp::StreamHeader& h
         fmt::format("the voxel size was rounded from {} to {}, so that every vertex of a proxy is an exact double",
                     c.voxel_asked, header.frame.voxel));
   }
-  for (const std::string& text : bp::scene_notes(c, header)) report.note(text, o.common);
+  for (const std::string& text : bp::scene_notes(c, header, {o.voxels.scenes, scene})) report.note(text, o.common);
   if (c.open_columns > 0) {
     report.note(fmt::format("{} columns of voxels cross an open or inconsistently oriented surface; the flood decided "
                             "there, and elsewhere the inside may be missing; --fill flood needs no orientation",
@@ -163,7 +164,7 @@ void run(const Options& o) {
   progress.end();
   report.bytes_out = file->bytes();
   report.counts["backends"] = bp::names_of(backends);
-  fill_report(report, o, header, counts);
+  fill_report(report, o, header, counts, scene);
   report.write(o.common);
 }
 

@@ -2,7 +2,9 @@
 #include <cmath>
 #include <cstring>
 
+#include "io/gltf/detail/data_uri.h"
 #include "io/gltf/detail/gltf_copy.h"
+#include "io/gltf/detail/gltf_sketch.h"
 #include "io/gltf/detail/gltf_vertices.h"
 #include "io/scene/points/scene_points.h"
 #include "lib/core/vec3.h"
@@ -239,6 +241,17 @@ std::vector<float> GltfPoints::changes_of(const GltfVertices& v, std::uint64_t f
 }
 
 }  // namespace
+
+std::uint64_t bytes_of_gltf_points(const SceneFilePtr& file, const SceneOptions& options, const PointsUse& use) {
+  const detail::JsonPlace json = detail::json_place(*file);
+  const detail::GltfSketch sketch =
+      detail::sketch_of(read_lean_json(file, json.begin, json.size, temp_dir_of(options), false).text);
+  const std::uint64_t opened = sketch.parsed_bytes + sketch.places * detail::GltfPlan::kPlaceBytes;
+  const std::uint64_t read = std::max(sketch.text_bytes + sketch.parsed_bytes, opened);
+  if (!use.written) return read;
+  return std::max(
+      read, opened + detail::GltfCopy::kPerByte * json.size + sketch.copied_bytes + use.frames * sketch.target_bytes);
+}
 
 std::unique_ptr<ScenePoints> gltf_points(SceneFilePtr file, const SceneOptions& options) {
   return std::make_unique<GltfPoints>(std::move(file), options);

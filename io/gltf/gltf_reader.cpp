@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 #include <tuple>
+#include <utility>
 
 #include "io/gltf/detail/gltf_materials.h"
 #include "io/gltf/detail/gltf_skin.h"
@@ -39,6 +40,7 @@ class SceneBuilder {
         materials_(doc_, file->name(), textures_, surface_),
         walls_only_(options.walls_only),
         pose_(options.pose.get()),
+        options_(options),
         parts_(options.parts, options.part_names),
         level_(options.level),
         place_(place) {}
@@ -54,6 +56,7 @@ class SceneBuilder {
     scene_.bytes = doc_.bytes();
     scene_.differing = doc_.differing();
     scene_.document_bytes = doc_.document_bytes();
+    if (parts_.asks_for_triangles()) note_parts();
     return std::move(scene_);
   }
 
@@ -91,6 +94,8 @@ class SceneBuilder {
   const GltfSkin& skin(std::uint64_t i);
   Range mesh(std::uint64_t i, bool wanted, const Moved& moved);
   [[nodiscard]] bool fits(const GltfObject& named) const;
+  [[nodiscard]] std::string name_of(const GltfObject& node) const;
+  void note_parts();
   [[nodiscard]] bool has_material_that_fits(const GltfObject& primitive) const;
   void add_primitive(const GltfObject& p, const Moved& moved);
   void add_normals(const GltfObject& p, const Moved& moved, Primitive& primitive);
@@ -107,10 +112,12 @@ class SceneBuilder {
   GltfMaterials materials_;
   const bool walls_only_;
   const ScenePose* const pose_;  // null: as the file shows it
+  const SceneOptions& options_;
   const PartFilter parts_;
   const std::size_t level_;
   const std::optional<ContentPlace> place_;
   InstancedScene scene_;
+  std::vector<std::string> names_;  // of scene_.nodes, if parts_ asks for triangles
   std::map<MovedMesh, Range> meshes_;
   std::vector<std::optional<Affine>> places_;  // of the nodes that were reached
   std::vector<Skinned> skinned_;               // nodes that wait until all joints are placed
@@ -211,6 +218,34 @@ void SceneBuilder::add_mesh_node(const GltfObject& node, const Affine& transform
   const Range range = mesh(node.number("mesh"), wanted, moved);
   if (range.first == range.end) return;
   scene_.nodes.push_back({transform, range.first, range.end, instance_array(node)});
+  if (parts_.asks_for_triangles()) names_.push_back(name_of(node));
+}
+
+/// The name of a node with a mesh, or of the mesh, or its number.
+std::string SceneBuilder::name_of(const GltfObject& node) const {
+  const GltfObject mesh = root_.item("meshes", node.number("mesh"));
+  for (const GltfObject& named : {node, mesh}) {
+    if (named.has("name") && !named.text("name").empty()) return named.text("name");
+  }
+  return node.place();
+}
+
+/// Reads the triangles of each node by themselves. The names are asked for when something is wrong with a scene, and
+/// the memory of the nodes needs no room for them otherwise.
+void SceneBuilder::note_parts() {
+  for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
+    MeshNode node = scene_.nodes[i];
+    InstancedScene part;
+    part.bytes = scene_.bytes;
+    part.primitives.assign(scene_.primitives.begin() + node.first, scene_.primitives.begin() + node.end);
+    if (node.instances) part.arrays.push_back(scene_.arrays[*std::exchange(node.instances, 0U)]);
+    node.end -= std::exchange(node.first, 0U);
+    part.nodes.push_back(node);
+    const RawSourcePtr source = stream_instances(std::move(part), options_);
+    bool noted = false;
+    for (std::vector<TriangleD> some; !noted && source->read(some);)
+      noted = std::any_of(some.begin(), some.end(), [&](const TriangleD& t) { return parts_.note(names_[i], t); });
+  }
 }
 
 // Its joints alone say where it is.

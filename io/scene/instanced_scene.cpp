@@ -76,7 +76,9 @@ std::uint64_t cache_bytes(const InstancedScene& scene, const SceneOptions& optio
 /// Elements of accessors, read through one cache.
 class ElementReader {
  public:
-  ElementReader(SceneFilePtr file, std::uint64_t budget) : cache_(std::move(file), budget) {}
+  /// A small file has a small cache: of a tileset's contents, thousands are opened in a run.
+  ElementReader(const SceneFilePtr& file, std::uint64_t budget)
+      : cache_(file, std::min(budget, file->size() + 8 * BlockCache::kBlockBytes)) {}
 
   /// Bytes of element i in `raw`, or false where it is zeros.
   bool fetch(const Accessor& a, std::uint64_t i, std::byte* raw) {

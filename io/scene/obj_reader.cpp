@@ -56,6 +56,7 @@ class ObjSource final : public PolygonSource {
     material_ = kWhite;
     passed_over_ = false;
     fits_ = {};
+    names_ = {};
   }
 
   /// Consumes the keyword: 'v', 'f', 'l', 'o' or 'g' if that is all of it, 't' for "vt", 'n' for "vn", 's' for "surf",
@@ -68,6 +69,7 @@ class ObjSource final : public PolygonSource {
   void use_material(char key, const std::string& name);
   void load_materials(const std::string& name);
   void use_name(char key, const std::string& name);
+  void note_part(const std::vector<std::uint64_t>& corners);
   void read_corners(std::vector<std::uint64_t>& corners);
   void check_last_line(const std::vector<std::uint64_t>& corners);
   void read_corner_place();
@@ -92,7 +94,10 @@ class ObjSource final : public PolygonSource {
   const PartFilter parts_;
   struct {
     bool object = false, group = false, material = false;
-  } fits_;                                                       // parts_, of what the next faces belong to
+  } fits_;  // parts_, of what the next faces belong to
+  struct {
+    std::string part, material;  // of the last line "o" or "g": a group in an object says more; of "usemtl"
+  } names_;
   bool passed_over_ = false;                                     // faces of the current material
   std::uint64_t seen_ = 0, seen_places_ = 0, seen_normals_ = 0;  // "v", "vt" and "vn" lines of this pass
   std::uint64_t lines_ = 0;                                      // "l" lines of this pass
@@ -114,7 +119,7 @@ bool ObjSource::next_face(std::vector<std::uint64_t>& corners) {
       ++seen_normals_;
     } else if (key == 'u' || key == 'm' || (parts_.asks() && (key == 'o' || key == 'g'))) {
       const std::string name = text_.rest_of_line();
-      if (parts_.asks()) use_name(key, name);
+      if (parts_.asks() && key != 'm') use_name(key, name);
       if (key == 'u' || key == 'm') use_material(key, name);
     } else if (key == 'l') {
       ++lines_;
@@ -125,6 +130,7 @@ bool ObjSource::next_face(std::vector<std::uint64_t>& corners) {
     } else if (key == 'f' && !passed_over_ && is_wanted()) {
       read_corners(corners);
       check_last_line(corners);
+      if (parts_.asks_for_triangles()) note_part(corners);
       text_.next_line();
       return true;
     }
@@ -217,10 +223,22 @@ void ObjSource::load_materials(const std::string& name) {
 void ObjSource::use_name(char key, const std::string& name) {
   if (key == 'o') fits_.object = parts_.fits(name);
   if (key == 'u') fits_.material = parts_.fits(name);
+  (key == 'u' ? names_.material : names_.part) = name;
   if (key != 'g') return;
   fits_.group = parts_.fits(name);
   std::istringstream words(name);
   for (std::string word; words >> word;) fits_.group = parts_.fits(word) || fits_.group;
+}
+
+/// The part has the name of its group or object, else of its material.
+void ObjSource::note_part(const std::vector<std::uint64_t>& corners) {
+  for (const std::uint64_t corner : corners) {
+    if (corner >= vertex_count()) return;
+  }
+  for (std::size_t k = 2; k < corners.size(); ++k) {
+    const TriangleD t{vertex(corners[0]), vertex(corners[k - 1]), vertex(corners[k])};
+    if (parts_.note(names_.part.empty() ? names_.material : names_.part, t)) return;
+  }
 }
 
 // Corners are "v", "v/vt", "v//vn", "v/vt/vn", with any of the later numbers missing.

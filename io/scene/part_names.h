@@ -1,9 +1,11 @@
 #pragma once
+#include <functional>
 #include <memory>
 #include <set>
 #include <string>
 
 #include "io/scene/name_pattern.h"
+#include "lib/core/coords.h"
 
 namespace bp {
 
@@ -12,6 +14,8 @@ struct PartNames {
   static constexpr std::size_t kMostBytes = std::size_t(1) << 20;
   std::set<std::string> names;
   bool complete = true;
+  /// Asks for the parts that hold a triangle like this, by one name each. Empty: asks for all names.
+  std::function<bool(const TriangleD&)> of_triangle;
 
   void add(const std::string& name) {
     if (name.empty() || names.contains(name)) return;
@@ -32,8 +36,16 @@ class PartFilter {
   [[nodiscard]] bool takes_all() const { return pattern_.empty(); }
   [[nodiscard]] bool asks() const { return met_ != nullptr || !takes_all(); }
   [[nodiscard]] bool fits(const std::string& name) const {
-    if (met_) met_->add(name);
+    if (met_ && !asks_for_triangles()) met_->add(name);
     return fits_pattern(name, pattern_);
+  }
+  /// PartNames::of_triangle is there: the reader calls note() for each part and its triangles.
+  [[nodiscard]] bool asks_for_triangles() const { return met_ != nullptr && met_->of_triangle != nullptr; }
+  /// Notes the part of this name if it holds such a triangle. Returns whether it does.
+  bool note(const std::string& name, const TriangleD& triangle) const {
+    const bool holds = met_->of_triangle(triangle);
+    if (holds) met_->add(name);
+    return holds;
   }
 
  private:

@@ -186,6 +186,10 @@ void drop_signs_of_zeros(TriangleD& t);
 void check_document(const SceneOptions& options, const std::string& name, const char* what, std::uint64_t bytes,
                     std::uint64_t left, std::uint64_t later = 0);
 
+/// Options that leave next to no memory for a description: opening refuses before it takes any, and the limit that the
+/// refusal names is for this description alone. For asking files what they take.
+[[nodiscard]] SceneOptions without_memory(SceneOptions options);
+
 /// Directory of scratch files.
 [[nodiscard]] std::string temp_dir_of(const SceneOptions& options);
 

@@ -7,6 +7,7 @@
 #include "io/scene/detail/foreign_format.h"
 #include "io/scene/detail/open_raw.h"
 #include "io/scene/detail/position_index.h"
+#include "io/scene/detail/scene_row.h"
 #include "io/scene/raw_source.h"
 #include "io/scene/scene_format.h"
 #include "io/scene/scene_pose.h"
@@ -238,106 +239,6 @@ class FilteredScene final : public TriangleSource {
   std::uint64_t bad_faces_ = 0;       // met by complete()
 };
 
-/// Files in a row. Only one is open at a time, so that vertices and file handles of the others take nothing; stdin,
-/// which cannot be opened again, stays open once it is.
-class SceneRow final : public TriangleSource {
- public:
-  SceneRow(std::vector<std::string> paths, const SceneOptions& options) : paths_(std::move(paths)), options_(options) {
-    for (const std::string& path : paths_) {
-      if (path == "-") continue;
-      const InputFile probe(path);  // a missing file should not wait for hours of reading, nor one that is not read
-      if (options_.format.empty() && scene_format_of(path).empty()) refuse_foreign(path);
-    }
-  }
-  bool read(std::vector<TriangleD>& out) override {
-    out.clear();
-    return read_next([&](TriangleSource& scene) { return scene.read(out); });
-  }
-  bool read_colored(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors) override {
-    out.clear();
-    colors.clear();
-    return read_next([&](TriangleSource& scene) { return scene.read_colored(out, colors); });
-  }
-  bool read_textured(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors,
-                     std::vector<TriangleTexture>& textures) override {
-    out.clear();
-    colors.clear();
-    textures.clear();
-    return read_next([&](TriangleSource& scene) { return scene.read_textured(out, colors, textures); });
-  }
-  bool read_faces(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors,
-                  std::vector<std::uint8_t>& inner_edges) override {
-    out.clear();
-    colors.clear();
-    inner_edges.clear();
-    return read_next([&](TriangleSource& scene) { return scene.read_faces(out, colors, inner_edges); });
-  }
-  [[nodiscard]] bool has_colors() const override { return has_colors_; }
-  [[nodiscard]] bool has_textures() const override { return has_textures_; }
-  void rewind() override {
-    scene_.reset();
-    entered_ = false;
-    next_ = 0;
-    counts_ = finished_ = {};
-  }
-  [[nodiscard]] const SceneCounts& counts() const override { return counts_; }
-  [[nodiscard]] std::string name() const override {
-    return paths_.size() == 1 ? paths_[0] : fmt::format("{} scenes", paths_.size());
-  }
-  [[nodiscard]] std::optional<UpAxis> up() const override { return up_; }  // of the first one that tells
-
- private:
-  template <class Read>
-  bool read_next(const Read& read) {
-    for (; next_ < paths_.size(); leave()) {
-      TriangleSource& scene = enter();
-      const bool more = read(scene);
-      if (!up_) up_ = scene.up();
-      has_colors_ = has_colors_ || scene.has_colors();
-      has_textures_ = has_textures_ || scene.has_textures();
-      counts_ = finished_;
-      counts_.add(scene.counts());
-      if (more) return true;
-      check_not_empty(scene);
-    }
-    return false;
-  }
-  /// The other files do not make up for an export that failed. Where only some parts are asked for, a file may have
-  /// none.
-  void check_not_empty(const TriangleSource& scene) const {
-    if (!options_.parts.empty() || options_.walls_only || scene.counts().has_area()) return;
-    const SceneCounts& c = scene.counts();
-    fail(ErrorCode::bad_input,
-         "{}: no triangles ({} degenerate, {} non-finite, {} bad faces); each scene needs at least one with an area",
-         scene.name(), c.degenerate, c.non_finite, c.bad_faces);
-  }
-  TriangleSource& enter() {
-    const bool piped = paths_[next_] == "-";
-    std::unique_ptr<TriangleSource>& slot = piped ? stdin_ : scene_;
-    if (!slot) {
-      slot = open_scene(paths_[next_], options_);
-    } else if (!entered_) {
-      slot->rewind();
-    }
-    entered_ = true;
-    return *slot;
-  }
-  void leave() {
-    finished_ = counts_;
-    scene_.reset();
-    entered_ = false;
-    ++next_;
-  }
-
-  std::vector<std::string> paths_;
-  SceneOptions options_;
-  std::size_t next_ = 0;
-  bool entered_ = false, has_colors_ = false, has_textures_ = false;
-  std::unique_ptr<TriangleSource> scene_, stdin_;
-  SceneCounts finished_, counts_;
-  std::optional<UpAxis> up_;
-};
-
 }  // namespace
 
 std::unique_ptr<TriangleSource> filtered(std::string name, RawSourcePtr raw, const SceneOptions& options) {
@@ -357,7 +258,7 @@ std::unique_ptr<TriangleSource> open_scenes(std::vector<std::string> paths, cons
   if (paths.empty()) fail(ErrorCode::bad_argument, "no scene was named; name a file, or - for stdin");
   check_stdin_once(paths);
   if (paths.size() == 1) return open_scene(paths[0], options);
-  return std::make_unique<SceneRow>(std::move(paths), options);
+  return scene_row(std::move(paths), options);
 }
 
 IndexedMesh mesh_of(const std::string& name, RawSource& raw, const SceneOptions& options, SceneCounts& counts) {

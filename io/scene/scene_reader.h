@@ -74,7 +74,7 @@ struct SceneOptions {
   /// Deliver only parts whose name fits (* and ? as in file names); empty: all. Names of OBJ: o, g, usemtl; of glTF: of
   /// nodes, with all below them, of meshes, of materials. Other formats are refused.
   std::string parts{};
-  std::shared_ptr<PartNames> part_names{};  ///< put all such names here that are met; null: none
+  std::shared_ptr<PartNames> part_names{};  ///< put such names here that are met, as it asks for; null: none
 };
 
 /// Triangles of one file; "-" is stdin, which is spooled to a scratch file. The reader is chosen by the file's

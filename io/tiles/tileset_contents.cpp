@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <optional>
 
 #include "io/files/file.h"
 #include "io/files/kept_files.h"
@@ -88,6 +89,19 @@ class ContentCounter {
 
   explicit ContentCounter(const SceneOptions& options) : options_(options) {}
 
+  /// Throws out_of_resource if a tileset within does not fit. The limit that is named has room for each that was met.
+  Count count_all(const GltfObject& tileset, const std::string& path, std::uint64_t bytes) {
+    const Count all = count(tileset, path, bytes);
+    if (refused_) throw Error(refused_->code(), refused_->what(), refused_->remedies(), least_limit_);
+    return all;
+  }
+
+  [[noreturn]] static void too_deep(const std::string& path) {
+    fail(ErrorCode::bad_input, {Remedy::repair_file}, "{}: tilesets within tilesets are read {} deep", path,
+         kMostNested);
+  }
+
+ private:
   Count count(const GltfObject& tileset, const std::string& path, std::uint64_t bytes) {
     const std::string real = real_path(path);
     if (std::find(open_.begin(), open_.end(), real) != open_.end())
@@ -104,12 +118,6 @@ class ContentCounter {
     return known_[real] = all;
   }
 
-  [[noreturn]] static void too_deep(const std::string& path) {
-    fail(ErrorCode::bad_input, {Remedy::repair_file}, "{}: tilesets within tilesets are read {} deep", path,
-         kMostNested);
-  }
-
- private:
   void add(const FoundContent& found, Count& all) {
     if (!found.is_tileset) {
       all.contents += 1;
@@ -125,14 +133,22 @@ class ContentCounter {
   Count counted(const std::string& path) {
     const auto known = known_.find(real_path(path));
     if (known != known_.end()) return known->second;
-    const CountedJson json = read_json(open_scene_file(path, temp_dir_of(options_), NamedBy::file), options_, held_);
-    return count(GltfObject(json.json, path, ""), path, json.bytes);
+    try {
+      const CountedJson json = read_json(open_scene_file(path, temp_dir_of(options_), NamedBy::file), options_, held_);
+      return count(GltfObject(json.json, path, ""), path, json.bytes);
+    } catch (const NeedsMemory& e) {
+      if (!refused_) refused_ = e;
+      least_limit_ = std::max(least_limit_, e.memory_bytes());
+      return known_[real_path(path)] = {};
+    }
   }
 
   const SceneOptions& options_;
   std::map<std::string, Count> known_;
   std::vector<std::string> open_;  // tilesets around the place
   std::uint64_t held_ = 0;
+  std::optional<NeedsMemory> refused_;  // the first one
+  std::uint64_t least_limit_ = 0;
 };
 
 std::string number_text(double n) {
@@ -146,7 +162,7 @@ class ContentFinder {
 
   TilesetContents run(const CountedJson& tileset, const std::string& path) {
     const GltfObject root(tileset.json, path, "");
-    check_counts(ContentCounter(options_).count(root, path, tileset.bytes), path, tileset.bytes);
+    check_counts(ContentCounter(options_).count_all(root, path, tileset.bytes), path, tileset.bytes);
     held_ = tileset.bytes;
     out_.up = gltf_up(root).value_or(UpAxis::z);
     content_up_ = bp::content_up(root);

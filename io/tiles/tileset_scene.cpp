@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <mutex>
 
 #include "io/gltf/gltf_document.h"
@@ -48,7 +49,11 @@ class RestingFile final : public SceneFile {
 class TilesetSource final : public RawSource {
  public:
   TilesetSource(TilesetContents contents, const SceneOptions& options)
-      : contents_(std::move(contents)), options_(options) {}
+      : contents_(std::move(contents)), options_(options) {
+    for (const ContentFile& file : contents_.files) list_bytes_ += sizeof(ContentFile) + file.path.size();
+    MemoryShare& left = options_.document;  // beside the list
+    if (left.bytes > 0) left.bytes = std::max<std::uint64_t>(1, left.bytes - std::min(left.bytes, list_bytes_));
+  }
 
   bool read(std::vector<TriangleD>& out) override {
     RawBatch batch;
@@ -87,9 +92,33 @@ class TilesetSource final : public RawSource {
  private:
   void enter() {
     file_ = std::make_shared<RestingFile>(contents_.files[at_].path, temp_dir_of(options_));
-    content_ = open_tile_content(file_, options_, contents_.files[at_].place).triangles;
+    content_ = open_content();
     has_colors_ = has_colors_ || content_->has_colors();
     has_textures_ = has_textures_ || content_->has_textures();
+  }
+  /// Where one does not fit, those after it are asked, too: the limit that is named has room for each.
+  [[nodiscard]] RawSourcePtr open_content() const {
+    try {
+      return open_tile_content(file_, options_, contents_.files[at_].place).triangles;
+    } catch (const Error& e) {
+      if (e.memory_bytes() == 0) throw;
+      throw Error(e.code(), e.what(), e.remedies(), std::max(e.memory_bytes(), limit_for_the_rest()));
+    }
+  }
+  [[nodiscard]] std::uint64_t limit_for_the_rest() const {
+    const SceneOptions nothing = without_memory(options_);
+    std::uint64_t least = 0;
+    for (std::size_t i = at_ + 1; i < contents_.files.size(); ++i) {
+      const ContentFile& file = contents_.files[i];
+      if (file.path == contents_.files[i - 1].path) continue;
+      try {
+        (void)open_tile_content(open_scene_file(file.path, temp_dir_of(options_), NamedBy::file), nothing, file.place);
+      } catch (const Error& e) {
+        least = std::max(least, e.memory_bytes());
+      }
+    }
+    const MemoryShare& share = options_.document;
+    return least == 0 ? 0 : MemoryLimit{least, share.limit.fixed_bytes}.with(list_bytes_, share.share);
   }
   void leave() {
     bad_faces_ += content_->bad_faces();
@@ -108,7 +137,8 @@ class TilesetSource final : public RawSource {
   }
 
   const TilesetContents contents_;
-  const SceneOptions options_;
+  SceneOptions options_;
+  std::uint64_t list_bytes_ = 0;  // of contents_
   std::size_t at_ = 0;
   std::shared_ptr<RestingFile> file_;
   RawSourcePtr content_;

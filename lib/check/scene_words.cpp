@@ -18,6 +18,7 @@ std::string not_followed(const Unfollowed& u) {
   add(u.skins, "mesh part", " in a pose of joints");
   add(u.morphs, "mesh part", " with a morph target");
   add(u.transforms, "node", " whose transform programs read in different ways (lookat, rotate)");
+  add(u.vertices, "mesh part", " whose vertices programs read in different ways");
   add(u.missing, "shape", " that is not read (in another file, or a solid)");
   return all;
 }

@@ -31,7 +31,11 @@ Json json_of(const std::optional<SampledDistance>& d) {
 }
 
 Json json_of(const Unfollowed& u) {
-  return {{"skins", u.skins}, {"morphs", u.morphs}, {"transforms", u.transforms}, {"missing", u.missing}};
+  return {{"skins", u.skins},
+          {"morphs", u.morphs},
+          {"transforms", u.transforms},
+          {"vertices", u.vertices},
+          {"missing", u.missing}};
 }
 
 Json scene_json(const CheckReport& r) {

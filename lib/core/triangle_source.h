@@ -59,13 +59,14 @@ struct Unfollowed {
   std::uint64_t skins = 0;       ///< meshes that joints have moved or bent
   std::uint64_t morphs = 0;      ///< meshes with morph targets that show
   std::uint64_t transforms = 0;  ///< nodes whose transform is read in different ways
+  std::uint64_t vertices = 0;    ///< meshes whose vertices are read in different ways
   std::uint64_t missing = 0;     ///< instances of meshes that are not read, or are in another file
 
-  [[nodiscard]] bool any() const { return skins + morphs + transforms + missing > 0; }
+  [[nodiscard]] bool any() const { return moves() || missing > 0; }
   /// Returns whether meshes that were read may lie elsewhere in other programs.
-  [[nodiscard]] bool moves() const { return skins + morphs + transforms > 0; }
+  [[nodiscard]] bool moves() const { return skins + morphs + transforms + vertices > 0; }
   void add(const Unfollowed& u) {
-    skins += u.skins, morphs += u.morphs, transforms += u.transforms, missing += u.missing;
+    skins += u.skins, morphs += u.morphs, transforms += u.transforms, vertices += u.vertices, missing += u.missing;
   }
 };
 

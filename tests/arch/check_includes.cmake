@@ -52,7 +52,7 @@ set(rules
   "tools/cli:lib/* io/files io/scene"
   "tools/run:lib/* io/files io/scene io/mesh gpu tools/cli"
   "tools/cli/options:lib/* tools/cli tools/run"
-  "tools/notes:lib/* tools/cli"
+  "tools/notes:lib/* io/scene tools/cli"
   "tools/check:lib/* io/* tools/cli tools/cli/options tools/run"
   "tools/deform:lib/* io/* tools/cli tools/run"
   "tools/info:lib/* io/* tools/cli tools/run tools/notes"

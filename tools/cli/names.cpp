@@ -49,7 +49,7 @@ std::string skipped(const SceneCounts& c) {
   }
   if (c.unfollowed.any())
     text += (text.empty() ? "" : "; ") + not_followed(c.unfollowed) +
-            ": read without, and programs may draw them elsewhere; glTF is read with them";
+            ": programs may draw them elsewhere than they are read here; glTF leaves nothing of that open";
   if (c.animations > 0) text += (text.empty() ? "" : "; ") + counted(c.animations, "animation") + " not followed";
   return text;
 }

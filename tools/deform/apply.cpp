@@ -15,7 +15,6 @@
 #include "lib/deform/pose.h"
 #include "lib/store/content_hash.h"
 #include "tools/cli/report.h"
-#include "tools/deform/bind.h"
 
 namespace bp {
 
@@ -64,9 +63,11 @@ class MoveStream {
 };
 
 /// Also those that are not finite, which moves_of_cage() names.
-std::vector<TriangleD> faces_of(const MovedCage& cage, SceneOptions options) {
+std::vector<TriangleD> faces_of(const MovedCage& cage, const ApplyRequest& request) {
+  SceneOptions options = request.scene_options;
   options.pose = cage.pose;
   const IndexedMesh mesh = read_mesh(cage.path, options);
+  note_of_cage(mesh, cage.path, request.note);
   std::vector<TriangleD> faces;
   for (const auto& t : mesh.triangles) faces.push_back({mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]});
   return faces;
@@ -92,8 +93,8 @@ class CageMover {
         scene_(scene),
         weights_(request.weights),
         coordinates_(make_cage(weights_.header().cage, request.weights), weights_.header().kind),
-        moves_(coordinates_.moves_of_columns(
-            moves_of_cage(weights_.header().cage, faces_of(cage, request.scene_options), cage.path))) {
+        moves_(
+            coordinates_.moves_of_columns(moves_of_cage(weights_.header().cage, faces_of(cage, request), cage.path))) {
     const std::uint64_t bytes = size_of_files({request.scene}), expected = weights_.header().scene_bytes;
     if (bytes != expected)
       fail(ErrorCode::bad_input, "{}: has {} bytes, and had {} when {} was made of it; bind it again", request.scene,

@@ -9,6 +9,7 @@
 #include "io/deform/weight_file.h"
 #include "io/scene/scene_pose.h"
 #include "tools/cli/progress.h"
+#include "tools/deform/bind.h"
 
 namespace bp {
 
@@ -16,6 +17,7 @@ struct ApplyRequest {
   std::string weights, scene;
   std::uint64_t memory_bytes = 0;
   SceneOptions scene_options;
+  NoteOfCage note;
 };
 
 /// A file, in one of its poses.

@@ -11,6 +11,7 @@
 #include "lib/core/pool.h"
 #include "lib/store/content_hash.h"
 #include "tools/cli/common_options.h"
+#include "tools/cli/names.h"
 #include "tools/cli/report.h"
 #include "tools/run/make_backend.h"
 #include "tools/run/memory_shares.h"
@@ -119,6 +120,7 @@ IndexedMesh read_cage(const BindRequest& request) {
     options.pose = std::make_shared<const ScenePose>(std::move(pose));
     IndexedMesh mesh = read_mesh(request.cage, options);
     (void)make_cage(mesh, request.cage);
+    note_of_cage(mesh, request.cage, request.note);
     return mesh;
   } catch (const Error& e) {
     if (!seems_swapped(request)) throw;
@@ -133,6 +135,17 @@ IndexedMesh read_cage(const BindRequest& request) {
        tally.place[1], tally.place[2], swapped ? kSceneFirst : "use a larger cage, or --outside near");
 }
 
+std::uint64_t block_bytes(const CageCoordinates& coordinates) {
+  const std::size_t columns = coordinates.columns();
+  return 24 * points_of_block(columns) * columns + coordinates.bytes_at_once();
+}
+
+/// Beside the blocks; `held`: of it, what describes the scene.
+std::uint64_t fixed_bytes(std::uint64_t held, const CageCoordinates& coordinates) {
+  constexpr std::uint64_t kPerFace = 512;  // of the cage: its vertices, edges, tables and hierarchy
+  return least_memory(0) + held + kPerFace * coordinates.cage().faces.size();
+}
+
 /// The name of a file from the folder of another; one that begins at the root stays.
 std::string name_from(const std::string& from, const std::string& file) {
   const std::filesystem::path folder = std::filesystem::absolute(from).parent_path();
@@ -142,11 +155,19 @@ std::string name_from(const std::string& from, const std::string& file) {
 
 }  // namespace
 
+/// Poses and morph targets of a glTF are no loss: they are what moves the cage.
+void note_of_cage(const IndexedMesh& cage, const std::string& path, const NoteOfCage& note) {
+  SceneCounts counts;
+  counts.bad_faces = cage.bad_faces, counts.differing = cage.differing, counts.unfollowed = cage.unfollowed;
+  if (const std::string text = skipped(counts); !text.empty()) note(path + ": " + text);
+}
+
+std::uint64_t limit_for_blocks(std::uint64_t held, const CageCoordinates& coordinates) {
+  return fixed_bytes(held, coordinates) + block_bytes(coordinates);
+}
+
 int blocks_at_work(std::uint64_t memory_bytes, std::uint64_t held, const CageCoordinates& coordinates) {
-  constexpr std::uint64_t kPerFace = 512;  // of the cage: its vertices, edges, tables and hierarchy
-  const std::size_t columns = coordinates.columns();
-  const std::uint64_t block = 24 * points_of_block(columns) * columns + coordinates.bytes_at_once();
-  const std::uint64_t fixed = least_memory(0) + held + kPerFace * coordinates.cage().faces.size();
+  const std::uint64_t block = block_bytes(coordinates), fixed = fixed_bytes(held, coordinates);
   const std::uint64_t left = memory_bytes > fixed ? memory_bytes - fixed : 0;
   if (left < block) throw NeedsMemory("a block of weights", block, left, fixed + block);
   return int(std::clamp<std::uint64_t>(left / block, 1, 2 * std::uint64_t(thread_count())));

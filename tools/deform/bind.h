@@ -14,6 +14,15 @@ namespace bp {
 /// most two for each thread. `held`: bytes of it that are in use. Throws NeedsMemory if not even one fits.
 [[nodiscard]] int blocks_at_work(std::uint64_t memory_bytes, std::uint64_t held, const CageCoordinates& coordinates);
 
+/// The limit on memory at which one fits.
+[[nodiscard]] std::uint64_t limit_for_blocks(std::uint64_t held, const CageCoordinates& coordinates);
+
+/// Gets a sentence on what the file of a cage says that was not read.
+using NoteOfCage = std::function<void(const std::string&)>;
+
+/// Passes on what a cage was read without, if anything. `path`: of its file.
+void note_of_cage(const IndexedMesh& cage, const std::string& path, const NoteOfCage& note);
+
 struct BindRequest {
   std::string scene, cage, weights;  ///< weights: the name of `out`
   CoordinateKind kind = CoordinateKind::mean_value;
@@ -23,6 +32,7 @@ struct BindRequest {
   /// What computes coordinates. Gets the seconds that they would take on one core, about. Their pinned memory is taken
   /// off memory_bytes.
   std::function<const Backends&(double core_seconds)> backends;
+  NoteOfCage note;
 };
 
 /// Binds a scene: streams its vertices through the coordinates of the cage into `out`. Throws bad_input if points lie

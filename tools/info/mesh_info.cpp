@@ -4,6 +4,7 @@
 
 #include "io/files/file.h"
 #include "lib/check/counted.h"
+#include "lib/check/scene_words.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 
@@ -95,6 +96,7 @@ std::string mesh_text(const MeshInfo& info, const std::string& name) {
   if (c.degenerate + c.non_finite + c.bad_faces > 0) {
     s += fmt::format("skipped     {} degenerate, {} not finite, {} broken\n", c.degenerate, c.non_finite, c.bad_faces);
   }
+  if (c.unfollowed.any()) s += fmt::format("unread      {}\n", not_followed(c.unfollowed));
   if (c.rounding.share > 0x1p-30)  // single precision
     s += fmt::format("read        to within {:.2g} of the file's coordinates\n", c.rounding.most);
   if (!t.bounds.empty()) {
@@ -122,6 +124,7 @@ Json mesh_json(const MeshInfo& info) {
   if (info.vertices) j["vertices"] = *info.vertices;
   j["instances"] = c.instances;
   j["skipped"] = {{"degenerate", c.degenerate}, {"non_finite", c.non_finite}, {"bad_faces", c.bad_faces}};
+  if (c.unfollowed.any()) j["not_followed"] = not_followed(c.unfollowed);
   if (c.rounding.any()) j["rounding"] = c.rounding.most;
   if (!t.bounds.empty()) {
     j["bounds"] = {{"min", t.bounds.min}, {"max", t.bounds.max}};

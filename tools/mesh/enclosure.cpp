@@ -61,7 +61,8 @@ void check_bounds(const std::string& name, const std::vector<TriangleD>& chunk, 
   fail(ErrorCode::bad_input, "{}: reaches beyond the scene that the stream was made from; name that scene", name);
 }
 
-std::vector<TriangleD> read_files(const std::vector<std::string>& files, const EnclosureInput& in) {
+/// Tells in `note` what of the files was not read as it stands there.
+std::vector<TriangleD> read_files(const std::vector<std::string>& files, const EnclosureInput& in, std::string& note) {
   const auto scene = open_scenes(files, scene_options(in, ""));
   std::vector<TriangleD> all;
   for (std::vector<TriangleD> chunk; scene->read(chunk);) {
@@ -70,6 +71,8 @@ std::vector<TriangleD> read_files(const std::vector<std::string>& files, const E
     check_memory(scene->name(), all.size(), in);
   }
   if (all.empty()) fail(ErrorCode::bad_input, "{}: no triangles; there is nothing to enclose", scene->name());
+  note = reading_note(scene->counts(), in.header.frame.voxel);
+  if (!note.empty()) note = fmt::format("{}: {}", scene->name(), note);
   return all;
 }
 
@@ -155,7 +158,7 @@ Enclosure enclosure_of(const EncloseOption& option, const EnclosureInput& in) {
       break;
     case Kind::files:
       out.what = Enclose::scene;
-      out.scene = read_files(option.files, in);
+      out.scene = read_files(option.files, in, out.note);
       break;
     case Kind::scene:
       out.what = Enclose::scene;

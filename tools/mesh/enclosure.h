@@ -22,7 +22,8 @@ struct EnclosureInput {
 struct Enclosure {
   Enclose what = Enclose::closing;
   std::vector<TriangleD> scene;  ///< for Enclose::scene
-  std::string note;              ///< why `automatic` does without the scene's triangles; empty: nothing to say
+  /// Why `automatic` does without the scene's triangles, or what of named files was not read; empty: nothing to say.
+  std::string note;
 };
 
 /// Chooses, and reads the scene's triangles where they are needed. `automatic` is the scene's triangles if the stream

@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "io/scene/part_names.h"
+#include "lib/core/error.h"
+#include "lib/pass/voxelize/stray_part.h"
 #include "tools/cli/names.h"
 #include "tools/notes/proportion.h"
 
@@ -23,14 +27,43 @@ std::string voxel_for_the_rest(const StrayPart& stray, const Bounds3d& scene) {
   return fmt::format(", or say --voxel {:.3g} for {} voxels along the rest", voxel, kAlong);
 }
 
-std::string stray_note(const VoxelizeCounts& counts, const StreamHeader& header) {
+/// Names of the parts of the scene that hold a triangle of `stray`. None where files cannot be read again, or name no
+/// parts: then the place has to do.
+std::set<std::string> names_of(const StrayPart& stray, const SceneAgain& scene) {
+  if (std::count(scene.files.begin(), scene.files.end(), "-") > 0) return {};
+  SceneOptions options = scene.options;
+  options.part_names = std::make_shared<PartNames>();
+  options.part_names->of_triangle = [&](const TriangleD& t) { return stray.holds(t); };
+  try {
+    const auto source = open_scenes(scene.files, options);
+    for (std::vector<TriangleD> chunk; source->read(chunk);) {
+    }
+  } catch (const Error&) {
+    return {};
+  }
+  return options.part_names->names;
+}
+
+/// " of 'bird' and 2 other parts"; empty without names.
+std::string names_text(const std::set<std::string>& names) {
+  if (names.empty()) return "";
+  std::string name = *names.begin();
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return std::uint8_t(c) < ' ' || c == 0x7f; }, '?');
+  const std::size_t others = names.size() - 1;
+  return fmt::format(" of '{}'{}", name,
+                     others == 0 ? "" : fmt::format(" and {} other part{}", others, others == 1 ? "" : "s"));
+}
+
+std::string stray_note(const VoxelizeCounts& counts, const StreamHeader& header, const SceneAgain& scene) {
   if (!counts.stray) return "";
   const StrayPart& stray = *counts.stray;
   return fmt::format(
-      "{:.2g} % of the surface, from {} to {}, makes the scene {:.4g} long, and the rest is {:.4g} long: its voxels "
+      "{:.2g} % of the surface{}, from {} to {}, makes the scene {:.4g} long, and the rest is {:.4g} long: its voxels "
       "are as large as for that ({:.4g}); take it out of the file if it was left there by mistake{}",
-      100 * stray.share, point_text(stray.part.min), point_text(stray.part.max), header.bounds.longest_side(),
-      stray.rest.longest_side(), header.frame.voxel, voxel_for_the_rest(stray, header.bounds));
+      100 * stray.share, names_text(names_of(stray, scene)), point_text(stray.part.min), point_text(stray.part.max),
+      header.bounds.longest_side(), stray.rest.longest_side(), header.frame.voxel,
+      voxel_for_the_rest(stray, header.bounds));
 }
 
 /// Tells of a surface with an opening that the flood comes in by. A closed one has its volume filled, and parts that
@@ -50,10 +83,11 @@ std::string leak_note(const VoxelizeCounts& counts, const StreamHeader& header) 
 
 }  // namespace
 
-std::vector<std::string> scene_notes(const VoxelizeCounts& counts, const StreamHeader& header) {
+std::vector<std::string> scene_notes(const VoxelizeCounts& counts, const StreamHeader& header,
+                                     const SceneAgain& scene) {
   std::vector<std::string> notes;
   for (std::string text :
-       {reading_note(counts.scene, header.frame.voxel), stray_note(counts, header), leak_note(counts, header)}) {
+       {reading_note(counts.scene, header.frame.voxel), stray_note(counts, header, scene), leak_note(counts, header)}) {
     if (!text.empty()) notes.push_back(std::move(text));
   }
   return notes;

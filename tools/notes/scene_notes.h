@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "io/scene/scene_reader.h"
 #include "lib/grid/stream.h"
 #include "lib/pass/voxelize/voxelize_pass.h"
 
@@ -9,6 +10,14 @@
 /// the grid large, a flood that found no inside.
 namespace bp {
 
-[[nodiscard]] std::vector<std::string> scene_notes(const VoxelizeCounts& counts, const StreamHeader& header);
+/// How a scene is read again, for the names of its parts.
+struct SceneAgain {
+  std::vector<std::string> files;  ///< with stdin among them it is not read
+  SceneOptions options;
+};
+
+/// Reads the scene again only if a small part makes the grid large.
+[[nodiscard]] std::vector<std::string> scene_notes(const VoxelizeCounts& counts, const StreamHeader& header,
+                                                   const SceneAgain& scene);
 
 }  // namespace bp

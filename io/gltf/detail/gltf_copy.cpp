@@ -16,7 +16,6 @@ namespace {
 constexpr std::uint32_t kJson = 0x4E4F534A, kBin = 0x004E4942;
 constexpr std::uint64_t kFirst = 12;
 constexpr int kVertexData = 34962;
-constexpr std::uint64_t kPerByte = 12;  // of JSON: memory of what it becomes, values and text
 
 struct Chunk {
   std::uint64_t begin = 0, size = 0;  ///< of its content
@@ -49,6 +48,12 @@ void each_block(const File& file, std::uint64_t size, const F& f) {
 
 }  // namespace
 
+JsonPlace json_place(const SceneFile& file) {
+  if (!is_glb(file)) return {0, file.size()};
+  const Chunk json = chunk_at(file, kFirst);
+  return {json.begin, json.size};
+}
+
 void check_container(const SceneFile& file) {
   if (!is_glb(file)) return;
   const Chunk json = chunk_at(file, kFirst), data = chunk_at(file, json.end());
@@ -62,7 +67,7 @@ GltfCopy::GltfCopy(SceneFilePtr file, const SceneFile& buffer, std::uint64_t byt
       data_(std::make_unique<ScratchFile>(temp_dir_of(options))),
       options_(options),
       held_(held) {
-  const Chunk json = is_glb(*file_) ? chunk_at(*file_, kFirst) : Chunk{0, file_->size(), kJson};
+  const JsonPlace json = json_place(*file_);
   add_memory(kPerByte * json.size, "its JSON, read and written");
   std::string text(json.size, ' ');
   file_->read_at(json.begin, std::as_writable_bytes(std::span(text)));
@@ -82,11 +87,10 @@ void GltfCopy::add_memory(std::uint64_t bytes, const char* what) {
 }
 
 void GltfCopy::plan_copies(const GltfPlan& plan) {
-  constexpr std::uint64_t kView = 900, kPositions = 1900, kOthers = 1000, kMesh = 500;
   std::uint64_t sum = 0;
   for (const GltfVertices& v : plan.vertices) {
     for (std::size_t i = 0; i < v.numbers.size() && v.is_copy; ++i)
-      sum += v.numbers[i] == 0 ? 0 : kView + (i == 0 ? kPositions : kOthers);
+      sum += v.numbers[i] == 0 ? 0 : kViewBytes + (i == 0 ? kPositionBytes : kOtherBytes);
   }
   std::map<std::uint64_t, std::uint64_t> mesh_bytes;
   std::uint64_t node = ~std::uint64_t(0);  // edits of a node follow each other
@@ -94,7 +98,7 @@ void GltfCopy::plan_copies(const GltfPlan& plan) {
     if (!e.own_mesh || e.node == node) continue;
     node = e.node;
     const auto [bytes, is_new] = mesh_bytes.try_emplace(e.mesh);
-    if (is_new) bytes->second = kMesh + kPerByte * json_["meshes"][e.mesh].dump().size();
+    if (is_new) bytes->second = kMeshBytes + kPerByte * json_["meshes"][e.mesh].dump().size();
     sum += bytes->second;
   }
   add_memory(sum, "its JSON with a mesh for each place");
@@ -163,12 +167,12 @@ void GltfCopy::plan_targets(const std::vector<GltfVertices>& parts, std::size_t 
 
 /// Of all parts, for one cage.
 std::uint64_t GltfCopy::bytes_of_targets() const {
-  constexpr std::uint64_t kView = 1200, kPositions = 2600, kNormals = 1300, kPrimitive = 800;
   std::uint64_t of_each = 0, stride = 0;
   for (const Part& part : parts_) {
-    if (part.stride() != stride) of_each += kView;
+    if (part.stride() != stride) of_each += kTargetViewBytes;
     stride = part.stride();
-    of_each += kPositions + (part.has_normals ? kNormals : 0) + part.primitives.size() * kPrimitive;
+    of_each += kPositionTargetBytes + (part.has_normals ? kNormalTargetBytes : 0) +
+               part.primitives.size() * kPrimitiveTargetBytes;
   }
   return of_each;
 }

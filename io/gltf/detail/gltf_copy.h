@@ -19,9 +19,21 @@ namespace bp::detail {
 /// Throws bad_input if this is a GLB that is not JSON, one binary chunk, and nothing else.
 void check_container(const SceneFile& file);
 
+/// Where the JSON of a GLB or of a glTF lies.
+struct JsonPlace {
+  std::uint64_t begin = 0, size = 0;
+};
+[[nodiscard]] JsonPlace json_place(const SceneFile& file);
+
 /// A glTF document whose first buffer is changed in a scratch file.
 class GltfCopy {
  public:
+  // Bytes of memory of what is added to the JSON, and of each byte of its text: values, and the text that is written.
+  static constexpr std::uint64_t kPerByte = 12, kMeshBytes = 500;
+  static constexpr std::uint64_t kViewBytes = 900, kPositionBytes = 1900, kOtherBytes = 1000;  // with an accessor
+  static constexpr std::uint64_t kTargetViewBytes = 1200, kPositionTargetBytes = 2600, kNormalTargetBytes = 1300,
+                                 kPrimitiveTargetBytes = 800;
+
   /// buffer: the first one, of so many bytes. held: bytes of SceneOptions::document that are in use beside this.
   GltfCopy(SceneFilePtr file, const SceneFile& buffer, std::uint64_t bytes, std::uint64_t held,
            const SceneOptions& options);

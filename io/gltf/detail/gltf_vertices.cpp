@@ -70,9 +70,6 @@ class VertexFinder {
   GltfPlan plan_;
 };
 
-/// A copy of the vertices, and what tells known places.
-constexpr std::uint64_t kPlace = 2 * sizeof(GltfVertices) + 250, kEdit = sizeof(GltfEdit);
-
 /// As if all primitives of all nodes were places.
 void VertexFinder::reserve() {
   std::uint64_t places = 0;
@@ -81,7 +78,7 @@ void VertexFinder::reserve() {
     if (node.has("mesh")) places += root_.item("meshes", node.number("mesh")).array("primitives").size();
   }
   check_document(options_, name_, "its JSON and the list of its places",
-                 doc_.memory_bytes() + places * (kPlace + kEdit), options_.document.bytes);
+                 doc_.memory_bytes() + places * GltfPlan::kPlaceBytes, options_.document.bytes);
   plan_.vertices.reserve(places), plan_.edits.reserve(places);
 }
 
@@ -190,7 +187,7 @@ void VertexFinder::check_shared_bytes() const {
 }  // namespace
 
 std::uint64_t GltfPlan::memory_bytes() const {
-  return vertices.size() * kPlace + edits.size() * kEdit;
+  return vertices.size() * (kPlaceBytes - sizeof(GltfEdit)) + edits.size() * sizeof(GltfEdit);
 }
 
 GltfPlan plan_of_vertices(GltfDocument& doc, const std::string& name, const SceneOptions& options) {

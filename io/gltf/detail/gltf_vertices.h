@@ -27,6 +27,8 @@ struct GltfEdit {
 struct GltfPlan {
   std::vector<GltfVertices> vertices;  ///< in the order in which nodes reach them
   std::vector<GltfEdit> edits;
+  /// Bytes of memory for a place: a copy of the vertices, what tells known places, and an edit.
+  static constexpr std::uint64_t kPlaceBytes = 2 * sizeof(GltfVertices) + 250 + sizeof(GltfEdit);
   /// Of memory, also while it is made and used.
   [[nodiscard]] std::uint64_t memory_bytes() const;
 };

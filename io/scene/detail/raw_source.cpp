@@ -117,6 +117,18 @@ std::uint64_t limit_of_description(std::uint64_t bytes, const SceneOptions& opti
   return options.document.limit_with(std::uint64_t(std::ceil(double(bytes - most) * document)));
 }
 
+/// The shares of descriptions and of vertices keep their proportion, which limit_of_description() counts on. The limit
+/// is the one at which the step has so little: half of so small a limit is shared out.
+SceneOptions without_memory(SceneOptions options) {
+  constexpr std::uint64_t kReader = 16;
+  const double documents = double(options.document.bytes) / double(std::max<std::uint64_t>(1, options.memory_bytes));
+  options.document.bytes = std::uint64_t(std::max(1.0, std::ceil(documents * double(kReader))));
+  const double rest = double(options.document.bytes) / std::max(options.document.share, 1e-9);
+  options.document.limit.bytes = 2 * std::uint64_t(std::ceil(rest));
+  options.memory_bytes = kReader;
+  return options;
+}
+
 std::string temp_dir_of(const SceneOptions& options) {
   if (!options.temp_dir.empty()) return options.temp_dir;
   const char* const set = std::getenv("TMPDIR");

@@ -19,4 +19,10 @@ std::unique_ptr<ScenePoints> open_points(const std::string& path, const SceneOpt
   return format == "obj" ? obj_points(std::move(file)) : ply_points(std::move(file));
 }
 
+std::uint64_t bytes_of_points(const std::string& path, const SceneOptions& options, const PointsUse& use) {
+  const std::string format = scene_format_of(path);
+  if (format != "gltf" && format != "glb") return 0;
+  return bytes_of_gltf_points(open_scene_file(path, temp_dir_of(options)), options, use);
+}
+
 }  // namespace bp

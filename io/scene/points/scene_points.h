@@ -48,8 +48,19 @@ class ScenePoints {
 /// bad_input if it is of another format, broken, or holds what cannot be kept.
 [[nodiscard]] std::unique_ptr<ScenePoints> open_points(const std::string& path, const SceneOptions& options);
 
+/// What becomes of the vertices.
+struct PointsUse {
+  bool written = false;    ///< by ScenePoints::write() or write_frames(); else they are read
+  std::size_t frames = 0;  ///< of write_frames()
+};
+/// Bytes of SceneOptions::document that all steps of this use take together, at most. The file is counted, not opened:
+/// it need not fit in memory.
+[[nodiscard]] std::uint64_t bytes_of_points(const std::string& path, const SceneOptions& options, const PointsUse& use);
+
 [[nodiscard]] std::unique_ptr<ScenePoints> obj_points(SceneFilePtr file);
 [[nodiscard]] std::unique_ptr<ScenePoints> ply_points(SceneFilePtr file);
 [[nodiscard]] std::unique_ptr<ScenePoints> gltf_points(SceneFilePtr file, const SceneOptions& options);
+[[nodiscard]] std::uint64_t bytes_of_gltf_points(const SceneFilePtr& file, const SceneOptions& options,
+                                                 const PointsUse& use);
 
 }  // namespace bp

@@ -54,4 +54,11 @@ last bpcheck --convex inner.obj collada_skin.dae
 last bpcheck --inside proxy.obj collada_skin.dae
 last bpcheck --margin 0.01 inner.obj collada_skin.dae
 try bpcheck inner.obj collada_skin.dae > /dev/null
-bpcheck --json inner.obj collada_skin.dae 2> said | grep -A5 not_followed
+bpcheck --json inner.obj collada_skin.dae 2> said | grep -A6 not_followed
+
+# Every tool that reads such a file says so: bpmesh of what it encloses, bpdeform of a cage, bpinfo.
+bpvox proxy.obj --resolution 16 -q -o proxy.bpv
+try bpmesh proxy.bpv --enclose collada_skin.dae --faces 12 -o enclosed.obj
+try bpdeform bind inner.obj collada_skin.dae --outside near -o inner.bpw
+try bpdeform apply inner.bpw collada_skin.dae collada_skin.dae -o moved.obj
+bpinfo collada_skin.dae | grep unread

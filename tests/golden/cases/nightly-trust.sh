@@ -82,3 +82,18 @@ echo "= $?"
 kill -0 "$(cat bpcheck.pid)" 2> /dev/null && echo "bpcheck goes on"
 LC_ALL=C ls -A out | diff before - && echo "nothing is left behind"
 nightly scenes out "${options[@]}"
+# A night that is killed ends what runs, too: the next one is not kept out.
+cat > bin/bplod << SCRIPT
+#!/bin/bash
+[[ "\$1" != --version && "\$1" != /dev/null ]] || exec $(command -v bplod) "\$@"
+echo \$\$ > bplod.pid
+exec sleep 60
+SCRIPT
+rm bplod.pid
+chmod +x bin/bplod
+PATH=$PWD/bin:$PATH "$BP_ROOT/samples/nightly" scenes out "${options[@]}" --levels 1 > /dev/null 2>&1 & night=$!
+until [ -s bplod.pid ]; do sleep 0.05; done
+kill -9 $night
+{ wait $night; } 2> /dev/null
+echo "= $?"
+nightly scenes out "${options[@]}" --levels 1

@@ -46,7 +46,8 @@ ScalePlan read_field(Build& build, const VoxelizedScene& voxels) {
 
 void note_scene(Build& build, const LodScene& scene, std::optional<UpAxis> up_told) {
   const BuildOptions& o = build.options;
-  for (const std::string& text : scene_notes(scene.voxels.counts, scene.voxels.header)) build.note(text);
+  const SceneAgain again{o.voxels.scenes, build.scene_options(true)};
+  for (const std::string& text : scene_notes(scene.voxels.counts, scene.voxels.header, again)) build.note(text);
   build.note(up_note(scene.size.bounds, o.voxels.tell_up() || up_told));
   const bool is_occluder = o.profile == LodProfile::occluder;
   const char* const missing =

@@ -41,6 +41,12 @@ class Ac3dText {
     return all;
   }
   [[nodiscard]] std::uint64_t materials() const { return std::max<std::uint64_t>(materials_, 1); }
+  /// Assimp computes the vertices of some objects, and they are not known here.
+  [[nodiscard]] bool has_subdivision() const { return has_subdivision_; }
+  /// Lists that Assimp reads in another way, without a word. A line of a vertex that begins with neither a digit nor a
+  /// sign, such as ".5 0 0", is the end of the list for it; the number of a vertex that does not exist is that of the
+  /// first one.
+  [[nodiscard]] std::uint64_t unlike() const { return unlike_; }
 
  private:
   static constexpr int kMostNested = 1000;
@@ -84,18 +90,23 @@ class Ac3dText {
 
   std::string_view text_, line_;
   std::size_t at_ = 0;
-  std::uint64_t materials_ = 0;
+  std::uint64_t materials_ = 0, unlike_ = 0;
+  bool has_subdivision_ = false;
 };
 
 void Ac3dText::add_vertices(Ac3dObject& object) {
+  bool cut = false;
   for (std::uint64_t n = count(); n > 0; --n) {
     if (!next_line()) throw NotUnderstood();
     const std::vector<double> p = numbers(line_, 3);
     object.vertices.push_back({p[0], p[1], p[2]});
+    cut = cut || std::string_view("0123456789+-").find(line_[0]) == std::string_view::npos;
   }
+  unlike_ += cut ? 1 : 0;
 }
 
 void Ac3dText::add_surfaces(Ac3dObject& object) {
+  bool missing = false;
   for (std::uint64_t n = count(); n > 0; --n) {
     if (!next_line() || word() != "SURF") throw NotUnderstood();
     Surface& surface = object.surfaces.emplace_back();
@@ -104,10 +115,13 @@ void Ac3dText::add_surfaces(Ac3dObject& object) {
     if (word() != "refs") throw NotUnderstood();
     for (std::uint64_t k = count(); k > 0; --k) {
       if (!next_line()) throw NotUnderstood();
-      surface.corners.push_back(integer(word()));
-      if (surface.corners.back() >= object.vertices.size()) throw NotUnderstood();
+      const std::uint64_t corner = integer(word());
+      missing = missing || corner >= object.vertices.size();
+      surface.corners.push_back(corner < object.vertices.size() ? corner : 0);
     }
   }
+  if (missing && object.vertices.empty()) throw NotUnderstood();
+  unlike_ += missing ? 1 : 0;
 }
 
 Ac3dObject Ac3dText::object(int depth) {
@@ -121,7 +135,7 @@ Ac3dObject Ac3dText::object(int depth) {
     } else if (word() == "rot") {
       object.rot = numbers(rest(), 9);
     } else if (word() == "subdiv" && integer(rest()) > 0) {
-      throw NotUnderstood();
+      has_subdivision_ = true;
     } else if (word() == "numvert") {
       add_vertices(object);
     } else if (word() == "numsurf") {
@@ -213,12 +227,15 @@ std::optional<ExactScene> exact_ac3d(const std::string& text) {
   try {
     Ac3dText reader(text);
     const std::vector<Ac3dObject> objects = reader.objects();
-    if (objects.size() != 1) return {};
     ExactScene scene;
+    scene.unfollowed.vertices = reader.unlike();
+    if (objects.size() != 1 || reader.has_subdivision()) return scene;
     scene.root = Ac3dMeshes(scene, reader.materials()).add(objects[0]);
     return scene;
-  } catch (const NotUnderstood&) {
-    return {};
+  } catch (const NotUnderstood&) {  // nobody knows what Assimp makes of it
+    ExactScene nothing;
+    nothing.unfollowed.vertices = 1;
+    return nothing;
   }
 }
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <new>
 #include <utility>
 
 #include "io/scene/detail/exact/collada_xml.h"
@@ -123,7 +124,10 @@ void add_geometry(const ColladaXml& geometry, ExactScene& scene) {
 
 std::optional<ExactScene> exact_collada(std::string text) {
   pugi::xml_document document;
-  if (!document.load_buffer_inplace(text.data(), text.size(), pugi::parse_default & ~pugi::parse_escapes)) return {};
+  const pugi::xml_parse_result parsed =
+      document.load_buffer_inplace(text.data(), text.size(), pugi::parse_default & ~pugi::parse_escapes);
+  if (parsed.status == pugi::status_out_of_memory) throw std::bad_alloc();
+  if (!parsed) return {};
   const ColladaXml root = document.child("COLLADA");
   ExactScene scene;
   for (const ColladaXml library : root.children("library_geometries")) {

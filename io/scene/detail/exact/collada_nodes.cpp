@@ -252,7 +252,7 @@ void read_collada_nodes(const ColladaXml& document, ExactScene& scene) {
       NodeTree tree(document, scene.unfollowed);
       scene.root = tree.of(visual);
       if (tree.sheared()) scene.unread = "a node has <skew>, which programs read in different ways or leave out";
-      scene.root.transform = to_metres(document.child("asset"));
+      scene.root->transform = to_metres(document.child("asset"));
     }
   } catch (const ColladaUnfit&) {
     scene.root = {};  // its nodes are taken from Assimp

@@ -32,7 +32,7 @@ struct ExactNode {
 
 struct ExactScene {
   std::vector<ExactMesh> meshes;
-  ExactNode root;
+  std::optional<ExactNode> root;  ///< none: the nodes are not known
   /// The format's nodes are always understood: a node of Assimp's that differs is read in two ways.
   bool knows_nodes = false;
   Unfollowed unfollowed;

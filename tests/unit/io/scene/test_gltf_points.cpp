@@ -244,3 +244,38 @@ TEST_CASE("what does not fit the moving of points is refused with one remedy, it
     CHECK(e.remedies().empty());
   }
 }
+
+TEST_CASE("the memory that moving a glTF takes is counted before it is there", "[io][deform][quick]") {
+  Document d;
+  const int shared = d.quad_mesh(), alone = d.quad_mesh();
+  Json& primitives = d.json["meshes"][std::size_t(shared)]["primitives"];
+  primitives[0]["attributes"]["NORMAL"] = d.floats({{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}});
+  primitives[0]["extras"] = {{"text", "\n\"\xC3\xA4"}, {"numbers", {1.5, -2, 1e300, true}}};
+  for (int k = 0; k < 20; ++k) {
+    Json next = primitives[0];
+    next["attributes"] = {{"POSITION", d.quad()}, {"NORMAL", d.floats({{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}})}};
+    primitives.push_back(next);
+  }
+  d.json["scenes"][0]["nodes"] = Json::array();
+  for (int i = 0; i < 300; ++i)
+    d.json["scenes"][0]["nodes"].push_back(d.node({{"mesh", i == 0 ? alone : shared}, {"translation", {i, 0, 0}}}));
+  const TempDir dir;
+  const std::string path = dir.file("a.glb", d.glb());
+  const std::size_t frames = GENERATE(0, 3);
+  SceneOptions options;
+  const auto write = [&] {
+    OutputFile out(dir.path("moved.glb"), true);
+    const auto points = open_points(path, options);
+    frames == 0 ? points->write([](PointBatch&) {}, out)
+                : points->write_frames(
+                      frames, 1, [](std::size_t, PointBatch&) {}, out);
+  };
+  options.document = {bytes_of_points(path, options, {true, frames}), 1, {std::uint64_t(1) << 30}};
+  CHECK_NOTHROW(write());
+  options.document.bytes = options.document.bytes / 4 * 3;  // the bound is no more than that above what is taken
+  CHECK_THROWS_AS(write(), NeedsMemory);
+  options.document.bytes = bytes_of_points(path, options, {});
+  std::vector<Vec3d> some;
+  CHECK_NOTHROW(open_points(path, options)->read(some));
+  CHECK(bytes_of_points(dir.file("a.obj", "v 0 0 0\n"), options, {true, 3}) == 0);
+}

@@ -85,6 +85,28 @@ TEST_CASE("nodes of COLLADA and AC3D move in double, and say what that rounds", 
   }
 }
 
+TEST_CASE("a list of AC3D that the importer reads in another way proves nothing", "[quick][io][rounding]") {
+  const TempDir dir;
+  const auto unlike = [&](const std::string& text) {
+    const SceneCounts counts = counts_of(dir.file("a.ac", text));
+    CHECK(counts.unfollowed.moves() == (counts.unfollowed.vertices > 0));
+    return counts.unfollowed.vertices;
+  };
+  const std::string whole = "0.5 0 0\n1 0 0\n1 1 0\n", cut = "0.5 0 0\n1 0 0\n.5 1 0\n",
+                    within = "0.5 .5 0\n1 -.5 0\n1 1 0\n";
+  const auto subdivided = [](std::string text) { return text.insert(text.find("numvert"), "subdiv 1\n"); };
+  CHECK(unlike(ac3d("0 0 0", whole)) == 0);
+  CHECK(unlike(ac3d("0 0 0", within)) == 0);
+  CHECK(unlike(ac3d("0 0 0", cut)) == 1);
+  CHECK(unlike(subdivided(ac3d("0 0 0", whole))) == 0);
+  std::string missing = ac3d("0 0 0", whole);
+  missing.replace(missing.find("2 0 0\nkids"), 1, "3");
+  CHECK(unlike(missing) == 1);
+  missing = ac3d("0 0 0", whole);
+  CHECK(unlike(missing.replace(missing.find("numvert 3"), 9, "numvert 4")) == 1);  // more than there are
+  CHECK(unlike(subdivided(ac3d("0 0 0", cut))) == 1);
+}
+
 TEST_CASE("quarter turns, units and axes of COLLADA are exact", "[quick][io][rounding]") {
   const TempDir dir;
   const std::string quarter = collada(kUtm, "<rotate>0 0 1 90</rotate>");

@@ -1,4 +1,5 @@
 #include "io/scene/name_pattern.h"
+#include "io/scene/part_names.h"
 #include "tests/catch.h"
 #include "tests/unit/io/scene/gltf_document.h"
 
@@ -82,4 +83,37 @@ TEST_CASE("formats without names are refused where parts are asked for", "[quick
   options.parts = "x";
   const std::string file = dir.file("a.off", "OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
   CHECK_THROWS_AS(open_scene(file, options), Error);
+}
+
+TEST_CASE("parts are asked for by a triangle, and have one name each", "[quick][io]") {
+  const TempDir dir;
+  const auto names_at = [&](const std::string& path, double x) {
+    SceneOptions options;
+    options.part_names = std::make_shared<PartNames>();
+    options.part_names->of_triangle = [&](const TriangleD& t) { return std::min({t[0][0], t[1][0], t[2][0]}) == x; };
+    const std::size_t all = read_all(path, options).size();
+    CHECK(all == read_all(path).size());  // none is left out
+    return options.part_names->names;
+  };
+  const std::string obj = dir.file("a.obj",
+                                   "v 0 0 0\nv 0 1 0\nv 0 0 1\nv 5 0 0\nv 5 1 0\nv 5 0 1\nv 7 0 0\nv 7 1 0\nv 7 0 1\n"
+                                   "mtllib of_none.mtl\nusemtl steel\nf 1 2 3\no head\nf 4 5 6\ng left arm\nf 5 7 8 4\n"
+                                   "o foot\nf 7 8 9\n");
+  using Names = std::set<std::string>;
+  CHECK(names_at(obj, 0) == Names{"steel"});
+  CHECK(names_at(obj, 5) == Names{"head", "left arm"});
+  CHECK(names_at(obj, 7) == Names{"foot"});
+  CHECK(names_at(obj, 9) == Names{});
+  Document d;
+  const auto quad = d.quad_mesh();
+  d.json["meshes"][quad]["name"] = "quad";
+  d.json["nodes"] = {{{"name", "root"}, {"children", {1, 2, 3}}},
+                     {{"name", "arm"}, {"mesh", quad}, {"translation", {10, 0, 0}}},
+                     {{"mesh", quad}, {"translation", {20, 0, 0}}},
+                     {{"mesh", d.quad_mesh()}, {"translation", {30, 0, 0}}}};
+  d.json["scenes"] = {{{"nodes", {0}}}};
+  const std::string glb = dir.file("a.glb", d.glb());
+  CHECK(names_at(glb, 10) == Names{"arm"});
+  CHECK(names_at(glb, 20) == Names{"quad"});
+  CHECK(names_at(glb, 30) == Names{"nodes[3]"});
 }

@@ -213,3 +213,42 @@ TEST_CASE("a content is a regular file: nobody waits for a pipe", "[quick][io]")
   REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
   CHECK_THROWS_WITH(read_tile_content(pipe, {}, {}), Contains("is a pipe or a device"));
 }
+
+TEST_CASE("of several files the limit that a refusal names has room for each", "[quick][io]") {
+  const TempDir dir;
+  const auto scene = [&](const char* name, int nodes) {
+    Document d;
+    const int mesh = d.quad_mesh();
+    for (int i = 0; i < nodes; ++i) {
+      d.node({{"mesh", mesh}, {"translation", {i, 0, 0}}});
+      d.json["scenes"][0]["nodes"][std::size_t(i)] = i;
+    }
+    return dir.file(name, d.glb());
+  };
+  const std::vector<std::string> files{scene("a.glb", 3), scene("b.glb", 4000), scene("c.glb", 9000),
+                                       scene("d.glb", 2)};
+  std::string text =
+      R"({"asset":{"version":"1.1"},"geometricError":9,"root":{"refine":"ADD","geometricError":1,"children":[)";
+  for (const char* name : {"a", "b", "c", "d"})
+    text += fmt::format(R"({}{{"geometricError":1,"content":{{"uri":"{}.glb"}}}})", *name == 'a' ? "" : ",", name);
+  const std::string tileset = dir.file("t.json", text + "]}}");
+  for (const auto& paths : {files, std::vector<std::string>{tileset}}) {
+    SceneOptions options;
+    const auto refused_at = [&](std::uint64_t bytes) -> std::uint64_t {
+      const MemoryLimit limit{bytes, std::uint64_t(1) << 20};
+      options.document = {limit.rest_bytes() / 2, 0.5, limit};
+      options.memory_bytes = limit.rest_bytes() / 10;
+      try {
+        const std::size_t triangles = read_all(*open_scenes(paths, options)).size();
+        CHECK(triangles == 26010);
+      } catch (const Error& e) {
+        return e.memory_bytes();
+      }
+      return 0;
+    };
+    const std::uint64_t named = refused_at(std::uint64_t(3) << 20);
+    CHECK(named > std::uint64_t(6) << 20);
+    CHECK(refused_at(named) == 0);
+    CHECK(refused_at(named / 4 * 3) > 0);
+  }
+}
