@@ -100,7 +100,7 @@ bp::SceneOptions scene_options(const Options& o) {
   return options;
 }
 
-/// Of the same cage in many poses, once.
+/// Makes a note that is told once, however many poses the same cage is read in.
 bp::NoteOfCage note_once(const Options& o, bp::Report& report) {
   return [&, told = std::set<std::string>()](const std::string& text) mutable {
     if (told.insert(text).second) report.note(text, o.common);
