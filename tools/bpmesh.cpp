@@ -14,7 +14,6 @@
 #include "tools/mesh/mesh_memory.h"
 #include "tools/mesh/mesh_options.h"
 #include "tools/mesh/mesh_report.h"
-#include "tools/mesh/scale_advice.h"
 #include "tools/mesh/shortfalls.h"
 #include "tools/notes/estimate.h"
 #include "tools/notes/proportion.h"
@@ -141,13 +140,10 @@ void run(bp::MeshOptions o) {
   const std::string enclosed = set_enclosure(o, source.header(), params, context.pieces, report);
   note_estimate(report, o, source.header(), params.enclose);
   note_stream(report, o, source.header(), format);
-  bp::ShortfallFacts facts{params.error_world, bp::is_closed_by_scale(source.header()), {}, volume_of(params.scene)};
+  const bool closed_by_scale = source.header().has_closing && source.header().scale.constant();
+  const bp::ShortfallFacts facts{params.error_world, closed_by_scale, volume_of(params.scene)};
   bp::MeshCounts counts;
-  bp::SolidKeeper keeper(source, context.make_shelf());
-  const bool may_raise =
-      o.proxy.mode == bp::MeshMode::bounding && !o.levels.faces.empty() && bp::has_scale_to_raise(source.header());
-  bp::BrickSource& bricks = may_raise ? static_cast<bp::BrickSource&>(keeper) : source;
-  std::vector<bp::LatticeMesh> levels = bp::mesh_stream(bricks, context, std::move(params), counts);
+  std::vector<bp::LatticeMesh> levels = bp::mesh_stream(source, context, std::move(params), counts);
   report.bytes_in = source.totals().bytes;
 
   report.begin("write");
@@ -157,12 +153,6 @@ void run(bp::MeshOptions o) {
   if (origin != bp::Vec3d{}) report.counts["origin"] = origin;
   note_origin(report, o, source.header(), format);
   report.counts["enclosed"] = enclosed;
-  if (may_raise && bp::wants_scale(o, counts)) {
-    report.begin("try scales");
-    levels.clear();  // they are written, and their memory counts from here on
-    facts.enough_scale =
-        bp::enough_scale(source.header(), keeper.shelf(), o.levels.faces.front(), context.make_shelf, o.common);
-  }
   bp::note_shortfalls(report, o, counts, facts);
   report.write(o.common);
 }

@@ -31,7 +31,7 @@ set(rules
   "lib/pass:lib/core lib/store lib/grid lib/surface"
   "lib/pass/voxelize:lib/core lib/store lib/grid lib/volume lib/voxel lib/device lib/device/cpu lib/pass"
   "lib/pass/close:lib/core lib/grid lib/volume lib/device lib/pass"
-  "lib/pass/mesh:lib/core lib/exact lib/store lib/geometry lib/grid lib/volume lib/voxel lib/device lib/mesh lib/enclosed lib/surface lib/simplify lib/hulls lib/tighten lib/quads lib/fit lib/pass lib/pass/voxelize lib/pass/close"
+  "lib/pass/mesh:lib/core lib/exact lib/store lib/geometry lib/grid lib/volume lib/voxel lib/mesh lib/enclosed lib/surface lib/simplify lib/hulls lib/tighten lib/quads lib/fit lib/pass lib/pass/voxelize"
   "lib/pass/color:lib/core lib/store lib/grid lib/volume lib/voxel lib/mesh lib/pass"
   "lib/pass/bake:lib/core lib/store lib/geometry lib/mesh lib/atlas lib/image"
   "lib/pass/leaf:lib/core lib/geometry lib/mesh lib/tileset lib/pass/bake"

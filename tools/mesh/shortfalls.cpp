@@ -94,8 +94,7 @@ std::string obstacle_text(const MeshOptions& o, const MeshCounts& c, std::size_t
   const std::string& by = level.stopped_by;
   if (by == "error" && o.error()) return fmt::format("--error {} was reached first", o.error()->text());
   if (by == "volume") return fmt::format("--volume {} was reached first", o.volume);
-  return merged_note(level.simplify.faces_out, level.measures.shells, level.measures.handles, advice_of(o, facts),
-                     i == 0 ? facts.enough_scale : std::nullopt);
+  return merged_note(level.simplify.faces_out, level.measures.shells, level.measures.handles, advice_of(o, facts));
 }
 
 /// Of a level that has not the faces that were asked for.
@@ -129,13 +128,6 @@ void note_volume(Report& report, const MeshOptions& o, const MeshCounts& c, std:
 }
 
 }  // namespace
-
-bool wants_scale(const MeshOptions& o, const MeshCounts& c) {
-  const LevelCounts& level = c.levels.front();
-  const std::string& by = level.stopped_by;
-  return !o.levels.faces.empty() && level.simplify.faces_out > o.levels.faces.front() && by != "error" &&
-         by != "volume" && (level.measures.shells > 1 || level.measures.handles > 0);
-}
 
 void note_shortfalls(Report& report, const MeshOptions& o, const MeshCounts& c, const ShortfallFacts& facts) {
   if (c.dropped_parts > 0) {

@@ -1,6 +1,5 @@
 #pragma once
 #include <optional>
-#include <string>
 
 #include "lib/pass/mesh/mesh_pass.h"
 #include "tools/cli/report.h"
@@ -9,15 +8,11 @@
 /// Targets of bpmesh that were out of reach: the user gets the best there is, and the reason.
 namespace bp {
 
-/// Whether parts and handles may keep the finest level from its faces: a larger scale can help.
-[[nodiscard]] bool wants_scale(const MeshOptions& options, const MeshCounts& counts);
-
 /// What is known beside the counts.
 struct ShortfallFacts {
-  double error_world = 0;                   ///< bound of --error; 0: none
-  bool has_scale = false;                   ///< bpclose --scale closed the stream
-  std::optional<std::string> enough_scale;  ///< one that would do (enough_scale())
-  std::optional<double> scene_volume;       ///< of triangles that are enclosed, if they are closed; scene units cubed
+  double error_world = 0;              ///< bound of --error; 0: none
+  bool has_scale = false;              ///< bpclose --scale closed the stream
+  std::optional<double> scene_volume;  ///< of triangles that are enclosed, if they are closed; scene units cubed
 };
 /// One note for each target.
 void note_shortfalls(Report& report, const MeshOptions& options, const MeshCounts& counts, const ShortfallFacts& facts);

@@ -46,14 +46,10 @@ std::string least_volume_note(std::uint64_t faces, std::uint64_t asked, const Fa
                      finer_advice(advice));
 }
 
-std::string merged_note(std::uint64_t faces, std::uint64_t shells, std::uint64_t handles, const FaceAdvice& advice,
-                        const std::optional<std::string>& enough) {
+std::string merged_note(std::uint64_t faces, std::uint64_t shells, std::uint64_t handles, const FaceAdvice& advice) {
   if (faces <= 4) return "no closed surface has fewer";
-  if (shells <= 1 && handles == 0) return "no further edge can be merged; " + scale_advice(shells, handles, advice);
-  const std::string what = !enough ? scale_advice(shells, handles, advice)
-                           : enough->empty()
-                               ? fmt::format("no larger {} leaves few enough; ask for more faces", advice.scale)
-                               : fmt::format("{} {} leaves few enough", advice.scale, *enough);
+  const std::string what = scale_advice(shells, handles, advice);
+  if (shells <= 1 && handles == 0) return "no further edge can be merged; " + what;
   return fmt::format("no further edge can be merged. Parts and handles are kept, here {} and {}; {}", shells, handles,
                      what);
 }

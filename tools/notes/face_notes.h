@@ -1,6 +1,5 @@
 #pragma once
 #include <cstdint>
-#include <optional>
 #include <string>
 
 #include "lib/pass/mesh/mesh_pass.h"
@@ -25,9 +24,8 @@ struct FaceAdvice {
 
 /// Why merging ended by itself, and what there is to be done: parts (shells) and handles are kept, if there are any to
 /// speak of, and a larger scale does to an opening what is the opposite of what it does to a closing.
-/// `enough`: a scale that was found to leave few enough; "": none was; without a value: none was looked for.
 [[nodiscard]] std::string merged_note(std::uint64_t faces, std::uint64_t shells, std::uint64_t handles,
-                                      const FaceAdvice& advice, const std::optional<std::string>& enough = {});
+                                      const FaceAdvice& advice);
 
 /// Of a mesh whose faces are so few for what they stand for that its volume is far from it. `ratio`: of its volume to
 /// that of the voxels that are meshed. Empty if that is near 1, or for a fit. One line.

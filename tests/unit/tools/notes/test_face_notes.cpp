@@ -26,9 +26,6 @@ TEST_CASE("what there is to be done about faces fits the mode, and what there is
   for (const MeshMode mode : {MeshMode::bounding, MeshMode::inside, MeshMode::fit})
     CHECK_FALSE(says(merged_note(100, 1, 0, {mode}), "arts and handles"));
   CHECK_FALSE(says(merged_note(4, 1, 0, {MeshMode::inside}), "--scale"));
-  CHECK(says(merged_note(100, 3, 2, {MeshMode::bounding, "bpclose --scale"}, "4%"),
-             "bpclose --scale 4% leaves few enough"));
-  CHECK(says(merged_note(100, 3, 2, {MeshMode::bounding}, ""), "no larger --scale"));
   CHECK(says(too_few_note(12, 40, {MeshMode::inside}), "inside"));
 }
 
