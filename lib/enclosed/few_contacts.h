@@ -8,7 +8,8 @@ namespace bp {
 
 /// What must stay inside, with fewer contact points than it has: those that the faces of a proxy around it meet first,
 /// as ContactPoints lists them. They guide all coarser proxies that follow from this one, at a fraction of the cost:
-/// what lies under other points of a face lies under them for a larger face, too.
+/// what lies under other points of a small face mostly lies under them for a larger one, too. Where it does not,
+/// allows(), which asks all that must stay inside, refuses a move that the points would have led to.
 class FewContacts final : public Enclosed {
  public:
   /// Keeps a reference to `all`.
@@ -37,7 +38,9 @@ class FewContacts final : public Enclosed {
   }
   [[nodiscard]] bool is_exact() const override { return all_.is_exact(); }
   void outer_boxes(const UseBoxes& use) const override { all_.outer_boxes(use); }
-  [[nodiscard]] std::uint64_t bytes() const override { return points_.capacity() * sizeof(Vec3d); }
+  [[nodiscard]] std::uint64_t bytes() const override {
+    return all_.bytes() + points_.capacity() * sizeof(Vec3d) + points_.size() * kBytesPerContactPoint;
+  }
 
  private:
   const Enclosed& all_;

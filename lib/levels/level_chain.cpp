@@ -52,11 +52,9 @@ LeftOut not_worth_having(const MadeLevel& now, const LodLevel& before, const Cha
   return {};
 }
 
-/// Whether the next level, which has fewer faces, does as well. Of levels that were chosen it need only be nearly as
-/// near; of those that were asked for it must be nearer, and hold no more.
+/// Whether nobody asked for a level, and the next one, which has fewer faces, is nearly as near.
 bool is_needless(const LodLevel& level, const LodLevel& next, const ChainRange& range) {
-  if (range.request.is_chosen) return level.error_world * kWorthHaving > next.error_world;
-  return level.error_world > next.error_world && volume_of(level) >= volume_of(next);
+  return range.request.is_chosen && level.error_world * kWorthHaving > next.error_world;
 }
 
 }  // namespace

@@ -65,10 +65,10 @@ struct MadeLevels {
 };
 
 /// Makes at most range.count levels, one after the other, finest first. A level that has no fewer faces than the one
-/// before, or an error above the scene's diagonal, is left out. A level is also left out where the next one, which has
-/// fewer faces, is nearer and holds no more. Of levels that nobody asked for (LevelRequest::is_chosen), the next one
-/// need only be nearly as near; and the list ends before a level that holds more than three times the volume of the one
-/// before: it is crumpled. Errors never fall: where less is measured, that of the finer level stands for both. Where
+/// before, or an error above the scene's diagonal, is left out. Of levels that nobody asked for
+/// (LevelRequest::is_chosen), one is left out where the next one, which has fewer faces, is nearly as near; and the
+/// list ends before a level that holds more than three times the volume of the one before: it is crumpled. Errors never
+/// fall: where less is measured, that of the finer level stands for both. Where
 /// the first has clearly fewer faces than its budget, the budgets that follow from it are quarters of what it has, and
 /// scales double.
 class LevelSequence {

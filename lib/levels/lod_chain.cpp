@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 #include "lib/closing/closing.h"
@@ -74,10 +75,7 @@ struct LodChain::State {
     const bool is_convex = has_triangles() && std::any_of(convex.begin(), convex.end(), [&](const ConvexLevel& c) {
                              return best.propose_exact(c.way, c.level);
                            });
-    if (is_convex) {
-      last_scale = best.level().scale_world;
-      return best.take();
-    }
+    if (is_convex) return best.take();
     propose_meshes(target, best);
     for (const ConvexLevel& c : convex) best.propose(c.way, c.level);
     return best.take();
@@ -136,7 +134,6 @@ struct LodChain::State {
     LodLevel place;
     place.mesh.frame = voxels.frame();
     place.mesh.provenance = voxels.header().provenance;
-    place.scale_world = first_scale(ground(), target, last_scale);
     place.reductions = voxels.reductions();
     place.attempts = 1;
     if (!has_triangles()) return convex_levels(place, ruler->bounds(), {}, target.faces);
@@ -161,23 +158,28 @@ struct LodChain::State {
     const double whole = first_scale(ground(), target, last_scale);
     std::optional<Closing> closing_of_best;
     int attempts = 1;
-    for (double scale = is_by_budget(target) ? std::max(whole / finest(), last_scale) : whole;; scale *= 2) {
+    for (double scale = is_by_budget(target) ? std::max(whole / finest(), last_scale) : whole;;
+         scale = larger_scale(scale)) {
       voxels.reduce_to(
           reductions_for(ground(), target, finest_scale(options.field, std::max(scale, whole)), voxels.reductions()));
-      const bool last = 2 * scale > scene_bounds.diagonal() / 2;
+      const bool last = larger_scale(scale) > scene_bounds.diagonal() / 2;
       Closing closing = voxels.closed_at(scale);
       if (scale < whole && voxels.parts_and_holes(closing) * kFacesPerPart > target.faces) continue;
       const bool few = is_bounding() && is_of_few_faces(target);
       LodLevel level = mesh(mesh_params(target, scale), closing, few ? Keep::all : Keep::solid);
       const bool by_volume = few && may_reach_by_volume(level, target.faces);
       const auto has_reached = [&] { return target.faces == 0 || level.mesh.triangles.size() <= target.faces; };
+      const char* const way = by_volume && !has_reached() ? "least volume" : "closing";
       if (by_volume && !has_reached()) level = mesh(least_volume(target), closing, Keep::all);
       if (!has_reached() && !last) {
         attempts += scale >= whole;
         continue;
       }
       level.attempts = attempts;
-      if (best.propose("closing", std::move(level)) && by_volume) closing_of_best = std::move(closing);
+      if (best.propose(way, std::move(level))) {
+        closing_of_best.reset();
+        if (by_volume && way == std::string_view("closing")) closing_of_best = std::move(closing);
+      }
       if (!is_simple(target) || best.is_exact() || last || scale >= 2 * whole) break;
     }
     if (closing_of_best && !best.is_exact()) {
@@ -186,6 +188,15 @@ struct LodChain::State {
       best.propose("least volume", std::move(level));
     }
     last_scale = best.level().scale_world;
+  }
+
+  /// The scale that is tried after another one: twice as large, or so many times that something is closed by it.
+  [[nodiscard]] double larger_scale(double scale) const {
+    const double least = kLeastScaleVox * voxels.frame().voxel;
+    if (scale == 0) return least;
+    do scale *= 2;
+    while (scale < least);
+    return scale;
   }
 
   [[nodiscard]] double finest() const { return is_bounding() ? kFinest : kFinestOfFit; }

@@ -70,7 +70,8 @@ struct LodOptions {
 
 /// A mesh that was proposed for a level.
 struct TriedWay {
-  std::string way;  ///< box, prism, hull; finer: from the level before, or the scene's surface; closing; least volume
+  /// box, prism, hull; finer: from the level before, or the scene's surface; closing; least volume; cage
+  std::string way;
   double scale_world = 0;  ///< of its closing
   std::uint64_t faces = 0;
   double volume = 0;       ///< scene units cubed
@@ -79,7 +80,7 @@ struct TriedWay {
 
 struct LodLevel {
   LatticeMesh mesh;        ///< in the frame of its voxels
-  double scale_world = 0;  ///< that it was closed at
+  double scale_world = 0;  ///< that it was closed at; 0: nothing was, as for boxes, hulls and the scene's own surface
   int reductions = 0;      ///< the voxels are 2^reductions times those of the solid
   int attempts = 0;        ///< scales, from the first one on, at which parts and holes left too many faces; and one
   bool reached = true;     ///< it has at most the faces asked for

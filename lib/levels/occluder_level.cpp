@@ -54,7 +54,8 @@ class HiddenSearch {
       : header_(header),
         touched_(touched),
         backends_(backends),
-        scales_(request.scale_world ? std::vector<double>{*request.scale_world} : occluder_scales(header)),
+        asked_(request.scale_world.has_value()),
+        scales_(asked_ ? std::vector<double>{*request.scale_world} : occluder_scales(header)),
         steps_(request.hidden.context, pass, "scales", scales_.size()),
         options_(steps_.within(request.hidden)),
         enclosed_(enclosed_voxels(header, touched, backends, options_)) {}
@@ -65,7 +66,7 @@ class HiddenSearch {
       steps_.step();
     }
     HiddenScene best = std::move(promising_.front());
-    if (scales_.size() > 1) best.tried = std::move(tried_);
+    if (!asked_) best.tried = std::move(tried_);
     return best;
   }
 
@@ -89,6 +90,7 @@ class HiddenSearch {
   const StreamHeader& header_;
   BrickShelf& touched_;
   Backends& backends_;
+  const bool asked_;  // for one scale
   const std::vector<double> scales_;
   ShownSteps steps_;
   const HiddenOptions options_;

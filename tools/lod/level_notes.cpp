@@ -20,6 +20,11 @@ namespace {
 constexpr double kMuchFuller = 2;       // times the volume of the scene's voxels
 constexpr double kExactVox = 1.0 / 16;  // of error: vertices lie on a lattice, and the scene need not
 
+/// Whether a level is a box, a prism or a hull, for which nothing was meshed.
+bool is_convex(const LevelFacts& level) {
+  return level.voxels == 0;
+}
+
 }  // namespace
 
 std::string faces_note(const LevelFacts& level, bool asked, std::uint64_t triangles) {
@@ -36,6 +41,11 @@ std::string faces_note(const LevelFacts& level, bool asked, std::uint64_t triang
     return fmt::format("{} faces instead of {}, even closed at {:.4g}: no further edge can be merged", level.faces,
                        budget, level.scale_world);
   if (!asked) return "";
+  if (is_convex(level) && !advice.exact && clearly_fewer(level.faces, budget))
+    return fmt::format(
+        "{} faces instead of {}: a box, a prism or a hull around the scene is nearer, or holds less, than "
+        "what else was found",
+        level.faces, budget);
   if (level.attempts == 1) {
     return level.stopped_by == to_string(StopReason::least_volume) ? least_volume_note(level.faces, budget, advice)
                                                                    : too_few_note(level.faces, budget, advice);
@@ -50,6 +60,9 @@ std::string closed_note(const LevelFacts& level) {
       clearly_fewer(level.faces, budget) ? fmt::format("{} faces instead of {}: ", level.faces, budget) : "";
   if (level.scale_world == 0)  // a cage
     return fewer.empty() ? "" : fewer + "one step finer makes too many";
+  if (level.target.scale_world && *level.target.scale_world == 0)
+    return fmt::format("{}closed at {:.4g}: as it is, parts and holes take more than {} faces", fewer,
+                       level.scale_world, budget);
   return fmt::format(
       "{}closed at {:.4g}, {} times the scale that was tried first: at less, parts and holes take more than {} faces",
       fewer, level.scale_world, std::uint64_t(1) << (level.attempts - 1), budget);
@@ -147,11 +160,12 @@ SceneParts parts_of(const VoxelizedScene& scene, const BuildOptions& o, std::uin
 std::string joined_note(const LevelFacts& finest, std::uint64_t parts, const SceneParts& scene) {
   constexpr double kSame = 1.001;
   if (parts >= scene.count || finest.volume < kMuchFuller * scene.volume) return "";
-  if (finest.scale_world <= kSame * scene.named_scale) return "";  // as asked
+  if (!is_convex(finest) && finest.scale_world <= kSame * scene.named_scale) return "";  // as asked
   const std::uint64_t enough = scene.count * kFacesOfBox, faces = finest.target.faces;
   return fmt::format(
-      "{} of the scene become {}: gaps narrower than {:.4g} are filled{}", counted(scene.count, "part"), parts,
-      2 * finest.scale_world,
+      "{} of the scene become {}: {}{}", counted(scene.count, "part"), parts,
+      is_convex(finest) ? "a box, a prism or a hull lies around all"
+                        : fmt::format("gaps narrower than {:.4g} are filled", 2 * finest.scale_world),
       faces < enough
           ? fmt::format(", since {} faces are too few for all; from --faces {} on they may stay apart", faces, enough)
           : "; more --faces may keep them apart");

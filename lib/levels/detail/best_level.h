@@ -18,13 +18,12 @@ class BestLevel {
   /// faces: asked for; 0: none. Keeps a reference to `ruler`.
   BestLevel(const Ruler& ruler, MeshMode mode, std::uint64_t faces) : ruler_(ruler), mode_(mode), faces_(faces) {}
 
-  /// Proposes a mesh, which was made in this way: measures it, and keeps it if it is better than what was proposed
-  /// before. Measuring ends as soon as it is known to be worse. Returns whether it was kept.
+  /// Proposes a mesh, which was made in this way: measures it, as far as it takes to know whether it is better than
+  /// what was proposed before, and keeps it if it is. Returns whether it was kept.
   bool propose(const char* way, LodLevel level);
   /// The same, and it is kept only if its error is not worth mentioning: then no other mesh need be proposed.
   bool propose_exact(const char* way, const LodLevel& level);
 
-  [[nodiscard]] bool is_empty() const { return !level_; }
   [[nodiscard]] const LodLevel& level() const { return *level_; }
   /// Whether its error is not worth mentioning.
   [[nodiscard]] bool is_exact() const { return level_ && level_->error_world <= unseen(); }

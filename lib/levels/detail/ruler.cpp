@@ -42,7 +42,13 @@ Ruler::Ruler(const RulerScene& scene, const BoundarySize& size, const MemoryShar
       frame_(scene.frame),
       mode_(scene.mode),
       triangles_(scene.triangles.empty() ? nullptr : &scene.triangles) {
-  const bool shows_triangles = mode_ == MeshMode::fit && triangles_ != nullptr && scene.surface == nullptr;
+  if (mode_ == MeshMode::fit || triangles_ == nullptr) take_surface(scene, size, memory);
+  if (triangles_ != nullptr)
+    scene_ = Surface(triangles_, is_small(TriangleBvh::bytes_needed(triangles_->size()), memory));
+}
+
+void Ruler::take_surface(const RulerScene& scene, const BoundarySize& size, const MemoryShare& memory) {
+  const bool shows_triangles = triangles_ != nullptr && scene.surface == nullptr;
   const std::uint64_t runs = scene.surface != nullptr ? count_runs(*scene.surface, box) : size.runs;
   const std::uint64_t bytes =
       runs * sizeof(VoxelRun) + segment_bytes(runs) + (shows_triangles ? shown_bytes(size.faces) : 0);
@@ -52,9 +58,9 @@ Ruler::Ruler(const RulerScene& scene, const BoundarySize& size, const MemoryShar
   runs_ = scene.surface != nullptr ? runs_of(*scene.surface, box) : boundary_of(scene.solid).runs;
   runs_.shrink_to_fit();
   if (shows_triangles) faces_ = boundary_rects(scene.solid);
-  if (is_small(segment_bytes(runs), memory)) segments_ = segments_of(runs_, frame_);
-  if (triangles_ != nullptr)
-    scene_ = Surface(triangles_, is_small(TriangleBvh::bytes_needed(triangles_->size()), memory));
+  if (!is_small(segment_bytes(runs), memory)) return;
+  segments_ = segments_of(runs_, frame_);
+  kept_segments_ = Surface(&segments_, true);
 }
 
 Bounds3d Ruler::bounds() const {
@@ -66,12 +72,21 @@ Bounds3d Ruler::bounds() const {
 
 std::uint64_t Ruler::bytes() const {
   return runs_.capacity() * sizeof(VoxelRun) + faces_.capacity() * sizeof(FaceRect) +
-         segments_.capacity() * sizeof(TriangleD) + scene_.bytes();
+         segments_.capacity() * sizeof(TriangleD) + kept_segments_.bytes() + scene_.bytes();
 }
 
 template <class Use>
 decltype(auto) Ruler::with_segments(Use&& use) const {
   return segments_.empty() ? use(segments_of(runs_, frame_)) : use(segments_);
+}
+
+template <class Use>
+decltype(auto) Ruler::with_segment_tree(Use&& use) const {
+  return with_segments([&](const std::vector<TriangleD>& segments) {
+    const Surface made(&segments, false);
+    const Surface& surface = segments_.empty() ? made : kept_segments_;
+    return surface.with_tree([&](const TriangleBvh& tree) { return use(segments, tree); });
+  });
 }
 
 std::optional<double> Ruler::error(const LatticeMesh& mesh, double limit) const {
@@ -96,8 +111,8 @@ double Ruler::error_around_voxels(const std::vector<TriangleD>& mesh) const {
 }
 
 double Ruler::error_of_fit_to_voxels(const std::vector<TriangleD>& mesh) const {
-  return with_segments([&](const std::vector<TriangleD>& segments) {
-    const double there = distance_from_mesh(mesh, TriangleBvh(segments), voxel());
+  return with_segment_tree([&](const std::vector<TriangleD>& segments, const TriangleBvh& tree) {
+    const double there = distance_from_mesh(mesh, tree, voxel());
     return distance_beyond_mesh(segments, TriangleBvh(mesh), voxel(), there);
   });
 }

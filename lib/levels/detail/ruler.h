@@ -19,8 +19,9 @@ struct RulerScene {
   MeshMode mode = MeshMode::bounding;  ///< of the levels that are measured
 };
 
-/// Measures how far levels are from what their scene shows to the outside. The trees that it needs are kept where they
-/// are small against the memory; else they are made for each measurement, since levels need the memory meanwhile.
+/// Measures how far levels are from what their scene shows to the outside. Levels around triangles are measured to
+/// these; others need the voxels of the scene's surface, too. The trees are kept where they are small against the
+/// memory; else they are made for each measurement, since levels need the memory meanwhile.
 class Ruler {
  public:
   const std::uint64_t dense_faces;  ///< triangles of the dense surface of the solid
@@ -35,7 +36,8 @@ class Ruler {
   /// Of the memory, while the ruler lives.
   [[nodiscard]] std::uint64_t bytes() const;
 
-  /// LodLevel::error_world of a mesh; nothing if it surely exceeds `limit`, which is found early.
+  /// LodLevel::error_world of a mesh; nothing if it surely exceeds `limit`. Around triangles that is found early; else
+  /// all is measured.
   [[nodiscard]] std::optional<double> error(const LatticeMesh& mesh, double limit) const;
 
  private:
@@ -58,9 +60,13 @@ class Ruler {
   };
 
   Ruler(const RulerScene& scene, const BoundarySize& size, const MemoryShare& memory);
+  void take_surface(const RulerScene& scene, const BoundarySize& size, const MemoryShare& memory);
   /// Calls use(segments of the runs, scene units).
   template <class Use>
   decltype(auto) with_segments(Use&& use) const;
+  /// Calls use(segments, a tree over them).
+  template <class Use>
+  decltype(auto) with_segment_tree(Use&& use) const;
   [[nodiscard]] double error_around_voxels(const std::vector<TriangleD>& mesh) const;
   /// Nothing if the triangles of the scene are not those of the voxels.
   [[nodiscard]] std::optional<double> error_of_fit(const std::vector<TriangleD>& mesh) const;
@@ -73,6 +79,7 @@ class Ruler {
   std::vector<VoxelRun> runs_;
   std::vector<FaceRect> faces_;      // between its voxels and empty ones, if fits are measured against triangles
   std::vector<TriangleD> segments_;  // of the runs, where they are kept
+  Surface kept_segments_;            // of these
 };
 
 }  // namespace bp

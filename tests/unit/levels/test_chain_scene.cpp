@@ -42,4 +42,37 @@ TEST_CASE("another scene than that of the voxels is refused", "[quick][pass][lod
   CHECK_THROWS_AS(LodChain(solid.header, std::move(solid.shelf), backends, std::move(options)), Error);
 }
 
+TEST_CASE("parts that take more faces than there are get a closing also where a scale of 0 was named",
+          "[quick][pass][lod]") {
+  Triangles scene;
+  for (int i = 0; i < 3; ++i) add_box(scene, {4.0 * i, 0, 0}, {4.0 * i + 1, 1, 1});
+  Backends backends = plain_backends(2);
+  Voxelized solid = voxelized(scene, 0.25);
+  LodChain chain(solid.header, std::move(solid.shelf), backends, around(scene));
+  const LodLevel level = chain.make({8, 0, 0.0});
+  CHECK(level.reached);
+  CHECK(level.scale_world > 0);
+  for (std::size_t i = 1; i < level.tried.size(); ++i) {  // nothing is made twice
+    const TriedWay &a = level.tried[i - 1], &b = level.tried[i];
+    CHECK((a.faces != b.faces || a.volume != b.volume || a.scale_world != b.scale_world));
+  }
+}
+
+TEST_CASE("levels around triangles need no memory for distances to voxels", "[quick][pass][lod]") {
+  Triangles scene;
+  add_box(scene, {0, 0, 0}, {10, 9, 8});
+  const bool triangles = GENERATE(true, false);
+  Backends backends = plain_backends(2);
+  Voxelized solid = voxelized(scene, 0.125);
+  LodOptions options = around(scene);
+  options.context.memory.bytes = 20000;
+  if (!triangles) options.enclose = Enclose::input;
+  const auto make = [&] { LodChain(solid.header, std::move(solid.shelf), backends, std::move(options)); };
+  if (triangles) {
+    CHECK_NOTHROW(make());
+  } else {
+    CHECK_THROWS_AS(make(), Error);
+  }
+}
+
 }  // namespace bp::test

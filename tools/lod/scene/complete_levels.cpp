@@ -46,6 +46,7 @@ CompleteLevels make_levels(Build& build, LodChain& chain, const ChainRange& rang
   auto [made, left_out] = sequence.take();
   CompleteLevels out;
   out.left_out = std::move(left_out);
+  if (completion.looks != nullptr) build.report.begin("textures");
   for (auto& [level, target] : made) {
     complete(build, completion, level, range.first + out.levels.size(), target);
     out.facts.push_back(facts_of(level, target));
