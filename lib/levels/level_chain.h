@@ -79,7 +79,7 @@ class LevelSequence {
   /// The number, of those in the request, of the level that make_next() makes; nothing if all are made.
   [[nodiscard]] std::optional<std::size_t> next();
   void make_next();
-  /// Those that are worth having. Ends the sequence.
+  /// Returns the levels that are worth having. Ends the sequence.
   [[nodiscard]] MadeLevels take();
 
  private:

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 #include <utility>
 
 #include "lib/closing/closing.h"
@@ -24,7 +23,7 @@ namespace {
 constexpr double kFinest = 8, kFinestOfFit = 2;
 constexpr std::uint64_t kFacesPerPart = 50;
 // With fewer faces, the mesh that keeps near the scene is not always the nearest one.
-constexpr std::uint64_t kFewFaces = 32;
+constexpr std::uint64_t kTryVolumeBelow = 32;
 
 using Closing = LevelVoxels::Closing;
 using Keep = ShelfSource::Keep;
@@ -56,7 +55,7 @@ struct LodChain::State {
     // rounded, that the voxel beyond would have been set, too.
     if (options.mode == MeshMode::bounding && options.enclose == Enclose::scene)
       require_within(options.scene, header.frame, voxels.solid());
-    ruler.emplace(RulerScene{voxels.solid(), options.surface.get(), has_triangles() ? options.scene : no_triangles,
+    ruler.emplace(RulerScene{voxels.solid(), options.surface.get(), has_triangles() ? &options.scene : nullptr,
                              header.frame, options.mode},
                   context.memory);
     options.surface.reset();
@@ -91,7 +90,6 @@ struct LodChain::State {
   Bounds3d scene_bounds;
   LevelVoxels voxels;
   std::optional<Ruler> ruler;
-  const std::vector<TriangleD> no_triangles;
   double last_scale = 0;
   struct {
     LatticeMesh mesh;
@@ -113,7 +111,7 @@ struct LodChain::State {
   [[nodiscard]] bool is_bounding() const { return options.mode == MeshMode::bounding; }
 
   [[nodiscard]] static bool is_of_few_faces(const LodTarget& target) {
-    return target.faces > 0 && target.faces < kFewFaces && target.error_world == 0;
+    return target.faces > 0 && target.faces < kTryVolumeBelow && target.error_world == 0;
   }
 
   /// Whether nothing is asked but a number of faces, of a scene of few triangles: these tell quickly what is near.
@@ -169,16 +167,16 @@ struct LodChain::State {
       LodLevel level = mesh(mesh_params(target, scale), closing, few ? Keep::all : Keep::solid);
       const bool by_volume = few && may_reach_by_volume(level, target.faces);
       const auto has_reached = [&] { return target.faces == 0 || level.mesh.triangles.size() <= target.faces; };
-      const char* const way = by_volume && !has_reached() ? "least volume" : "closing";
-      if (by_volume && !has_reached()) level = mesh(least_volume(target), closing, Keep::all);
+      const bool keeps_near = has_reached() || !by_volume;
+      if (!keeps_near) level = mesh(least_volume(target), closing, Keep::all);
       if (!has_reached() && !last) {
         attempts += scale >= whole;
         continue;
       }
       level.attempts = attempts;
-      if (best.propose(way, std::move(level))) {
+      if (best.propose(keeps_near ? "closing" : "least volume", std::move(level))) {
         closing_of_best.reset();
-        if (by_volume && way == std::string_view("closing")) closing_of_best = std::move(closing);
+        if (by_volume && keeps_near) closing_of_best = std::move(closing);
       }
       if (!is_simple(target) || best.is_exact() || last || scale >= 2 * whole) break;
     }

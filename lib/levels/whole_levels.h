@@ -32,7 +32,7 @@ struct WholeInput {
   std::string encoding;
 };
 
-/// Of everything that the levels depend on.
+/// Makes the key of everything that the levels depend on.
 [[nodiscard]] ResultKey key_of(const WholeInput& input);
 /// What was kept under a key; nothing if it is not there.
 [[nodiscard]] std::optional<WholeLevels> kept_levels(const ResultKey& key, ResultStore& store);

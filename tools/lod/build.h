@@ -29,7 +29,7 @@ struct Build {
   void note(const std::string& text);  ///< on stderr and in the report; nothing of an empty text
   /// How scenes are read. `beside`: something else of them is in memory meanwhile.
   [[nodiscard]] SceneOptions scene_options(bool beside = false) const;
-  /// Of all that follows reading: budget.work, or a share of it, and what spills.
+  /// Makes the context of all passes after reading: budget.work, or a share of it, and where the rest spills to.
   [[nodiscard]] PassContext context(ResultStore* results = nullptr, double share = 1) const;
 };
 
@@ -54,7 +54,7 @@ struct ToldScene {
 
 /// Writes the report and prints the list; then, on stderr, where the files are, and what proves them.
 void finish(Build& build, const ToldScene& scene, const std::vector<LevelRow>& rows, std::uint64_t bytes_out);
-/// The same of a run of --tiles: `range` of `all` numbers.
+/// Ends a run of --tiles in the same way: `range` of `all` numbers.
 void finish_jobs(Build& build, const ToldScene& scene, const JobRange& range, std::uint64_t all,
                  const std::vector<FoundJobs>& found);
 

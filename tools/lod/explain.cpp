@@ -96,8 +96,8 @@ struct Plan {
   Estimate work;  ///< from nothing, and without textures
 };
 
-/// Of all levels and leaves, about. A level takes some 0.7 of its planned faces: 0.8 to 1.2 of bodies, a third and less
-/// of scenes with flat sides.
+/// Estimates the bytes of all levels and leaves. A level takes some 0.7 of its planned faces: 0.8 to 1.2 of bodies, a
+/// third and less of scenes with flat sides.
 double file_bytes(const Plan& plan, bool tileset, const Scene& scene) {
   double sum = plan.leaf_bytes;
   for (const PlannedLevel& level : plan.levels) {

@@ -72,7 +72,7 @@ struct MadeTileset {
   std::optional<TileTree> tree;
   std::vector<Provenance> provenance;  ///< empty: each tile has its own
 
-  /// Of textures; null: levels get none.
+  /// The looks that textures are baked from; null: levels get none.
   [[nodiscard]] const SceneLooks* looks() const { return scene.textured ? held_looks.get() : nullptr; }
 };
 

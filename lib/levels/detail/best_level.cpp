@@ -4,19 +4,13 @@
 #include <limits>
 #include <utility>
 
-#include "lib/mesh/lattice_geometry.h"
+#include "lib/pass/mesh/mesh_measures.h"
 
 namespace bp {
 
 namespace {
 
 constexpr double kUnseenVox = 0.125;
-
-double area_world(const LatticeMesh& mesh) {
-  double sum = 0;
-  for (const auto& [a, b, c] : mesh.triangles) sum += area_of(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]);
-  return sum * std::pow(mesh.frame.voxel / kLatticePerVoxel, 2);
-}
 
 }  // namespace
 
@@ -43,8 +37,7 @@ bool BestLevel::propose(const char* way, LodLevel level) {
   std::optional<double> error;
   if (most >= 0) error = ruler_.error(level.mesh, most);
   const bool is_better = error && (!level_ || *error < most);
-  tried_.push_back(
-      {way, level.scale_world, level.mesh.triangles.size(), volume_of(level), error.value_or(std::nan(""))});
+  note(way, level, error.value_or(std::nan("")));
   if (is_better) keep(std::move(level), *error);
   return is_better;
 }
@@ -52,9 +45,13 @@ bool BestLevel::propose(const char* way, LodLevel level) {
 bool BestLevel::propose_exact(const char* way, const LodLevel& level) {
   const std::optional<double> error = ruler_.error(level.mesh, unseen());
   if (!error || *error > unseen()) return false;
-  tried_.push_back({way, level.scale_world, level.mesh.triangles.size(), volume_of(level), *error});
+  note(way, level, *error);
   keep(level, *error);
   return true;
+}
+
+void BestLevel::note(const char* way, const LodLevel& level, double error) {
+  tried_.push_back({way, level.scale_world, level.mesh.triangles.size(), volume_of(level), error});
 }
 
 void BestLevel::keep(LodLevel level, double error) {

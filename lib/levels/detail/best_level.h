@@ -34,6 +34,7 @@ class BestLevel {
   [[nodiscard]] double unseen() const;
   [[nodiscard]] double weight(const LodLevel& level) const;
   [[nodiscard]] double most_error(const LodLevel& level) const;
+  void note(const char* way, const LodLevel& level, double error);
   void keep(LodLevel level, double error);
 
   const Ruler& ruler_;

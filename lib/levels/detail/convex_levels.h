@@ -14,9 +14,9 @@ struct ConvexLevel {
   LodLevel level;
 };
 
-/// Those that have at most `faces` faces. Their error is not measured. `place`: a level without a mesh, whose frame and
-/// scale they take. `bounds`: of what is enclosed; scene units. `corners`: scene_corners(), or none, if only voxels are
-/// known.
+/// Returns those that have at most `faces` faces. Their error is not measured. `place`: a level without a mesh, whose
+/// frame and scale they take. `bounds`: of what is enclosed; scene units. `corners`: scene_corners(), or none, if only
+/// voxels are known.
 [[nodiscard]] std::vector<ConvexLevel> convex_levels(const LodLevel& place, const Bounds3d& bounds,
                                                      std::span<const Vec3d> corners, std::uint64_t faces);
 

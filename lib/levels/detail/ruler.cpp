@@ -22,7 +22,7 @@ std::uint64_t segment_bytes(std::uint64_t runs) {
   return runs * sizeof(TriangleD) + TriangleBvh::bytes_needed(runs);
 }
 
-/// The same of distances to triangles, and the faces that are kept for it.
+/// What distances to triangles that are shown take for a moment, and the faces that are kept for it.
 std::uint64_t shown_bytes(std::uint64_t faces) {
   return faces * sizeof(FaceRect) +
          std::min(faces, kMostShownPoints) * (2 * sizeof(TriangleD) + TriangleBvh::bytes_needed(1));
@@ -37,11 +37,7 @@ bool is_small(std::uint64_t bytes, const MemoryShare& memory) {
 Ruler::Ruler(const RulerScene& scene, const MemoryShare& memory) : Ruler(scene, boundary_size(scene.solid), memory) {}
 
 Ruler::Ruler(const RulerScene& scene, const BoundarySize& size, const MemoryShare& memory)
-    : dense_faces(2 * size.faces),
-      box(size.box),
-      frame_(scene.frame),
-      mode_(scene.mode),
-      triangles_(scene.triangles.empty() ? nullptr : &scene.triangles) {
+    : dense_faces(2 * size.faces), box(size.box), frame_(scene.frame), mode_(scene.mode), triangles_(scene.triangles) {
   if (mode_ == MeshMode::fit || triangles_ == nullptr) take_surface(scene, size, memory);
   if (triangles_ != nullptr)
     scene_ = Surface(triangles_, is_small(TriangleBvh::bytes_needed(triangles_->size()), memory));
@@ -106,8 +102,8 @@ std::optional<double> Ruler::error(const LatticeMesh& mesh, double limit) const 
 }
 
 double Ruler::error_around_voxels(const std::vector<TriangleD>& mesh) const {
-  return with_segments(
-      [&](const std::vector<TriangleD>& segments) { return distance_from_mesh(mesh, TriangleBvh(segments), voxel()); });
+  return with_segment_tree(
+      [&](const std::vector<TriangleD>&, const TriangleBvh& tree) { return distance_from_mesh(mesh, tree, voxel()); });
 }
 
 double Ruler::error_of_fit_to_voxels(const std::vector<TriangleD>& mesh) const {

@@ -11,10 +11,10 @@ namespace bp {
 
 /// What a ruler measures against: a scene whose triangles are known, or else its voxels.
 struct RulerScene {
-  const BrickShelf& solid;                  ///< its voxels, of `frame`; with the inside filled, the scene touches each
-                                            ///< voxel of their boundary
-  const BrickShelf* surface = nullptr;      ///< as LodOptions has it
-  const std::vector<TriangleD>& triangles;  ///< must outlive the ruler; empty: not known
+  const BrickShelf& solid;              ///< its voxels, of `frame`; with the inside filled, the scene touches each
+                                        ///< voxel of their boundary
+  const BrickShelf* surface = nullptr;  ///< as LodOptions has it
+  const std::vector<TriangleD>* triangles = nullptr;  ///< must outlive the ruler; null: not known
   GridFrame frame;
   MeshMode mode = MeshMode::bounding;  ///< of the levels that are measured
 };
@@ -33,7 +33,7 @@ class Ruler {
   [[nodiscard]] double voxel() const { return frame_.voxel; }
   /// Around all of the solid's voxels, scene units.
   [[nodiscard]] Bounds3d bounds() const;
-  /// Of the memory, while the ruler lives.
+  /// What the ruler takes of the memory while it lives.
   [[nodiscard]] std::uint64_t bytes() const;
 
   /// LodLevel::error_world of a mesh; nothing if it surely exceeds `limit`. Around triangles that is found early; else

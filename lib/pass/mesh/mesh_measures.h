@@ -34,5 +34,7 @@ struct MeshMeasures {
 
 /// Measures a closed mesh, without distances. Linear.
 [[nodiscard]] MeshMeasures measure(const LatticeMesh& mesh);
+/// Sums the areas of all triangles, scene units squared.
+[[nodiscard]] double area_world(const LatticeMesh& mesh);
 
 }  // namespace bp

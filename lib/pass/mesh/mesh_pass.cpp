@@ -123,12 +123,6 @@ void take_convex(LatticeMesh& proxy, const Enclosed& enclosed, std::uint64_t fac
   counts.simplify.stop = proxy.triangles.size() < faces ? StopReason::least_volume : StopReason::faces;
 }
 
-double area_world(const LatticeMesh& mesh) {
-  double sum = 0;
-  for (const auto& [a, b, c] : mesh.triangles) sum += area_of(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]);
-  return sum * std::pow(mesh.frame.voxel / kLatticePerVoxel, 2);
-}
-
 /// Edge of the voxels around a level: the stream's, or as large as gives a dense surface of enough faces for the next
 /// and takes no more than half of its share of the error.
 double level_voxel(const LatticeMesh& inner, double voxel, std::uint64_t faces, double error_share) {

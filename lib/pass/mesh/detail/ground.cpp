@@ -42,7 +42,7 @@ std::vector<TriangleD> rect_triangles(const BrickShelf& shelf, const GridFrame& 
   return triangles;
 }
 
-/// Of a scene of few triangles, unless its voxels are filled where none are near.
+/// Makes them of a scene of few triangles, unless its voxels are filled where no triangle is near; else null.
 std::unique_ptr<NearTriangles> near_triangles(const std::vector<TriangleD>& scene, const GridFrame& frame,
                                               FillMode fill) {
   if (fill == FillMode::winding || scene.empty() || scene.size() > MeshParams::kSimpleScene) return nullptr;

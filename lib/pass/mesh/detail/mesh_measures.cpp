@@ -58,6 +58,12 @@ QuadMeasures measure_quads(const LatticeMesh& mesh, double volume) {
 
 }  // namespace
 
+double area_world(const LatticeMesh& mesh) {
+  double sum = 0;
+  for (const auto& [a, b, c] : mesh.triangles) sum += area_of(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]);
+  return sum * std::pow(mesh.frame.voxel / kLatticePerVoxel, 2);
+}
+
 MeshMeasures measure(const LatticeMesh& mesh) {
   MeshMeasures m;
   m.volume = volume_world(mesh);

@@ -65,7 +65,7 @@ class BrickSum {
 
   /// False, and nothing is added, if these are not the bytes of a chunk in this grid. Thread-safe.
   [[nodiscard]] bool add(const std::string& chunk);
-  /// Of all bricks, in no order.
+  /// Lists all bricks, in no order.
   [[nodiscard]] std::vector<BrickCoord> coords() const;
   /// Sets the voxels of the box, one of whole bricks, which are then forgotten. After the last add(). Thread-safe for
   /// boxes without common bricks.
