@@ -29,6 +29,11 @@ bool is_coarser(const LodLevel& level, const LodLevel& before, double diagonal) 
   return !(level.error_world > diagonal);  // beyond it, the scene is a point where the level would be drawn
 }
 
+/// Whether a level is as near as another one, and holds no more.
+bool is_in_front(const LodLevel& level, const LodLevel& other) {
+  return level.error_world <= other.error_world && volume_of(level) <= volume_of(other);
+}
+
 /// Whether the target of a level follows from the first level, not from a list.
 bool follows(const ChainRange& range, std::size_t i, const LodTarget& target) {
   return i > 0 && target.error_world == 0 && range.first + i >= range.request.faces.size();
@@ -83,39 +88,94 @@ LevelFacts facts_of(const LodLevel& level, const LodTarget& target) {
   return facts;
 }
 
-LodTarget LevelSequence::target() const {
-  return target_of(range_, at_, chain_.dense_faces(), first_faces_);
+LodTarget LevelSequence::target(std::size_t i) const {
+  return target_of(range_, i, chain_.dense_faces(), first_faces_);
 }
 
-std::optional<std::size_t> LevelSequence::next() {
+std::vector<std::size_t> LevelSequence::next() {
+  batch_.clear();
+  std::uint64_t before = made_.levels.empty() ? 0 : made_.levels.back().level.mesh.triangles.size();
   for (; at_ < range_.count; ++at_) {
-    const std::uint64_t before = made_.levels.empty() ? 0 : made_.levels.back().level.mesh.triangles.size();
-    if (!follows(range_, at_, target()) || target().faces < before) return range_.first + at_;
-    made_.left_out.push_back({target(), before});
+    const LodTarget wanted = target(at_);
+    const bool follows_others = follows(range_, at_, wanted);
+    // Budgets that follow from the first level wait until it is made.
+    if (follows_others && at_ > 0 && !is_first_made_) break;
+    if (follows_others && wanted.faces >= before) {
+      if (!batch_.empty()) break;
+      made_.left_out.push_back({wanted, before});
+      continue;
+    }
+    before = wanted.faces;
+    batch_.push_back(at_);
   }
-  return std::nullopt;
+  std::vector<std::size_t> numbers;
+  for (const std::size_t i : batch_) numbers.push_back(range_.first + i);
+  return numbers;
 }
 
 void LevelSequence::make_next() {
-  MadeLevel now{{}, target()};
-  now.level = chain_.make(now.target);
-  if (at_++ == 0 && falls_short(now.level, now.target)) first_faces_ = now.level.mesh.triangles.size();
-  if (made_.levels.empty()) return made_.levels.push_back(std::move(now));
-  const LeftOut reason = not_worth_having(now, made_.levels.back().level, range_);
-  if (reason.faces == 0) return made_.levels.push_back(std::move(now));
-  made_.left_out.push_back(reason);
-  if (reason.volume_ratio > 0) at_ = range_.count;
+  std::vector<LodTarget> targets;
+  for (const std::size_t i : batch_) targets.push_back(target(i));
+  std::vector<LodLevel> levels = chain_.make(targets);
+  if (!std::exchange(is_first_made_, true) && falls_short(levels[0], targets[0]))
+    first_faces_ = levels[0].mesh.triangles.size();
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    MadeLevel now{std::move(levels[i]), targets[i]};
+    LeftOut reason;
+    if (!made_.levels.empty()) reason = not_worth_having(now, made_.levels.back().level, range_);
+    if (reason.faces == 0) {
+      made_.levels.push_back(std::move(now));
+      continue;
+    }
+    made_.left_out.push_back(reason);
+    if (reason.volume_ratio > 0) {
+      at_ = range_.count;
+      return;
+    }
+  }
+}
+
+/// Another try at the level's faces, closed as the next one; nothing if that is no way to make it.
+std::optional<LodLevel> LevelSequence::closed_as(const LodLevel& next, LodTarget target) {
+  if (target.faces == 0 || target.error_world > 0 || target.scale_world || next.scale_world == 0) return std::nullopt;
+  target.scale_world = next.scale_world;
+  return chain_.make(target);
+}
+
+/// Where a level is farther off than the next one, which has fewer faces, it gives way to one with the closing of that
+/// if it is nearer; else it is left out if it does not hold less, either.
+void LevelSequence::keep_front() {
+  std::vector<MadeLevel>& levels = made_.levels;
+  for (std::size_t i = levels.size(); i-- > 1;) {
+    const LodLevel& next = levels[i].level;
+    MadeLevel& finer = levels[i - 1];
+    if (finer.level.error_world <= next.error_world) continue;
+    std::optional<LodLevel> other = closed_as(next, finer.target);
+    if (other && other->reached && is_coarser(next, *other, range_.diagonal) && is_in_front(*other, next)) {
+      finer.level = *std::move(other);
+    } else if (volume_of(finer.level) >= volume_of(next)) {
+      leave_out(finer, next);
+      levels.erase(levels.begin() + std::ptrdiff_t(i - 1));
+    }
+  }
+}
+
+/// Notes that the level is not there, for the next one is nearly as near.
+void LevelSequence::leave_out(const MadeLevel& made, const LodLevel& next) {
+  const LodLevel& level = made.level;
+  made_.left_out.push_back(
+      {made.target, 0, level.mesh.triangles.size(), level.error_world, next.mesh.triangles.size()});
 }
 
 MadeLevels LevelSequence::take() {
+  keep_front();
   std::vector<MadeLevel> kept;  // coarsest first
   for (; !made_.levels.empty(); made_.levels.pop_back()) {
-    auto& [level, target] = made_.levels.back();
-    if (!kept.empty() && is_needless(level, kept.back().level, range_)) {
-      const std::uint64_t faces_after = kept.back().level.mesh.triangles.size();
-      made_.left_out.push_back({target, 0, level.mesh.triangles.size(), level.error_world, faces_after});
+    MadeLevel& made = made_.levels.back();
+    if (!kept.empty() && is_needless(made.level, kept.back().level, range_)) {
+      leave_out(made, kept.back().level);
     } else {
-      kept.push_back(std::move(made_.levels.back()));
+      kept.push_back(std::move(made));
     }
   }
   made_.levels.assign(std::make_move_iterator(kept.rbegin()), std::make_move_iterator(kept.rend()));

@@ -49,7 +49,7 @@ struct LeftOut {
   std::uint64_t faces_before = 0;  ///< of the level before
   std::uint64_t faces = 0;         ///< it would have; 0: it was not made, for the level before has its budget
   double error_world = 0;          ///< it would have
-  std::uint64_t faces_after = 0;   ///< of the next level, which is nearly as near; 0: another reason
+  std::uint64_t faces_after = 0;   ///< of the next level, which is nearly as near, or nearer; 0: another reason
   double volume_ratio = 0;         ///< its volume over that of the level before, if that is why; else 0
 };
 
@@ -64,30 +64,38 @@ struct MadeLevels {
   std::vector<LeftOut> left_out;
 };
 
-/// Makes at most range.count levels, one after the other, finest first. A level that has no fewer faces than the one
-/// before, or an error above the scene's diagonal, is left out. Of levels that nobody asked for
+/// Makes at most range.count levels, several at the same time; finest first. A level that has no fewer faces than the
+/// one before, or an error above the scene's diagonal, is left out. Of levels that nobody asked for
 /// (LevelRequest::is_chosen), one is left out where the next one, which has fewer faces, is nearly as near; and the
-/// list ends before a level that holds more than three times the volume of the one before: it is crumpled. Errors never
-/// fall: where less is measured, that of the finer level stands for both. Where
-/// the first has clearly fewer faces than its budget, the budgets that follow from it are quarters of what it has, and
-/// scales double.
+/// list ends before a level that holds more than three times the volume of the one before: it is crumpled. A
+/// level that is farther off than the next one is made once more with the closing of that; if this does not help, and
+/// it holds no less, it is left out. Errors never fall: where less is measured, that of the finer level stands for
+/// both. Where the first has clearly fewer faces than its budget, the budgets that follow from it are quarters of what
+/// it has, and scales double.
 class LevelSequence {
  public:
   /// Keeps a reference to `chain`.
   LevelSequence(LodChain& chain, ChainRange range) : chain_(chain), range_(std::move(range)) {}
 
-  /// The number, of those in the request, of the level that make_next() makes; nothing if all are made.
-  [[nodiscard]] std::optional<std::size_t> next();
+  /// Returns the numbers, of those in the request, of the levels that make_next() makes; none if all are made. The
+  /// first one is alone where the budgets of others follow from it.
+  [[nodiscard]] std::vector<std::size_t> next();
+  /// Once after each next() that returns numbers.
   void make_next();
   /// Returns the levels that are worth having. Ends the sequence.
   [[nodiscard]] MadeLevels take();
 
  private:
-  [[nodiscard]] LodTarget target() const;
+  [[nodiscard]] LodTarget target(std::size_t i) const;
+  [[nodiscard]] std::optional<LodLevel> closed_as(const LodLevel& next, LodTarget target);
+  void keep_front();
+  void leave_out(const MadeLevel& made, const LodLevel& next);
 
   LodChain& chain_;
   ChainRange range_;
-  std::size_t at_ = 0;             // of the range
+  std::size_t at_ = 0;              // of the range
+  std::vector<std::size_t> batch_;  // of the range: what make_next() makes
+  bool is_first_made_ = false;
   std::uint64_t first_faces_ = 0;  // above 0: the first level fell short
   MadeLevels made_;
 };

@@ -70,7 +70,8 @@ struct LodOptions {
 
 /// A mesh that was proposed for a level.
 struct TriedWay {
-  /// box, prism, hull; finer: from the level before, or the scene's surface; closing; least volume; cage
+  /// box, prism, hull; surface: from the scene's own; finer: from the finest level, halfway; closing; least
+  /// volume; cage
   std::string way;
   double scale_world = 0;  ///< of its closing
   std::uint64_t faces = 0;
@@ -112,18 +113,21 @@ class LodChain {
   /// Length of the longest side of the solid, in voxels.
   [[nodiscard]] std::int64_t longest_side_vox() const;
 
-  /// The next level; targets come finest first. It is the best (detail/best_level.h) of what is proposed:
+  /// Makes the levels of all targets, which come finest first. Each is the best (detail/best_level.h) of what is
+  /// proposed for it:
   ///   - of a bounding level, the scene's box, prism or hull (detail/convex_levels.h); nothing else is proposed where
   ///     one of these is exact;
-  ///   - the bounding level before, or the surface of a scene that is a closed one, with fewer faces, where that leaves
-  ///     each of its parts and holes 50;
+  ///   - a mesh around the scene with fewer faces, where these are 50 for each of its parts and holes: the surface of a
+  ///     scene that is a closed one, of the first level; what is left halfway of the first level, of others;
   ///   - else closings: at the least scale, from an eighth of first_scale() on (a half in a fit), that leaves each part
   ///     and hole so many faces, or at first_scale(). Where parts and holes take more faces than there are, twice the
   ///     scale is tried, on coarser voxels where the budget allows, until there are enough or the scale is half the
   ///     scene. Of simple scenes all scales up to twice first_scale() are proposed;
   ///   - of fewer than 32 faces, the mesh of least volume around the best closing.
-  /// Throws as close_stream() and mesh_stream().
-  [[nodiscard]] LodLevel make(const LodTarget& target);
+  /// No level needs another one, but for the mesh that they begin from: so they are made at the same time, as far as
+  /// memory and threads allow. Throws as close_stream() and mesh_stream().
+  [[nodiscard]] std::vector<LodLevel> make(const std::vector<LodTarget>& targets);
+  [[nodiscard]] LodLevel make(const LodTarget& target) { return std::move(make(std::vector{target}).front()); }
 
  private:
   struct State;

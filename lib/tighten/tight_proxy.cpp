@@ -49,6 +49,7 @@ class Steps {
       pause();
     }
     if (params_.faces > 0 || params_.limits != nullptr) collapse_by_error(by_error_to());
+    if (by_volume(params_)) proxy_.halfway = proxy_.mesh;
     return finish();
   }
 

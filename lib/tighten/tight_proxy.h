@@ -10,6 +10,7 @@ struct TightProxy {
   LatticeMesh mesh;
   SimplifyCounts simplified;
   TightenCounts tightened;
+  LatticeMesh halfway;  ///< what was left when collapses by error had ended: coarser proxies may begin from it
 };
 
 /// `dense`: a dense surface of repaired voxels. Growing collapses to a few times the target, tightening, then collapses

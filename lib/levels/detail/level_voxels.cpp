@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "lib/core/error.h"
+#include "lib/core/parallel.h"
 #include "lib/pass/close/close_pass.h"
 #include "lib/pass/measure/shape_rules.h"
 #include "lib/surface/repair.h"
@@ -13,45 +14,53 @@ namespace bp {
 
 LevelVoxels::LevelVoxels(const StreamHeader& header, std::unique_ptr<BrickShelf> solid, Backends& backends,
                          const LodOptions& options)
-    : header_(header), solid_(std::move(solid)), backends_(backends), options_(options) {
-  if (solid_->coords().empty()) fail(ErrorCode::bad_input, "the scene fills no voxel; there is nothing to mesh");
+    : backends_(backends), options_(options) {
+  if (solid->coords().empty()) fail(ErrorCode::bad_input, "the scene fills no voxel; there is nothing to mesh");
+  solids_.push_back({header, std::move(solid), 0});
 }
 
-void LevelVoxels::reduce_to(int n) {
-  for (; reductions_ < n; ++reductions_) {
+const LevelVoxels::Solid& LevelVoxels::reduced(int n) {
+  const std::lock_guard lock(mutex_);
+  while (int(solids_.size()) <= n) {
+    const Solid& fine = solids_.back();
     auto coarse = options_.context.make_shelf();
-    reduce(*solid_, header_.frame, *coarse);
-    header_ = reduced(header_);
-    solid_ = std::move(coarse);
+    isolated([&] { reduce(*fine.shelf, fine.header.frame, *coarse); });
+    solids_.push_back({bp::reduced(fine.header), std::move(coarse), fine.reductions + 1});
   }
+  return solids_[std::size_t(n)];
 }
 
-ScaleField LevelVoxels::field_at(double scale) const {
+ScaleField LevelVoxels::field_at(const Solid& solid, double scale, const PassContext& context) const {
   ScaleField constant;
   constant.base = scale;
   if (!options_.field) return constant;
   ScalePlan plan = *options_.field;
   plan.field = plan.field.scaled(scale / plan.field.base);
-  return measured(plan, header_, *solid_, {0, options_.context}).field;
+  return measured(plan, solid.header, *solid.shelf, {0, context}).field;
 }
 
-LevelVoxels::Closing LevelVoxels::closed_at(double scale) const {
+LevelVoxels::Closing LevelVoxels::closed_at(const Solid& solid, double scale, const PassContext& context) {
   CloseOptions close;
-  close.context = options_.context;
-  Closing closing = as_it_is(scale);
+  close.context = context;
+  Closing closing = as_it_is(solid, scale);
   StreamHeader& closed = closing.header;
-  closed.scale = field_at(scale);
-  closing.voxels = close_shelf(header_, *solid_, backends_, closed.scale, options_.closing, close);
-  closed.bricks = closing_bricks(header_, closed.scale);
+  closed.scale = field_at(solid, scale, context);
+  {
+    const std::lock_guard lock(closing_);
+    isolated([&] {
+      closing.voxels = close_shelf(solid.header, *solid.shelf, backends_, closed.scale, options_.closing, close);
+    });
+  }
+  closed.bricks = closing_bricks(solid.header, closed.scale);
   closed.has_closing = true;
   closed.element = options_.closing.element;
   return closing;
 }
 
-std::uint64_t LevelVoxels::parts_and_holes(const Closing& closing) const {
+std::uint64_t parts_and_holes(const LevelVoxels::Closing& closing, const PieceMemory& memory) {
   repair_contacts(*closing.voxels);
-  const PieceMemory& memory = options_.context.pieces;  // of meshing, which takes nothing of it yet
-  const std::uint64_t bytes = topology_bytes(*closing.voxels), most = memory.bytes();
+  const std::uint64_t bytes = topology_bytes(*closing.voxels),
+                      most = memory.bytes();  // meshing takes nothing of it yet
   if (bytes > most)
     throw NeedsMemory("counting the parts and holes of a level", bytes, most, memory.limit_with(bytes - most));
   const SolidTopology topology = topology_of(*closing.voxels);

@@ -95,7 +95,9 @@ LatticeMesh use_room(LatticeMesh proxy, const Enclosed& enclosed, SimplifyParams
   return proxy;
 }
 
-LatticeMesh take(TightProxy&& proxy, LevelCounts& counts) {
+/// `halfway` receives TightProxy::halfway; null: nobody asks for it.
+LatticeMesh take(TightProxy&& proxy, LatticeMesh* halfway, LevelCounts& counts) {
+  if (halfway != nullptr) *halfway = std::move(proxy.halfway);
   counts.simplify = std::move(proxy.simplified);
   counts.tighten = proxy.tightened;
   return std::move(proxy.mesh);
@@ -104,13 +106,13 @@ LatticeMesh take(TightProxy&& proxy, LevelCounts& counts) {
 /// One level, from the surface of all that it must enclose, or a coarse one around it. `few`: nothing but a number of
 /// faces below kFewFaces matters.
 LatticeMesh make_level(const SurfaceSource& dense, const CoarseStarts* starts, const Enclosed* enclosed,
-                       const SimplifyParams& params, bool few, LevelCounts& counts) {
+                       const SimplifyParams& params, bool few, LatticeMesh* halfway, LevelCounts& counts) {
   if (enclosed == nullptr) return simplify(dense, params, counts.simplify);
-  if (few) return take(tight_proxy_of_few(dense, *enclosed, params), counts);
+  if (few) return take(tight_proxy_of_few(dense, *enclosed, params), halfway, counts);
   CoarseStart start;
   if (starts != nullptr) start = starts->first(params.faces);
   const SurfaceSource& from = start.surface ? *start.surface : dense;
-  LatticeMesh proxy = take(tight_proxy(from, dense.frame(), *enclosed, params), counts);
+  LatticeMesh proxy = take(tight_proxy(from, dense.frame(), *enclosed, params), halfway, counts);
   return params.limits == nullptr ? proxy : use_room(std::move(proxy), *enclosed, params, counts);
 }
 
@@ -281,8 +283,8 @@ class LevelMaker {
           faces > 0 && params.limits == nullptr && !params.edge_limit && !params_.near_world && !inside();
       const bool few = only_faces && faces < kFewFaces;
       params.dense = params_.start == nullptr;
-      LatticeMesh proxy = params_.start ? take(tight_proxy(*params_.start, *enclosed, params), counts)
-                                        : make_level(dense, starts, enclosed, params, few, counts);
+      LatticeMesh proxy = params_.start ? take(tight_proxy(*params_.start, *enclosed, params), params_.halfway, counts)
+                                        : make_level(dense, starts, enclosed, params, few, params_.halfway, counts);
       if (only_faces && params_.convex && enclosed != nullptr) take_convex(proxy, *enclosed, faces, counts);
       if (!params_.quads) return proxy;
       if (enclosed != nullptr) proxy = make_room_for_quads(proxy, *enclosed, params);

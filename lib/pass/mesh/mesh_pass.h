@@ -59,6 +59,9 @@ struct MeshParams {
   /// A bounding proxy of more faces, in the frame of the stream, of the same scene: the first level begins from it in
   /// place of the voxels' surface. Not owned; null: none.
   const LatticeMesh* start = nullptr;
+  /// Receives what the first level's proxy was when collapses by error had ended, and those by volume began: for
+  /// `start` of coarser levels. It stays empty where the proxy is made otherwise. Not owned; null: nobody asks.
+  LatticeMesh* halfway = nullptr;
   /// Of bounding proxies of a part of the scene, with `near`: the rest of it may lie outside the voxels.
   std::optional<ScenePart> part;
   /// What distances count from, if not from what is enclosed; closing: the surface of what is meshed.

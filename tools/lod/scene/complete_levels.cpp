@@ -1,5 +1,7 @@
 #include "tools/lod/scene/complete_levels.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "lib/levels/margin.h"
@@ -35,12 +37,18 @@ void complete(const Build& build, const Completion& with, LodLevel& level, std::
   level.mesh.provenance = {make_provenance("bplod", text, input_hash)};
 }
 
+/// The stage of the report in which levels of these numbers are made.
+std::string text_of(const std::vector<std::size_t>& numbers) {
+  if (numbers.size() == 1) return fmt::format("level {}", numbers[0]);
+  return fmt::format("levels {} to {}", numbers.front(), numbers.back());
+}
+
 }  // namespace
 
 CompleteLevels make_levels(Build& build, LodChain& chain, const ChainRange& range, const Completion& completion) {
   LevelSequence sequence(chain, range);
-  while (const std::optional<std::size_t> number = sequence.next()) {
-    build.report.begin("level " + std::to_string(*number));
+  for (std::vector<std::size_t> numbers; !(numbers = sequence.next()).empty();) {
+    build.report.begin(text_of(numbers));
     sequence.make_next();
   }
   auto [made, left_out] = sequence.take();

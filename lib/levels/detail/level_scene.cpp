@@ -1,0 +1,62 @@
+#include "lib/levels/detail/level_scene.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "lib/core/parallel.h"
+#include "lib/pass/mesh/mesh_measures.h"
+#include "lib/pass/mesh/outward_scene.h"
+#include "lib/pass/mesh/scene_check.h"
+
+namespace bp {
+
+LevelScene::LevelScene(const StreamHeader& header, std::unique_ptr<BrickShelf> solid, Backends& backends, LodOptions o)
+    : options_(std::move(o)), bounds_(header.bounds), voxels_(header, std::move(solid), backends, options_) {
+  take_off(options_.scene.size() * sizeof(TriangleD));
+  const BrickShelf& voxels = *voxels_.reduced(0).shelf;
+  // Here, and not at each level: in voxels of twice the size a corner may lie so near to a side, as these are rounded,
+  // that the voxel beyond would have been set, too.
+  if (is_bounding() && options_.enclose == Enclose::scene) require_within(options_.scene, header.frame, voxels);
+  ruler_.emplace(RulerScene{voxels, options_.surface.get(), has_triangles() ? &options_.scene : nullptr, header.frame,
+                            options_.mode},
+                 context().memory);
+  options_.surface.reset();
+  take_off(ruler_->bytes());
+}
+
+void LevelScene::take_off(std::uint64_t bytes) {
+  PassContext& context = options_.context;
+  context.memory.bytes -= std::min(context.memory.bytes, bytes);
+  context.pieces = context.pieces.without(bytes);
+}
+
+LodGround LevelScene::ground() const {
+  const VoxelCoord size = ruler_->box.size();
+  return {ruler_->voxel(), bounds_.diagonal(), ruler_->dense_faces, std::max({size.x, size.y, size.z})};
+}
+
+std::shared_ptr<const Enclosed> LevelScene::enclosed(const LevelVoxels::Solid& solid) {
+  constexpr std::uint64_t kSmallShare = 16;  // of the memory
+  const std::lock_guard lock(mutex_);
+  std::weak_ptr<const Enclosed>& place = enclosed_[solid.reductions];
+  if (std::shared_ptr<const Enclosed> made = place.lock()) return made;
+  kept_.reset();
+  std::shared_ptr<const Enclosed> made;
+  isolated([&] { made = enclosed_scene(options_.scene, solid.header, *solid.shelf); });
+  place = made;
+  if (made->bytes() <= context().memory.bytes / kSmallShare) kept_ = made;
+  return made;
+}
+
+std::optional<LevelStart> LevelScene::own_surface() {
+  // Where the scene has more triangles, the voxels' surface is the shorter way.
+  if (!has_triangles() || options_.field || options_.scene.size() > ruler_->dense_faces) return std::nullopt;
+  const StreamHeader& header = voxels_.reduced(0).header;
+  std::optional<LatticeMesh> surface = outward_scene(options_.scene, header.frame);
+  if (!surface) return std::nullopt;
+  surface->provenance = header.provenance;
+  const MeshMeasures measures = measure(*surface);
+  return LevelStart{std::move(*surface), 0, measures.shells + measures.handles, 0};
+}
+
+}  // namespace bp

@@ -1,0 +1,244 @@
+#include "lib/levels/detail/level_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace bp {
+
+namespace {
+
+// A budget is closed at the least of the scales from a kFinest-th of its own on at which each part and hole of the
+// closing has so many faces to show its shape. Where parts and holes take all faces, the rest of the level is far off.
+// A fit lies on the closing, and has its noise.
+constexpr double kFinest = 8, kFinestOfFit = 2;
+constexpr std::uint64_t kFacesPerPart = 50;
+constexpr std::uint64_t kLeastPerPart = 4;  // a closed surface has at least four times its parts and handles
+// With fewer faces, the mesh that keeps near the scene is not always the nearest one.
+constexpr std::uint64_t kTryVolumeBelow = 32;
+
+/// Whether nothing but a number of faces decides the scale.
+bool is_by_budget(const LodTarget& target) {
+  return target.faces > 0 && target.error_world == 0 && !target.scale_world;
+}
+
+bool has_few_faces(const LodTarget& target) {
+  return target.faces > 0 && target.faces < kTryVolumeBelow && target.error_world == 0;
+}
+
+std::uint64_t parts_and_handles(const MeshMeasures& measures) {
+  return measures.shells + measures.handles;
+}
+
+/// Whether meshing for least volume may lead to few enough faces: all parts and handles are kept, and each takes four.
+/// Where there are several, none was seen to lead from more than twice as many.
+bool may_reach_by_volume(const LodLevel& level, std::uint64_t faces) {
+  constexpr std::uint64_t kFewMore = 8;
+  const std::uint64_t parts = parts_and_handles(level.counts.levels.front().measures);
+  return kLeastPerPart * parts <= faces && (parts == 1 || level.mesh.triangles.size() <= 2 * faces + kFewMore);
+}
+
+}  // namespace
+
+bool may_follow(const LevelScene& scene, const LodTarget& target) {
+  return scene.is_bounding() && !scene.options().cage && is_by_budget(target) && !has_few_faces(target);
+}
+
+bool follows_from(const LevelScene& scene, const LodTarget& target, const LevelStart& start) {
+  return may_follow(scene, target) && start.parts_and_holes * kFacesPerPart <= target.faces;
+}
+
+LevelSearch::LevelSearch(LevelScene& scene, const PassContext& context, const LodTarget& target,
+                         const LevelStart* start)
+    : scene_(scene),
+      options_(scene.options()),
+      context_(context),
+      target_(target),
+      start_(start),
+      ground_(scene.ground()),
+      best_(scene.ruler(), options_.mode, target.faces) {}
+
+LodLevel LevelSearch::make() {
+  if (options_.cage) {
+    best_.propose("cage", cage());
+    return best_.take();
+  }
+  const std::vector<ConvexLevel> convex = convex_ways();
+  const bool is_convex = scene_.has_triangles() && std::any_of(convex.begin(), convex.end(), [&](const ConvexLevel& c) {
+                           return best_.propose_exact(c.way, c.level);
+                         });
+  if (is_convex) return best_.take();
+  if (start_ != nullptr) {
+    best_.propose(start_->scale_world > 0 ? "finer" : "surface", coarser());
+  } else {
+    propose_closings();
+  }
+  for (const ConvexLevel& c : convex) best_.propose(c.way, c.level);
+  return best_.take();
+}
+
+bool LevelSearch::is_of_few_faces() const {
+  return scene_.is_bounding() && has_few_faces(target_);
+}
+
+/// Whether nothing is asked but a number of faces, of a scene of few triangles: these tell quickly what is near.
+bool LevelSearch::is_simple() const {
+  return scene_.is_bounding() && scene_.has_triangles() && !options_.field && is_by_budget(target_) &&
+         options_.scene.size() <= MeshParams::kSimpleScene;
+}
+
+double LevelSearch::finest() const {
+  return scene_.is_bounding() ? kFinest : kFinestOfFit;
+}
+
+bool LevelSearch::is_within(const LodLevel& level) const {
+  return target_.faces == 0 || level.mesh.triangles.size() <= target_.faces;
+}
+
+std::vector<ConvexLevel> LevelSearch::convex_ways() {
+  const bool may_be = scene_.is_bounding() && options_.enclose != Enclose::closing && target_.faces > 0;
+  if (!may_be || target_.error_world > 0) return {};
+  const StreamHeader& header = scene_.voxels().reduced(0).header;
+  LodLevel place;
+  place.mesh.frame = header.frame;
+  place.mesh.provenance = header.provenance;
+  place.attempts = 1;
+  if (!scene_.has_triangles()) return convex_levels(place, scene_.ruler().bounds(), {}, target_.faces);
+  return convex_levels(place, scene_.bounds(), scene_corners(header.frame, options_.scene), target_.faces);
+}
+
+/// Whether the target has not so many faces for each part and hole of a closing.
+bool LevelSearch::has_too_many_parts(const Closing& closing, std::uint64_t faces_per_part) const {
+  return target_.faces > 0 && parts_and_holes(closing, context_.pieces) * faces_per_part > target_.faces;
+}
+
+/// One closing, but of simple scenes, which take little time, each up to twice the scale of the budget. What a closing
+/// joins, few faces need not show; what it leaves apart, they follow.
+void LevelSearch::propose_closings() {
+  const double least = options_.least_scale_world, whole = first_scale(ground_, target_, least);
+  std::optional<Closing> closing_of_best;
+  const Solid* solid = nullptr;
+  int attempts = 1, reductions = 0;
+  for (double scale = is_by_budget(target_) ? std::max(whole / finest(), least) : whole;;
+       scale = larger_scale(*solid, scale)) {
+    reductions = reductions_for(ground_, target_, finest_scale(options_.field, std::max(scale, whole)), reductions);
+    solid = &scene_.voxels().reduced(reductions);
+    const bool last = larger_scale(*solid, scale) > scene_.bounds().diagonal() / 2;
+    Closing closing = scene_.voxels().closed_at(*solid, scale, context_);
+    if (!last && has_too_many_parts(closing, scale < whole ? kFacesPerPart : kLeastPerPart)) {
+      attempts += scale >= whole;
+      continue;
+    }
+    LatticeMesh halfway;
+    MeshParams params = mesh_params(*solid, scale);
+    params.halfway = &halfway;
+    LodLevel level = mesh(std::move(params), *solid, closing, is_of_few_faces() ? Keep::all : Keep::solid);
+    const bool by_volume = is_of_few_faces() && may_reach_by_volume(level, target_.faces);
+    const bool keeps_near = is_within(level) || !by_volume;
+    if (!keeps_near) level = mesh(least_volume(), *solid, closing, Keep::all);
+    if (!is_within(level) && !last) {
+      attempts += scale >= whole;
+      continue;
+    }
+    level.attempts = attempts;
+    const std::uint64_t parts = parts_and_handles(level.counts.levels.front().measures);
+    if (best_.propose(keeps_near ? "closing" : "least volume", std::move(level))) {
+      closing_of_best.reset();
+      if (by_volume && keeps_near) closing_of_best = std::move(closing);
+      leave_start(std::move(halfway), *solid, parts, scale);
+    }
+    if (!is_simple() || best_.is_exact() || last || scale >= 2 * whole) break;
+  }
+  if (closing_of_best && !best_.is_exact()) propose_least_volume(*closing_of_best);
+}
+
+/// Around the closing of the best mesh.
+void LevelSearch::propose_least_volume(const Closing& closing) {
+  const Solid& solid = scene_.voxels().reduced(best_.level().reductions);
+  LodLevel level = mesh(least_volume(), solid, closing, Keep::solid);
+  level.attempts = best_.level().attempts;
+  best_.propose("least volume", std::move(level));
+}
+
+/// The scale that is tried after another one: twice as large, or so many times that something is closed by it.
+double LevelSearch::larger_scale(const Solid& solid, double scale) const {
+  const double least = kLeastScaleVox * solid.header.frame.voxel;
+  if (scale == 0) return least;
+  do scale *= 2;
+  while (scale < least);
+  return scale;
+}
+
+/// The mesh that the level follows from, with fewer faces.
+LodLevel LevelSearch::coarser() {
+  const Solid& solid = scene_.voxels().reduced(start_->reductions);
+  MeshParams params = mesh_params(solid, first_scale(ground_, target_, options_.least_scale_world));
+  params.start = &start_->mesh;
+  LatticeMesh halfway;
+  params.halfway = &halfway;
+  LodLevel level = mesh(std::move(params), solid, LevelVoxels::as_it_is(solid, start_->scale_world), Keep::solid);
+  leave_start(std::move(halfway), solid, parts_and_handles(level.counts.levels.front().measures), start_->scale_world);
+  level.attempts = 1;
+  return level;
+}
+
+/// `parts`: and handles, of the level.
+void LevelSearch::leave_start(LatticeMesh halfway, const Solid& solid, std::uint64_t parts, double scale) {
+  own_start_.reset();
+  if (halfway.triangles.empty()) return;
+  halfway.provenance = solid.header.provenance;
+  own_start_ = LevelStart{std::move(halfway), solid.reductions, parts, scale};
+}
+
+/// Around the voxels as they are.
+LodLevel LevelSearch::cage() {
+  const Solid& solid = scene_.voxels().reduced(0);
+  MeshParams params;
+  params.faces = {target_.faces};
+  params.enclose = Enclose::closing;
+  params.cage = options_.cage;
+  return mesh(std::move(params), solid, LevelVoxels::as_it_is(solid, 0), Keep::solid);
+}
+
+/// keep: whether the closing is wanted again.
+LodLevel LevelSearch::mesh(MeshParams params, const Solid& solid, const Closing& closing, Keep keep) {
+  LodLevel level;
+  level.scale_world = closing.scale_world;
+  level.reductions = solid.reductions;
+  context_.report("meshing", "levels", 0, 1);
+  std::shared_ptr<const Enclosed> enclosed;
+  if (scene_.is_bounding() && options_.enclose == Enclose::scene && !options_.cage) enclosed = scene_.enclosed(solid);
+  params.enclosed = enclosed.get();
+  ShelfSource source(closing.header, *solid.shelf, closing.voxels.get(), keep);
+  level.mesh = std::move(mesh_stream(source, context_, std::move(params), level.counts).front());
+  return level;
+}
+
+MeshParams LevelSearch::least_volume() {
+  MeshParams params = mesh_params(scene_.voxels().reduced(0), {});
+  params.convex = false;  // hulls and boxes are proposals of their own
+  return params;
+}
+
+/// near_world: as MeshParams has it.
+MeshParams LevelSearch::mesh_params(const Solid& solid, std::optional<double> near_world) const {
+  MeshParams params;
+  if (target_.faces > 0) params.faces = {target_.faces};
+  // What is enclosed is within a diagonal of a voxel of the scene.
+  if (target_.error_world > 0)
+    params.error_world =
+        std::max(target_.error_world - std::sqrt(3.0) * (solid.header.frame.voxel + scene_.ruler().voxel()),
+                 target_.error_world / 4);
+  params.near_world = near_world;
+  params.mode = options_.mode;
+  params.enclose = options_.enclose;
+  if (options_.enclose == Enclose::scene) params.distances_to = Enclose::input;  // its voxels, as without
+  if (options_.mode == MeshMode::fit) {
+    params.distances_to.reset();
+    params.enclose = options_.scene.empty() ? Enclose::closing : Enclose::scene;
+    params.scene = options_.scene;
+  }
+  return params;
+}
+
+}  // namespace bp

@@ -1,0 +1,119 @@
+#include <algorithm>
+
+#include "lib/check/check_proxy.h"
+#include "lib/core/error.h"
+#include "lib/core/parallel.h"
+#include "lib/levels/level_chain.h"
+#include "tests/catch.h"
+#include "tests/support/voxelized.h"
+
+namespace bp::test {
+
+namespace {
+
+/// Two turned boxes that lie apart: no face of a voxel lies in their sides.
+Triangles two_boxes() {
+  Triangles scene;
+  add_box(scene, {0, 0, 0}, {8, 7, 6});
+  add_box(scene, {20, 0, 0}, {27, 9, 6});
+  for (TriangleD& t : scene) {
+    for (Vec3d& p : t) p = {0.8 * p[0] - 0.6 * p[1], 0.6 * p[0] + 0.8 * p[1], p[2] + 0.3 * p[0]};
+  }
+  return scene;
+}
+
+LodChain chain_of(const Triangles& scene, Backends& backends, std::uint64_t bytes) {
+  LodOptions options;
+  options.context.make_shelf = memory_shelves();
+  options.context.memory.bytes = bytes;
+  options.context.pieces.waiting_bytes = options.context.pieces.work_bytes = bytes / 2;
+  Voxelized solid = voxelized(scene, 0.25);
+  return {solid.header, std::move(solid.shelf), backends, std::move(options)};
+}
+
+std::vector<LodLevel> levels_of(const Triangles& scene, const std::vector<LodTarget>& targets, int threads,
+                                std::uint64_t bytes) {
+  const ThreadLimit limit(threads);
+  Backends backends = plain_backends(2);
+  return chain_of(scene, backends, bytes).make(targets);
+}
+
+void check_same(const std::vector<LodLevel>& a, const std::vector<LodLevel>& b) {
+  REQUIRE(a.size() == b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    CHECK(a[i].mesh.vertices == b[i].mesh.vertices);
+    CHECK(a[i].mesh.triangles == b[i].mesh.triangles);
+    CHECK(a[i].error_world == b[i].error_world);
+    CHECK(a[i].tried.size() == b[i].tried.size());
+  }
+}
+
+constexpr std::uint64_t kPlenty = std::uint64_t(1) << 30;
+
+}  // namespace
+
+TEST_CASE("levels made at the same time do not depend on threads or memory", "[quick][pass][lod]") {
+  const Triangles scene = two_boxes();
+  const std::vector<LodTarget> targets{{600, 0, {}}, {300, 0, {}}, {110, 0, {}}, {30, 0, {}}, {12, 0, {}}};
+  const std::vector<LodLevel> alone = levels_of(scene, targets, 1, kPlenty);
+  for (const LodLevel& level : alone) {
+    MemorySource source(scene);
+    CHECK(check_proxy(indexed(level.mesh), &source).holds());
+  }
+  check_same(alone, levels_of(scene, targets, 4, kPlenty));
+  // As the memory shrinks, levels no longer suffice with their share, and are made one by one; at last none is.
+  int made = 0, refused = 0;
+  for (std::uint64_t bytes = std::uint64_t(64) << 20; bytes >= std::uint64_t(1) << 16; bytes /= 2) {
+    try {
+      check_same(alone, levels_of(scene, targets, 4, bytes));
+      CHECK(refused == 0);
+      ++made;
+    } catch (const NeedsMemory&) {
+      ++refused;
+    }
+  }
+  CHECK(made > 0);
+  CHECK(refused > 0);
+}
+
+TEST_CASE("levels made at the same time, and one by one, are the same", "[quick][pass][lod]") {
+  const Triangles scene = two_boxes();
+  const std::vector<LodTarget> targets{{600, 0, {}}, {110, 0, {}}, {30, 0, {}}};
+  Backends backends = plain_backends(2);
+  LodChain chain = chain_of(scene, backends, kPlenty);
+  std::vector<LodLevel> one_by_one;
+  for (const LodTarget& target : targets) one_by_one.push_back(chain.make(target));
+  check_same(one_by_one, levels_of(scene, targets, 2, kPlenty));
+}
+
+TEST_CASE("a sequence makes the first level alone only where the others follow from it", "[quick][pass][lod]") {
+  const Triangles scene = two_boxes();
+  Backends backends = plain_backends(2);
+  LodChain chain = chain_of(scene, backends, kPlenty);
+  LevelRequest request;
+  request.faces = {600};
+  request.levels = 3;
+  LevelSequence follow(chain, {request, 0, 3, 40});
+  CHECK(follow.next() == std::vector<std::size_t>{0});
+  follow.make_next();
+  const std::vector<std::size_t> rest = follow.next();
+  REQUIRE(rest == std::vector<std::size_t>{1, 2});
+  follow.make_next();
+  CHECK(follow.next().empty());
+  const MadeLevels made = follow.take();
+  REQUIRE(made.levels.size() == 3);
+  const std::uint64_t first = made.levels[0].level.mesh.triangles.size();
+  CHECK(made.levels[1].target.faces == (first < 570 ? first / 4 : 150));
+
+  request.faces = {5000, 600, 110, 30};
+  LevelSequence listed(chain, {request, 1, 3, 40});
+  CHECK(listed.next() == std::vector<std::size_t>{1, 2, 3});
+  listed.make_next();
+  const MadeLevels all = listed.take();
+  for (std::size_t i = 1; i < all.levels.size(); ++i) {
+    CHECK(all.levels[i].level.error_world >= all.levels[i - 1].level.error_world);
+    CHECK(all.levels[i].level.mesh.triangles.size() < all.levels[i - 1].level.mesh.triangles.size());
+  }
+}
+
+}  // namespace bp::test
