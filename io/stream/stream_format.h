@@ -12,14 +12,14 @@
 /// Bytes of the brick stream (docs/brick-stream.md): constants, header, records, end record.
 namespace bp::detail {
 
-constexpr std::uint32_t kFrameMagic = 0x184D2A5B;  ///< a skippable zstd frame, of ours
+constexpr std::uint32_t kFrameMagic = 0x184D2A5B;  ///< a skippable zstd frame, with the number of this suite
 constexpr std::array<unsigned char, 8> kStreamMagic{'B', 'P', 'V', 'S', '\r', '\n', 0x1a, '\n'};
 constexpr std::array<unsigned char, 8> kWeightMagic{'B', 'P', 'W', 'T', '\r', '\n', 0x1a, '\n'};  ///< io/deform
 constexpr std::uint16_t kStreamVersion = 1;
 constexpr std::uint16_t kFlagClosing = 1, kFlagScene = 2, kFlagField = 4, kFlagOrientation = 8;
 
 constexpr std::size_t kFrameHeadBytes = 8;
-constexpr std::size_t kHeaderFixedBytes = 128;  ///< before the texts
+constexpr std::size_t kHeaderFixedBytes = 128;  ///< bytes before the texts
 constexpr std::size_t kHashBytes = 8;
 constexpr std::size_t kBatchHeadBytes = 40;
 constexpr std::size_t kRecordBytes = 16;
@@ -54,7 +54,7 @@ class ByteSink {
   std::vector<std::byte> bytes_;
 };
 
-/// Takes little-endian values from bytes that are known to suffice, and that outlive it.
+/// Takes little-endian values from bytes. There must be enough, and they must outlive this object.
 class ByteSource {
  public:
   explicit ByteSource(std::span<const std::byte> bytes) : bytes_(bytes) {}
@@ -95,17 +95,17 @@ class Digest {
   std::unique_ptr<void, FreeHashState> state_;
 };
 
-/// Batches that are compressed or decompressed at a time. No result depends on it.
+/// Returns the number of batches that are compressed or decompressed at a time. No result depends on it.
 [[nodiscard]] std::size_t batches_ahead();
 
-/// Wraps a payload in a skippable frame. `sealed`: the payload gets its hash at the end first.
+/// Wraps a payload in a skippable frame. `sealed`: the hash of the payload is appended first.
 [[nodiscard]] std::vector<std::byte> frame_of(std::vector<std::byte> payload, bool sealed);
-/// Whether a payload of at least kHashBytes ends with the hash of its bytes before.
+/// Returns whether a payload of at least kHashBytes ends with the hash of the bytes before.
 [[nodiscard]] bool seal_holds(std::span<const std::byte> payload);
 
-/// Payload of the header, without hash. Throws bad_argument if the header is out of range.
+/// Returns the payload of the header, without hash. Throws bad_argument if the header is out of range.
 [[nodiscard]] std::vector<std::byte> encode_header(const StreamHeader& header);
-/// From a payload whose sizes, version and hash were checked. Throws bad_input, naming the field.
+/// Decodes a payload whose sizes, version and hash were checked. Throws bad_input with the field.
 [[nodiscard]] StreamHeader decode_header(std::span<const std::byte> payload, const std::string& name);
 
 struct Record {
@@ -116,7 +116,7 @@ struct Record {
 void put_record(ByteSink& sink, const Record& record);
 [[nodiscard]] bool before(int slab_axis, const Record& a, const Record& b);  ///< the order of the stream
 
-/// Counts and content checksum of records. `planes`: the 32768 bytes of each mixed record, one after the other.
+/// Returns counts and content checksum of records. `planes`: the 32768 bytes of each mixed record, one after the other.
 [[nodiscard]] StreamTotals total(std::span<const Record> records, std::span<const std::byte> planes);
 
 /// One slab of the index.

@@ -7,7 +7,7 @@
 
 namespace bp {
 
-/// Several files as open_scenes() reads them.
+/// Opens several files, as open_scenes() reads them.
 [[nodiscard]] std::unique_ptr<TriangleSource> scene_row(std::vector<std::string> paths, const SceneOptions& options);
 
 }  // namespace bp
