@@ -7,8 +7,8 @@
 
 /// Writes meshes to files, without loss: read back, each vertex is exactly frame.world(v) - origin, or the write is
 /// refused.
-///   .glb .gltf  POSITION is in scene units, and the node has no transform, if float32 holds each vertex. Else the node
-///               has a translation, or, for meshes of very many voxels, a scale, too: exact in double
+///   .glb .gltf  POSITION is in scene units, and the node has no transform, if float32 holds each vertex. If not,
+///               the node has a translation, or, for meshes of very many voxels, a scale, too: exact in double
 ///               (detail/gltf_place.h). A frame that is not y-up is turned, in the positions (lib/core/up_axis.h);
 ///               asset.extras.up tells which axis was up.
 ///   .ply        binary little endian, doubles
