@@ -8,7 +8,7 @@ namespace bp {
 
 namespace {
 
-constexpr std::size_t kChunkBytes = std::size_t(1) << 20;
+constexpr std::size_t kPutBytes = std::size_t(1) << 20;
 
 /// A vertex relative to the low corner of its cell: a cell is less than 2^31 lattice units wide.
 using Offset = std::array<std::uint32_t, 3>;
@@ -92,8 +92,8 @@ WaitingPiece PieceStore::put(Piece&& piece) {
   waiting.piece_.cell = piece.cell;
   const std::vector<std::byte> all = encoded(piece);
   piece = {};
-  for (std::size_t i = 0; i < all.size(); i += kChunkBytes) {
-    waiting.in_store_.push_back(store().put(std::span(all).subspan(i, std::min(kChunkBytes, all.size() - i))));
+  for (std::size_t i = 0; i < all.size(); i += kPutBytes) {
+    waiting.in_store_.push_back(store().put(std::span(all).subspan(i, std::min(kPutBytes, all.size() - i))));
   }
   return waiting;
 }

@@ -5,9 +5,6 @@
 
 namespace bp {
 
-[[nodiscard]] inline double area_of(const TriangleD& t) {
-  return length(cross(t[1] - t[0], t[2] - t[0])) / 2;
-}
 /// Returns the point of a triangle with these weights of its corners.
 [[nodiscard]] inline Vec3d point_of(const TriangleD& t, const std::array<double, 3>& w) {
   return w[0] * t[0] + w[1] * t[1] + w[2] * t[2];

@@ -23,8 +23,8 @@ namespace {
 constexpr std::int64_t kSetsAtOnce = 8;      // sets of voxels in memory while the hidden ones are found
 constexpr std::int32_t kTile = 192;          // voxels; tiles of the closing
 constexpr double kMostScaleVox = 4000;       // largest scale of a closing, voxels
-constexpr double kMostVoxels = 1 << 20;      // along a side
-constexpr double kMostFineVoxels = 1 << 12;  // as kMostVoxels, if vertices are no lattice points: 2^28 units
+constexpr double kMostWideVoxels = 1 << 20;  // along a side
+constexpr double kMostFineVoxels = 1 << 12;  // as kMostWideVoxels, if vertices are no lattice points: 2^28 units
 
 using Corners = std::array<LatticeCoord, 3>;
 
@@ -113,7 +113,7 @@ class HiddenCheck {
     const GridFrame& frame = recipe_.frame;
     if (!(frame.voxel > 0) || !(recipe_.scale_world >= 0) || recipe_.scale_world > kMostScaleVox * frame.voxel)
       return undecided("the voxel or the scale that the file names is out of range");
-    if (round_corners(kMostVoxels)) {
+    if (round_corners(kMostWideVoxels)) {
       const bool exact = std::equal(corners_.begin(), corners_.end(), mesh_.points.begin(),
                                     [&](const LatticeCoord& l, const Vec3d& p) { return frame.world(l) == p; });
       if (exact) return true;
@@ -153,7 +153,7 @@ class HiddenCheck {
     double bytes = double(kSetsAtOnce) / 8;
     for (const Vec3d& p : {bounds.min, bounds.max}) {
       for (const double x : recipe_.frame.to_voxels(p))
-        if (!(std::abs(x) < kMostVoxels))
+        if (!(std::abs(x) < kMostWideVoxels))
           return undecided("the scene reaches far beyond the voxels that the file names");
     }
     box_ = voxel_bounds(recipe_.frame, bounds).grown(std::int32_t(std::ceil(reach)) + 2);

@@ -123,10 +123,6 @@ void take_out(const std::vector<HalfPlane>& sides, const Polygon& polygon, std::
   for (Polygon& piece : pieces) rest.push_back(std::move(piece));
 }
 
-double area_of(const TriangleD& t) {
-  return length(cross(t[1] - t[0], t[2] - t[0])) / 2;
-}
-
 using Cover = LeafProof::Cover;
 
 Cover cover_at_once(const Polygon& polygon, const std::vector<FlatTriangle>& covers, double growth) {

@@ -10,8 +10,8 @@ namespace bp {
 
 namespace {
 
-constexpr std::size_t kBlock = 32768;                      // triangles passed on at a time, about
-constexpr std::size_t kChunkBytes = std::size_t(1) << 20;  // bytes put into the store at a time
+constexpr std::size_t kBlock = 32768;                    // triangles passed on at a time, about
+constexpr std::size_t kPutBytes = std::size_t(1) << 20;  // bytes put into the store at a time
 
 FixedPoint corner_of(const TileGrid& grid, std::uint64_t tile) {
   const VoxelCoord v = grid.first_voxel(grid.coord(tile));
@@ -69,7 +69,7 @@ class BatchSorter {
 
 template <class T>
 void put_chunks(Scratch& store, Blocks<T>& records, std::vector<Scratch::Handle>& handles) {
-  constexpr std::size_t kRecords = kChunkBytes / sizeof(T);
+  constexpr std::size_t kRecords = kPutBytes / sizeof(T);
   std::vector<T> chunk;
   const auto put = [&] {
     if (!chunk.empty()) handles.push_back(store.put(std::as_bytes(std::span<const T>(chunk))));
