@@ -193,7 +193,7 @@ void Picture::label_panels() {
   const std::vector<std::string> names = panel_names(inputs);
   for (std::size_t i = 0; i < panels_.size(); ++i) {
     std::string& label = panels_[i]->view.label;
-    label = names[i] + "\n" + label;
+    label.insert(0, names[i] + "\n");
     if (const std::string bounds = bounds_text(panels_[i]->bounds); !bounds.empty()) label += "\n" + bounds;
   }
 }
