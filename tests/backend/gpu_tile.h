@@ -1,6 +1,6 @@
 #pragma once
 #include "gpu/device_closing.h"
-#include "gpu/hierarchical_kernels.h"
+#include "tests/backend/hierarchical_kernels.h"
 
 /// A tile on the device, closed by the path of one's choice: for tests and benchmarks of gpu/ itself.
 namespace bp {
