@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/files/file.h"
+#include "io/files/paths.h"
 #include "lib/core/error.h"
 
 namespace bp {

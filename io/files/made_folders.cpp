@@ -6,7 +6,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "io/files/file.h"
+#include "io/files/paths.h"
 #include "lib/core/error.h"
 
 namespace bp {

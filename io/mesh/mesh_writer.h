@@ -2,7 +2,7 @@
 #include <string>
 
 #include "io/files/file.h"
-#include "io/mesh/contract.h"
+#include "io/mesh/mesh_write_options.h"
 #include "lib/mesh/lattice_mesh.h"
 
 /// Writes meshes to files, without loss: read back, each vertex is exactly frame.world(v) - origin, or the write is
@@ -16,18 +16,6 @@
 ///   .stl        binary, float32: only if each coordinate is a float
 /// .obj and .ply hold the quads of mesh.quads as quads, after the other triangles; the other formats hold triangles.
 namespace bp {
-
-enum class MeshFormat { glb, gltf, ply, obj, stl };
-
-struct MeshWriteOptions {
-  Vec3d origin{};        ///< scene units, subtracted from each vertex; each difference must be an exact double
-  bool normals = false;  ///< unit vertex normals, weighted by angle, are written; STL has none
-  std::optional<Contract> contract{};  ///< the contract that the file claims; STL has no place for it
-};
-/// Returns the name of the contract; empty: none.
-[[nodiscard]] inline std::string contract_name(const MeshWriteOptions& options) {
-  return options.contract ? name_of(*options.contract) : "";
-}
 
 /// Returns the format of a file name's extension, case ignored. Throws bad_argument for any other.
 [[nodiscard]] MeshFormat mesh_format_of(const std::string& path);

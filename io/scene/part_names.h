@@ -4,7 +4,7 @@
 #include <set>
 #include <string>
 
-#include "io/scene/name_pattern.h"
+#include "io/files/name_pattern.h"
 #include "lib/core/coords.h"
 
 namespace bp {

@@ -1,7 +1,9 @@
 #pragma once
 #include "io/scene/affine.h"
 #include "io/scene/scene_file.h"
-#include "io/scene/scene_reader.h"
+#include "io/scene/scene_options.h"
+#include "lib/core/indexed_mesh.h"
+#include "lib/core/triangle_source.h"
 #include "lib/exact/polygon_cut.h"
 
 /// The interface of every format's reader: triangles as they are in the file; only faces without existing corners are

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "io/scene/scene_file.h"
-#include "io/scene/scene_reader.h"
+#include "io/scene/scene_options.h"
 
 namespace bp {
 

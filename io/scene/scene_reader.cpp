@@ -7,7 +7,6 @@
 #include "io/scene/detail/foreign_format.h"
 #include "io/scene/detail/open_raw.h"
 #include "io/scene/detail/position_index.h"
-#include "io/scene/detail/scene_row.h"
 #include "io/scene/raw_source.h"
 #include "io/scene/scene_format.h"
 #include "io/scene/scene_pose.h"
@@ -254,13 +253,6 @@ std::unique_ptr<TriangleSource> open_scene(const std::string& path, const SceneO
 void check_stdin_once(const std::vector<std::string>& paths) {
   if (std::count(paths.begin(), paths.end(), "-") > 1)
     fail(ErrorCode::bad_argument, "stdin (-) is named twice, and can be read once");
-}
-
-std::unique_ptr<TriangleSource> open_scenes(std::vector<std::string> paths, const SceneOptions& options) {
-  if (paths.empty()) fail(ErrorCode::bad_argument, "no scene was named; name a file, or - for stdin");
-  check_stdin_once(paths);
-  if (paths.size() == 1) return open_scene(paths[0], options);
-  return scene_row(std::move(paths), options);
 }
 
 IndexedMesh mesh_of(const std::string& name, RawSource& raw, const SceneOptions& options, SceneCounts& counts) {

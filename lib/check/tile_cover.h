@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "lib/check/cover_tile.h"
 #include "lib/check/tile_finding.h"
 #include "lib/check/tile_part.h"
 #include "lib/core/box.h"
@@ -47,16 +48,6 @@
 /// of one check, and no pair of tiles falls between two parts.
 namespace bp {
 
-struct CoverTile {
-  std::string place, uri;                  ///< for findings
-  std::optional<std::uint64_t> triangles;  ///< triangles of its content; none: nothing is drawn
-  std::optional<Bounds3d> cell;            ///< scene units
-  std::vector<std::size_t> children;       ///< numbers of the children, which follow their parents
-  std::optional<double> leaf_error = {};   ///< set for a leaf: its largest distance from the scene
-  double error = 0;                        ///< geometricError, scene units
-  bool adds = false;                       ///< refined by adding: its content is drawn in addition to the tiles below
-  bool is_joint = false;                   ///< no tile of the file: an octant between two tiles of different depths
-};
 /// Reads the content of a tile that has one, scene units. Called on several threads.
 using CoverContents = std::function<IndexedMesh(std::size_t tile)>;
 

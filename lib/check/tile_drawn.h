@@ -1,7 +1,8 @@
 #pragma once
 #include <vector>
 
-#include "lib/check/tile_cover.h"
+#include "lib/check/cover_tile.h"
+#include "lib/check/tile_finding.h"
 
 /// Decides whether a viewer draws anything at all. A tile without content draws nothing, and a viewer that tolerates
 /// its error stops there. A tile that is replaced leaves the scene to the tiles below.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "lib/check/tile_cover.h"
+#include "lib/check/cover_tile.h"
 
 namespace bp {
 

@@ -6,6 +6,7 @@
 #include "lib/core/vec3.h"
 #include "lib/enclosed/enclosed.h"
 #include "lib/enclosed/face_target.h"
+#include "lib/mesh/face_tree.h"
 
 /// Points of the enclosed set, each listed with the face of the proxy that is nearest to it. They guide where vertices
 /// go; they prove nothing. If a face has many, only the points that it meets first are kept: at most 720.

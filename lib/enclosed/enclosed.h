@@ -4,7 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "lib/mesh/guard.h"
+#include "lib/mesh/half_edge_mesh.h"
+#include "lib/mesh/lattice_geometry.h"
 
 /// The enclosed set: what must stay inside the proxy while it shrinks.
 namespace bp {

@@ -4,14 +4,10 @@
 
 #include "lib/core/box.h"
 #include "lib/core/grid_frame.h"
+#include "lib/enclosed/eight_triangles.h"
 #include "lib/enclosed/enclosed.h"
 
 namespace bp {
-
-/// The rounded corners of eight triangles side by side, used to find triangles that are surely clear of a change.
-struct EightTriangles {
-  FourFloats corners[3][3][2];  ///< [corner][axis][half], lattice units
-};
 
 /// The triangles of a scene, in scene units and exactly as read: the proxy must not even touch them. All are in memory:
 /// 108 bytes each, about 40 for the tree, and the contact points. `frame`: the proxy's frame; its vertices are exact

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "lib/exact/triangle_intersection.h"
+#include "lib/mesh/guard.h"
 
 namespace bp {
 

@@ -1,6 +1,6 @@
 #pragma once
-#include "lib/simplify/simplify.h"
-#include "lib/simplify/surface_tree.h"
+#include "lib/simplify/simplify_params.h"
+#include "lib/surface/piece.h"
 
 namespace bp {
 

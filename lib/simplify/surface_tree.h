@@ -1,5 +1,5 @@
 #pragma once
-#include "lib/simplify/simplify.h"
+#include "lib/simplify/simplify_params.h"
 #include "lib/surface/piece.h"
 #include "lib/surface/surface.h"
 
@@ -8,12 +8,6 @@
 /// that fit a cache. Cells run in parallel; the result depends neither on threads nor on order nor on memory
 /// (docs/decisions/0004).
 namespace bp {
-
-/// The end of the sweeps over the bulk of a surface.
-struct BulkEnd {
-  std::uint64_t faces = 0;  ///< number of faces to reach
-  double cost = 0;          ///< largest cost of a collapse, lattice units^4; 0: no sweep is made
-};
 
 /// Returns the whole surface with its quadrics, or without if only flat regions were merged. Collapses stop well above
 /// end.faces, at bounds on their cost that are the same in all cells: the rest is for the strict order. Limits are kept

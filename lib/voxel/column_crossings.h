@@ -1,6 +1,7 @@
 #pragma once
+#include "lib/grid/bit_box.h"
+#include "lib/voxel/crossing.h"
 #include "lib/voxel/overlap.h"
-#include "lib/voxel/winding.h"
 
 /// Where the columns of a tile cross one triangle: the inner step of find_crossings, for host and device.
 ///

@@ -1,5 +1,7 @@
 #pragma once
-#include "io/mesh/mesh_writer.h"
+#include "io/files/file.h"
+#include "io/mesh/mesh_write_options.h"
+#include "lib/mesh/lattice_mesh.h"
 
 /// The writers behind write_mesh(), one for each format. write_mesh() has checked the mesh and found its positions
 /// exact.

@@ -1,11 +1,10 @@
-#include "io/scene/detail/scene_row.h"
-
 #include <algorithm>
 
 #include "io/files/file.h"
 #include "io/scene/detail/foreign_format.h"
 #include "io/scene/raw_source.h"
 #include "io/scene/scene_format.h"
+#include "io/scene/scene_reader.h"
 #include "lib/core/error.h"
 
 namespace bp {
@@ -139,7 +138,10 @@ class SceneRow final : public TriangleSource {
 
 }  // namespace
 
-std::unique_ptr<TriangleSource> scene_row(std::vector<std::string> paths, const SceneOptions& options) {
+std::unique_ptr<TriangleSource> open_scenes(std::vector<std::string> paths, const SceneOptions& options) {
+  if (paths.empty()) fail(ErrorCode::bad_argument, "no scene was named; name a file, or - for stdin");
+  check_stdin_once(paths);
+  if (paths.size() == 1) return open_scene(paths[0], options);
   return std::make_unique<SceneRow>(std::move(paths), options);
 }
 

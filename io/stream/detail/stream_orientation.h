@@ -1,5 +1,6 @@
 #pragma once
-#include "io/stream/stream_format.h"
+#include "io/stream/stream_layout.h"
+#include "lib/grid/stream.h"
 
 /// The orientation field in the header of a stream (docs/brick-stream.md, section 4).
 namespace bp::detail {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "io/stream/stream_format.h"
+#include "io/stream/stream_layout.h"
 #include "lib/core/error.h"
 
 namespace bp::detail {

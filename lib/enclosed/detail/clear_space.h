@@ -5,7 +5,7 @@
 #include <span>
 
 #include "lib/core/vec3.h"
-#include "lib/enclosed/enclosed_triangles.h"
+#include "lib/enclosed/eight_triangles.h"
 
 namespace bp {
 

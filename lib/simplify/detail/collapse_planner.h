@@ -6,7 +6,7 @@
 #include "lib/mesh/face_tree.h"
 #include "lib/mesh/guard.h"
 #include "lib/mesh/shells.h"
-#include "lib/simplify/simplify.h"
+#include "lib/simplify/simplify_params.h"
 #include "lib/simplify/waves.h"
 
 /// Plans a single edge collapse: its cost, the place of the merged vertex, and whether it is allowed.
