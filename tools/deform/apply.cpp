@@ -73,7 +73,7 @@ std::vector<TriangleD> faces_of(const MovedCage& cage, const ApplyRequest& reque
   return faces;
 }
 
-/// Turns the normals of a batch, in slices; each slice uses the memory of one worker.
+/// Turns the normals and tangents of a batch, in slices; each slice uses the memory of one worker.
 void turn(const CageCoordinates& coordinates, const std::vector<Vec3d>& moves, int slices, PointBatch& batch) {
   const std::size_t all = batch.normals.size(), step = (all + std::size_t(slices) - 1) / std::size_t(slices);
   parallel_for(all == 0 ? 0 : slices, [&](std::int64_t slice) {
