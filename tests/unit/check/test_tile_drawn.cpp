@@ -1,3 +1,4 @@
+#include "lib/check/tile_cover.h"
 #include "lib/check/tile_drawn.h"
 #include "tests/catch.h"
 #include "tests/support/memory_scene.h"
