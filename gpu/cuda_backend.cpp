@@ -6,8 +6,8 @@
 #include <cstring>
 #include <new>
 
-#include "gpu/cuda_devices.h"
 #include "gpu/device_closing.h"
+#include "gpu/device_properties.h"
 #include "gpu/device_weighing.h"
 #include "gpu/kernels/bit_kernels.h"
 #include "gpu/kernels/device_error.h"

@@ -1,18 +1,11 @@
-#include "gpu/cuda_devices.h"
-
 #include <fmt/format.h>
 
 #include "gpu/cuda_backend.h"
+#include "gpu/device_properties.h"
 #include "gpu/kernels/cuda_check.h"
 #include "gpu/kernels/device_error.h"
 
 namespace bp {
-
-cudaDeviceProp device_properties(int device) {
-  cudaDeviceProp p{};
-  BP_CUDA_CHECK(cudaGetDeviceProperties(&p, device));
-  return p;
-}
 
 std::vector<CudaDevice> cuda_devices() {
   int count = 0, driver = 0;

@@ -1,7 +1,7 @@
 #pragma once
-#include "gpu/kernels/distance_kernels.h"
 #include "gpu/kernels/launch.h"
 #include "gpu/kernels/packed_min.h"
+#include "gpu/kernels/transform_args.h"
 
 /// Code that the passes of the transform share. Device code only.
 namespace bp {

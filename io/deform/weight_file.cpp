@@ -51,7 +51,7 @@ std::vector<std::byte> encode(const WeightHeader& h) {
   return std::move(out.bytes());
 }
 
-/// Small numbers of either sign become small numbers.
+/// Maps small numbers of either sign to small numbers.
 std::uint32_t zigzag(std::uint32_t x) {
   return x << 1 ^ (0u - (x >> 31));
 }
@@ -167,7 +167,7 @@ struct WeightReader::State {
     if (file.read(bytes) != bytes.size())
       fail(ErrorCode::bad_input, "{}: truncated: it ends at byte {}; bind the scene again", file.name(), file.offset());
   }
-  /// The payload of the next frame, whose size lies in the range and whose hash is right.
+  /// Returns the payload of the next frame. Throws unless its size lies in the range and its hash is right.
   std::vector<std::byte> take_sealed(std::size_t least, std::size_t most) {
     const std::uint64_t offset = file.offset();
     std::vector<std::byte> head(kFrameHeadBytes);
@@ -192,7 +192,7 @@ std::string find_scene(const WeightHeader& header, const std::string& path) {
   const std::filesystem::path name = header.scene, beside = std::filesystem::path(path).parent_path() / name;
   std::error_code unknown;
   if (std::filesystem::exists(beside, unknown)) return beside.string();
-  return std::filesystem::exists(name, unknown) ? header.scene : "";  // as a file before this rule has it
+  return std::filesystem::exists(name, unknown) ? header.scene : "";  // files written before this rule name it so
 }
 
 bool begins_as_weights(const InputFile& file) {

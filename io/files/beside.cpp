@@ -15,7 +15,7 @@ bool is_whole_path(const std::string& name) {
   return name.starts_with('/');
 }
 
-/// "C:/a.png" of another machine; here it is the name of no folder.
+/// Returns whether the name begins with a drive, as "C:/a.png" of another machine. Here such a name is in no folder.
 bool has_drive(const std::string& name) {
   return name.size() > 2 && name[1] == ':' && name[2] == '/';
 }
@@ -24,7 +24,7 @@ std::string in_folder(const std::string& folder, const std::string& name) {
   return folder.empty() || is_whole_path(name) ? name : folder.ends_with('/') ? folder + name : folder + "/" + name;
 }
 
-/// Without the quotes around it, and with slashes.
+/// Returns the name without quotes around it, and with slashes in place of backslashes.
 std::string cleaned(std::string name) {
   const bool quoted = name.size() > 2 && name.front() == name.back() && (name[0] == '"' || name[0] == '\'');
   if (quoted) name = name.substr(1, name.size() - 2);
@@ -32,7 +32,7 @@ std::string cleaned(std::string name) {
   return name;
 }
 
-/// The entry of a folder that has this name in letters of any case; empty: none has.
+/// Returns the entry of a folder that has this name in letters of any case; empty if there is none.
 std::string entry_like(const std::string& folder, const std::string& name) {
   const std::string wanted = lower(name);
   std::string found;
@@ -45,7 +45,7 @@ std::string entry_like(const std::string& folder, const std::string& name) {
   return found;
 }
 
-/// A path whose parts have letters of any case; empty: there is none.
+/// Returns an existing path whose parts equal those of `name` but for the case of letters; empty if there is none.
 std::string path_like(const std::string& folder, const std::string& name) {
   std::string path = is_whole_path(name) ? "/" : folder;
   std::istringstream parts(name);

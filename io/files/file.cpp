@@ -36,10 +36,10 @@ void write_all(int fd, std::span<const std::byte> bytes, const std::string& name
   if (!detail::write_all(fd, bytes)) fail_write(name);
 }
 
-constexpr int kMostPartials = 1000;  ///< of one name, at a time
+constexpr int kMostPartials = 1000;  ///< partial files of one name at a time
 
-/// Whether the locked file `fd` may be written from its beginning, and renamed: it is ours, and still has that name,
-/// which another process may have changed before it let go of the lock.
+/// Returns whether the locked file `fd` still has the name `name`: only then it may be written from its beginning and
+/// renamed. Another process may have changed the name before it released the lock.
 bool is_ours(int fd, const std::string& name) {
   struct stat held {
   }, named{};
@@ -47,14 +47,14 @@ bool is_ours(int fd, const std::string& name) {
          held.st_ino == named.st_ino && S_ISREG(held.st_mode) && held.st_nlink == 1 && held.st_uid == ::geteuid();
 }
 
-/// A link that leads nowhere is there, too: a new file cannot have its name.
+/// Returns whether something has this name. A link that leads nowhere counts, since a new file cannot have its name.
 bool is_there(const std::string& path) {
   struct stat info {};
   return ::lstat(path.c_str(), &info) == 0;
 }
 
-/// An empty, locked file of that name, new or left by a process that is dead; -1 if somebody has it. Where the file
-/// system knows no locks, new ones only. Throws if no file can be made there.
+/// Returns an empty, locked file of that name, new or left by a dead process; -1 if another process has it. On a file
+/// system without locks only a new file is taken. Throws if no file can be made there.
 int take_partial(const std::string& name, const std::string& path) {
   int fd = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   const bool made = fd >= 0;
@@ -142,7 +142,7 @@ OutputFile::OutputFile(const std::string& path, bool overwrite)
 void OutputFile::open_partial() {
   for (int i = 1; i <= kMostPartials; ++i) {
     std::string name = fmt::format("{}.partial-{}", name_, i);
-    if (is_kept(name)) continue;  // an input of that name is nobody's leftover
+    if (is_kept(name)) continue;  // a kept input of that name is no leftover of a run
     const WhileMaking making;
     fd_ = take_partial(name, name_);
     if (fd_ < 0) continue;
@@ -153,10 +153,10 @@ void OutputFile::open_partial() {
   fail(ErrorCode::failed, "{}: {} unfinished files of that name lie beside it; remove them", name_, kMostPartials);
 }
 
-/// The lock goes last: what still has the name is not to be taken over.
+/// Releases the lock last: until then no other process may take the name over.
 OutputFile::~OutputFile() {
   if (!temporary_.empty()) {
-    const WhileMaking making;  // what has this name next is another's
+    const WhileMaking making;  // after the rename, a file of this name belongs to another process
     ::unlink(temporary_.c_str());
     partial_ = PartialOutput();
   }
@@ -205,7 +205,7 @@ void OutputFile::place() {
   placed_ = true;
 }
 
-/// What had the name before is gone; what was new goes.
+/// Removes a file that was placed and replaced nothing. A file that it replaced cannot be brought back.
 void OutputFile::take_back() {
   if (placed_ && !overwrite_ && is_ours(fd_, name_)) (void)remove_file(name_);
 }
@@ -214,31 +214,6 @@ void OutputFile::close(Sync sync) {
   const int fd = std::exchange(fd_, -1);
   if (::close(fd) != 0) fail_write(name_);
   if (placed_ && sync == Sync::name) sync_folder(folder_of(name_));
-}
-
-/// A file system that cannot do it says so, and there is nothing better to be done: the file is there.
-void sync_folder(const std::string& path) {
-  const int fd = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (fd < 0) return;
-  ::fsync(fd);
-  ::close(fd);
-}
-
-std::string whole_path(const std::string& path) {
-  std::error_code unknown;
-  const std::filesystem::path whole = std::filesystem::weakly_canonical(path, unknown);
-  return unknown ? path : whole.string();
-}
-
-bool is_regular_file(const std::string& path) {
-  std::error_code unknown;
-  return std::filesystem::is_regular_file(path, unknown);
-}
-
-std::string folder_of(const std::string& path) {
-  const std::size_t end = path.rfind('/');
-  if (end == std::string::npos) return ".";
-  return end == 0 ? "/" : path.substr(0, end);
 }
 
 void print(const std::string& text) {

@@ -6,16 +6,17 @@
 #include <string>
 
 #include "io/files/partial_outputs.h"
+#include "io/files/paths.h"
 
 /// Files, stdin, stdout. Every read, write, flush and close is checked; failures are Errors with the right code:
 /// missing or unreadable input bad_input, full disk out_of_resource, EPIPE closed_pipe, anything else failed.
 namespace bp {
 
-/// Who names a file that is read. What a file names, or a folder holds, must be a regular file: a named pipe would be
-/// waited for, and a device has no end.
+/// Tells who named a file that is read. A file that another file names, or that a folder holds, must be a regular file:
+/// reading a named pipe would wait, and a device has no end.
 enum class NamedBy { user, file };
 
-/// Sequential input. "-" is stdin, if the user names it.
+/// Sequential input. "-" is stdin if the user named it.
 class InputFile {
  public:
   explicit InputFile(const std::string& path, NamedBy named_by = NamedBy::user);
@@ -41,11 +42,11 @@ class InputFile {
   std::uint64_t size_ = 0, offset_ = 0;
 };
 
-/// Sequential output. "-" is stdout. A named file is written beside its name, as NAME.partial-1, and renamed by
-/// commit(): without commit() nothing stays behind, not even when a signal ends the process. What SIGKILL or a crash of
-/// the machine leaves is taken over by the next one that writes NAME; what a living process writes is locked, and the
-/// next one counts on. Throws bad_argument if the name exists and `overwrite` is false, here or in commit(), or if it
-/// is a file that this process reads (io/files/kept_files.h).
+/// Sequential output. "-" is stdout. A named file is written as NAME.partial-1 in the same folder, and renamed by
+/// commit(). Without commit() nothing stays behind, even if a signal ends the process. A file that SIGKILL or a crash
+/// left is taken over by the next process that writes NAME; a file that a living process writes is locked, and the next
+/// process takes the next number. Throws bad_argument if the name exists and `overwrite` is false, here or in commit(),
+/// or if it is a file that this process reads (io/files/kept_files.h).
 class OutputFile {
  public:
   OutputFile(const std::string& path, bool overwrite);
@@ -55,13 +56,14 @@ class OutputFile {
 
   void write(std::span<const std::byte> bytes);
   void write(const std::string& text) { write(std::as_bytes(std::span(text.data(), text.size()))); }
-  /// What a crash of the machine leaves after commit(): the file; or, if its folder is not synced, no name of it.
+  /// The state that survives a crash of the machine after commit(). name: the file under its name. content: its bytes,
+  /// but perhaps not its name, since its folder is not synced.
   enum class Sync { name, content };
   /// Flushes, syncs, closes and renames; the file appears under its name now. stdout: flushes.
   void commit(Sync sync = Sync::name);
-  /// From now on a file of that name is replaced.
+  /// Lets commit() replace a file of that name.
   void allow_overwrite() { overwrite_ = true; }
-  /// Files that appear together, in this order. If one cannot, those that are new do not, either.
+  /// Commits files together, in this order. If one fails, those that are new are removed again.
   static void commit_all(std::span<const std::unique_ptr<OutputFile>> files);
 
   [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
@@ -76,27 +78,17 @@ class OutputFile {
   void close(Sync sync);
   std::string name_, temporary_;
   bool overwrite_ = false, placed_ = false;
-  PartialOutput partial_;  ///< of temporary_, for signal handlers
+  PartialOutput partial_;  ///< entry for temporary_, used by signal handlers
   int fd_ = -1;
   std::uint64_t bytes_ = 0;
   std::unique_ptr<std::byte[]> buffer_;
   std::size_t used_ = 0;
 };
 
-/// The same for all names of a file, symbolic links included; as given where that cannot be told.
-[[nodiscard]] std::string whole_path(const std::string& path);
-/// What was made, renamed or removed in a folder outlasts a crash of the machine, if its file system can do that.
-void sync_folder(const std::string& path);
-/// Whether a path leads to a regular file: a pipe would be waited for, or robbed of its first bytes, and a device has
-/// no end. False where that cannot be told.
-[[nodiscard]] bool is_regular_file(const std::string& path);
-/// Of a path; "." if it names none.
-[[nodiscard]] std::string folder_of(const std::string& path);
-
-/// Text on stdout, flushed.
+/// Prints text to stdout, and flushes it.
 void print(const std::string& text);
 
-/// Anonymous scratch file in `directory`: unlinked at once, so nothing stays behind whatever happens. Thread-safe.
+/// An anonymous scratch file in `directory`: unlinked at once, so nothing stays behind whatever happens. Thread-safe.
 class ScratchFile {
  public:
   explicit ScratchFile(const std::string& directory);  ///< out_of_resource if the directory cannot be written
@@ -104,9 +96,9 @@ class ScratchFile {
   ScratchFile(const ScratchFile&) = delete;
   ScratchFile& operator=(const ScratchFile&) = delete;
 
-  /// Appends and returns the offset of the first byte.
+  /// Appends bytes; returns the offset of the first one.
   std::uint64_t append(std::span<const std::byte> bytes);
-  /// Writes at `offset`, growing the file if need be. Do not mix with append().
+  /// Writes at `offset`; the file grows if needed. Must not be mixed with append().
   void write_at(std::uint64_t offset, std::span<const std::byte> bytes);
   void read_at(std::uint64_t offset, std::span<std::byte> buffer) const;
   [[nodiscard]] std::uint64_t size() const;
@@ -116,7 +108,7 @@ class ScratchFile {
   std::unique_ptr<State> state_;
 };
 
-/// Whole file as a string; bad_input if it is missing or larger than `limit` bytes.
+/// Returns a whole file as a string. Throws bad_input if it is missing or larger than `limit` bytes.
 [[nodiscard]] std::string read_text(const std::string& path, std::uint64_t limit = std::uint64_t(1) << 26,
                                     NamedBy named_by = NamedBy::user);
 

@@ -26,7 +26,7 @@ int place_new(const char* from, const char* name) {
 }
 
 int place(const char* from, const char* name, bool overwrite, PartialOutput* partial) {
-  const WhileMaking making;  // under its old name somebody else may begin to write at once
+  const WhileMaking making;  // another process may begin to write under the old name at once
   if (overwrite && ::rename(from, name) != 0) return errno;
   if (const int error = overwrite ? 0 : place_new(from, name)) return error;
   if (partial != nullptr) *partial = PartialOutput();

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/files/file.h"
+#include "io/files/paths.h"
 #include "lib/core/error.h"
 
 namespace bp {
@@ -21,7 +21,7 @@ struct Identity {
   friend auto operator<=>(const Identity&, const Identity&) = default;
 };
 
-/// Of a regular file; none of anything else: what is written to a device or a pipe replaces nothing.
+/// Returns the identity of a regular file; none for other files, since writing to a device or a pipe replaces nothing.
 std::optional<Identity> identity_of(const std::string& path) {
   struct stat info {};
   const bool there = path == "-" ? ::fstat(0, &info) == 0 : ::stat(path.c_str(), &info) == 0;
@@ -31,7 +31,7 @@ std::optional<Identity> identity_of(const std::string& path) {
 
 class KeptFiles {
  public:
-  /// What a kept file is: its name as it was given, and the scene that names it, if it is no input itself.
+  /// A kept file: its name as it was given, and the scene that names it, if it is not an input itself.
   struct Entry {
     std::string path, owner;
   };
@@ -59,7 +59,7 @@ class KeptFiles {
   std::optional<Entry> find(const std::string& path) {
     const std::scoped_lock lock(mutex_);
     const std::optional<Identity> id = identity_of(path);
-    if (id) read_parts();  // what is not there is no part of a scene
+    if (id) read_parts();  // a missing file is no part of a scene
     const auto named = names_.find(whole_path(path));
     if (named != names_.end()) return named->second;
     return id ? find_identity(*id) : std::nullopt;
@@ -79,8 +79,8 @@ class KeptFiles {
     if (const auto id = identity_of(entry.path)) identities_.insert_or_assign(*id, entry);
   }
 
-  /// The number of a file that was removed may go to another one: the name that it was kept under must still lead to
-  /// it.
+  /// Returns the kept file with this inode. The inode of a removed file may be used again, so the kept name must still
+  /// lead to it.
   std::optional<Entry> find_identity(const Identity& id) {
     const auto found = identities_.find(id);
     if (found == identities_.end() || identity_of(found->second.path) != id) return {};
@@ -94,10 +94,10 @@ class KeptFiles {
   }
 
   std::mutex mutex_;
-  int scopes_ = 0;                      ///< KeepsInputs that live
+  int scopes_ = 0;                      ///< number of living KeepsInputs
   std::map<std::string, Entry> names_;  ///< by whole path
   std::map<Identity, Entry> identities_;
-  std::vector<std::pair<std::string, PartsOfFile>> unread_;  ///< files whose parts are not known yet
+  std::vector<std::pair<std::string, PartsOfFile>> unread_;  ///< files whose parts were not asked for yet
 };
 
 KeptFiles& kept_files() {

@@ -6,14 +6,14 @@
 #include <cerrno>
 #include <cstring>
 
-#include "io/files/file.h"
+#include "io/files/paths.h"
 #include "lib/core/error.h"
 
 namespace bp {
 
 namespace {
 
-/// Of mkdir(): 0 or errno. A folder that was made is known to `entry` before a signal can end the process.
+/// Makes a folder; returns 0 or errno of mkdir(). `entry` knows the folder before a signal can end the process.
 int make(const std::string& folder, PartialOutput* entry) {
   const WhileMaking making;
   if (::mkdir(folder.c_str(), 0777) != 0) return errno;
@@ -21,7 +21,7 @@ int make(const std::string& folder, PartialOutput* entry) {
   return 0;
 }
 
-/// Why it is no folder, after make() did not make one; 0: it is one.
+/// Returns why there is no folder after make() failed with `error`; 0 if there is one.
 int why_none(const std::string& folder, int error) {
   struct stat info {};
   if (::stat(folder.c_str(), &info) != 0) return error;

@@ -5,22 +5,22 @@
 
 namespace bp {
 
-/// Of an output whose folder is not there: throws bad_argument.
+/// Throws bad_argument for an output whose folder does not exist.
 [[noreturn]] void fail_for_folder(const std::string& path);
 
-/// Makes a folder if it is not there; the folder above it must be there. Throws `failed`, or bad_argument if there is
-/// none above it. Of several threads.
+/// Makes a folder if it does not exist; the folder above must exist. Throws `failed`, or bad_argument if there is none
+/// above. Several threads may make the same folder.
 void make_folder(const std::string& path);
 
-/// A folder, made as by make_folder(). One that was made goes again with this object, and when a signal ends the
-/// process, unless it is kept or something lies in it.
+/// A folder, made as by make_folder(). If this object made it, the folder is removed when the object goes or a signal
+/// ends the process, unless it is kept or not empty.
 class MadeFolder {
  public:
   explicit MadeFolder(const std::string& path);
   ~MadeFolder();
   MadeFolder(const MadeFolder&) = delete;
   MadeFolder& operator=(const MadeFolder&) = delete;
-  void keep();  ///< it stays, also after a crash of the machine
+  void keep();  ///< the folder stays, even after a crash of the machine
 
  private:
   std::string path_;

@@ -24,7 +24,7 @@ struct Slot {
 };
 static_assert(std::atomic<int>::is_always_lock_free, "signal handlers take no locks");
 
-// Global because a signal handler has no other way to them.
+// Global, since signal handlers can reach nothing else.
 std::array<Slot, 256> g_slots;
 std::atomic<int> g_makers{0};
 std::atomic<bool> g_ended{false};
@@ -32,8 +32,8 @@ static_assert(std::atomic<bool>::is_always_lock_free);
 
 bool remove_at(int parent, const char* name);
 
-/// Other threads may still add something: until nothing more is found. opendir() and readdir() would take memory, which
-/// a signal handler must not.
+/// Removes the entries of a folder. Repeats until none is found, since other threads may still add some. Uses no
+/// opendir() and readdir(), which allocate memory, as a signal handler must not.
 void remove_entries(int folder) {
   alignas(dirent64) char buffer[2048];
   for (bool again = true; again;) {
@@ -59,7 +59,7 @@ bool remove_at(int parent, const char* name) {
   return ::unlinkat(parent, name, AT_REMOVEDIR) == 0;
 }
 
-/// Whether something was removed.
+/// Removes all entries of a kind; returns whether something was removed.
 bool remove_all_of(PartialOutput::Kind kind) {
   bool any = false;
   for (Slot& slot : g_slots) {
@@ -96,8 +96,8 @@ PartialOutput& PartialOutput::operator=(PartialOutput&& other) noexcept {
   return *this;
 }
 
-/// A handler on this thread would wait for the thread itself: signals are held back. In the order of all atomics,
-/// either the count comes first, and end_making() waits for it, or the end does, and this thread stops here.
+/// Holds signals back: a handler on this thread would wait for the thread itself. In the order of all atomics, either
+/// the count comes first, and end_making() waits for this thread, or the end comes first, and this thread stops here.
 WhileMaking::WhileMaking() {
   sigset_t ending;
   sigemptyset(&ending);
@@ -128,7 +128,7 @@ bool making_has_ended() noexcept {
 void remove_partial_outputs() noexcept {
   remove_all_of(PartialOutput::Kind::file);
   remove_all_of(PartialOutput::Kind::tree);
-  while (remove_all_of(PartialOutput::Kind::folder)) {  // the ones above once those below are gone
+  while (remove_all_of(PartialOutput::Kind::folder)) {  // a folder can be removed once those below it are gone
   }
 }
 

@@ -1,11 +1,11 @@
 #pragma once
 #include <string>
 
-/// File names in URIs (RFC 3986): what is neither a letter, a digit nor one of -._~/ is written as %XX.
+/// Names of files in URIs (RFC 3986): characters other than letters, digits and -._~/ are written as %XX.
 namespace bp::detail {
 
 [[nodiscard]] std::string percent_encoded(const std::string& path);
-/// A % without two hexadecimal digits stays what it is.
+/// Decodes %XX. A % without two hexadecimal digits stays as it is.
 [[nodiscard]] std::string percent_decoded(const std::string& uri);
 
 }  // namespace bp::detail

@@ -7,7 +7,7 @@
 
 namespace bp::detail {
 
-/// False, and errno says why, if not all bytes were written.
+/// Writes all bytes; returns false, with errno set, if that fails.
 inline bool write_all(int fd, std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
     const ssize_t n = ::write(fd, bytes.data(), bytes.size());

@@ -18,7 +18,7 @@ namespace bp {
   return text;
 }
 
-/// 0 to 63, or -1 for a character that is no digit.
+/// Returns 0 to 63, or -1 for a character that is no digit.
 [[nodiscard]] constexpr int base64_digit(char c) {
   if (c >= 'A' && c <= 'Z') return c - 'A';
   if (c >= 'a' && c <= 'z') return c - 'a' + 26;

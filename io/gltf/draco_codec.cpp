@@ -16,22 +16,22 @@ draco::DecoderBuffer buffer_of(std::span<const std::byte> bytes) {
   return buffer;
 }
 
-constexpr std::size_t kMostComponents = 4;      // that glTF knows
-constexpr std::uint64_t kBytesOfCorners = 100;  // for each triangle: its corners, and who is beside it
+constexpr std::size_t kMostComponents = 4;      // most components in glTF
+constexpr std::uint64_t kBytesOfCorners = 100;  // for each triangle: its corners, and its neighbours
 
 struct Head {
   std::uint32_t triangles = 0;
   bool sequential = false;
 };
 
-/// Of the bytes. Draco makes room for as many triangles as it says, so it is asked first.
+/// Reads the numbers of triangles and vertices. Draco allocates as many as the bytes claim, so they are checked first.
 bool read_head(std::span<const std::byte> bytes, Head& head) {
   draco::DecoderBuffer buffer = buffer_of(bytes);
   draco::DracoHeader header{};
   if (!draco::PointCloudDecoder::DecodeHeader(&buffer, &header).ok()) return false;
   if (header.encoder_type != draco::TRIANGULAR_MESH) return false;
   buffer.set_bitstream_version(DRACO_BITSTREAM_VERSION(header.version_major, header.version_minor));
-  if (header.version_major != 2 || header.version_minor < 2) return false;  // the extension asks for 2.2
+  if (header.version_major != 2 || header.version_minor < 2) return false;  // the extension requires 2.2
   draco::GeometryMetadata metadata;
   if ((header.flags & METADATA_FLAG_MASK) != 0 && !draco::MetadataDecoder().DecodeGeometryMetadata(&buffer, &metadata))
     return false;
@@ -42,8 +42,8 @@ bool read_head(std::span<const std::byte> bytes, Head& head) {
   return draco::DecodeVarint(&head.triangles, &buffer);
 }
 
-/// A decoder that asks how much the attributes take before there is room for their values, once as whole numbers and
-/// once as they are.
+/// A decoder that checks the size of the attributes before their values are allocated, both as integers and as final
+/// values.
 template <class Decoder>
 class Careful final : public Decoder {
  public:

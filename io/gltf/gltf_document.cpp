@@ -22,7 +22,8 @@ std::uint32_t word_at(const SceneFile& file, std::uint64_t offset) {
   return word;
 }
 
-// Some exporters write names in Latin-1, which is no JSON. Names do not matter here.
+// Parses JSON. Some exporters write names in Latin-1, which is no valid JSON; they are replaced, since names do not
+// matter here.
 GltfJson parse_json(std::string text) {
   try {
     return GltfJson::parse(text);
@@ -42,7 +43,7 @@ std::uint64_t bytes_made(std::string_view text, const MadeOfJson& made) {
   return count * made.bytes;
 }
 
-/// The bytes of the InstancedScene that a glTF becomes: about, and rather too many.
+/// Returns about how many bytes the InstancedScene of a glTF takes, rather too many.
 std::uint64_t description_bytes(std::string_view text) {
   return bytes_made(text, {"\"mesh\"", sizeof(MeshNode)}) + bytes_made(text, {"\"attributes\"", sizeof(Primitive)}) +
          bytes_made(text, {"\"EXT_mesh_gpu_instancing\"", sizeof(InstanceArray)});
@@ -231,7 +232,7 @@ std::string GltfDocument::path_beside(const std::string& uri) const {
   return absolute || slash == std::string::npos ? name : path.substr(0, slash + 1) + name;
 }
 
-/// What a string of the JSON held; null if it is none that was lifted.
+/// Returns the content of a string that was lifted from the JSON; null for any other string.
 SceneFilePtr GltfDocument::lifted(const std::string& uri) const {
   constexpr std::string_view kLifted = "data:lifted,";
   if (!uri.starts_with(kLifted)) return nullptr;
@@ -295,7 +296,7 @@ GltfDocument::View GltfDocument::view(std::uint64_t i) {
   return part_of_buffer(object);
 }
 
-/// A view as its object says, or the packed bytes of one.
+/// Returns the view of a buffer that an object describes: a bufferView, or the packed bytes of one.
 GltfDocument::View GltfDocument::part_of_buffer(const GltfObject& object) {
   const Data& data = buffer(object.number("buffer"));
   const std::uint64_t offset = object.number("byteOffset", 0), size = object.number("byteLength");
@@ -332,7 +333,8 @@ Accessor GltfDocument::accessor(std::uint64_t i, std::size_t components) {
     a.address = v.address + offset;
   }
   if (object.has("sparse")) read_sparse(object.object("sparse"), a);
-  // Without data all is zero but what replaces it: legal, of little use, and a count that only the file bounds.
+  // An accessor without data is zero except for its replaced elements: legal, of little use, and its count is bounded
+  // by the file only.
   if (a.address == Accessor::kZeros && a.replaced_count == 0 && a.count > 0) object.broken("has no data");
   const std::uint64_t there = file_->size() + bytes_->size();
   if (a.address == Accessor::kZeros && a.count > there) {
@@ -372,8 +374,8 @@ void GltfDocument::read_sparse(const GltfObject& sparse, Accessor& a) {
   check_sparse_numbers(numbers, a);
 }
 
-/// They must rise and stay below the accessor's count (glTF 2.0, section 3.6.2.3). What breaks this rule, readers take
-/// in different ways.
+/// Throws bad_input unless the numbers rise and stay below the accessor's count (glTF 2.0, section 3.6.2.3): readers
+/// differ on files that break this rule.
 void GltfDocument::check_sparse_numbers(const GltfObject& numbers, const Accessor& a) const {
   constexpr std::uint64_t kAtOnce = 4096;
   const std::size_t size = bytes_of(a.number_type);

@@ -7,13 +7,12 @@
 #include "io/scene/texture_table.h"
 #include "lib/core/error.h"
 
-/// A glTF 2.0 document: its JSON, and where its buffers lie. Everything that a file may get wrong is checked on the way
-/// out of it.
+/// A glTF 2.0 document: its JSON, and its buffers. Everything that a file may get wrong is checked when it is read.
 namespace bp {
 
 using GltfJson = nlohmann::json;
 
-/// A bad_input of a file that is right, but not for this: others may read it.
+/// A bad_input for a valid file that this command cannot use; other programs may.
 class Unfit : public Error {
  public:
   explicit Unfit(const std::string& what) : Error(ErrorCode::bad_input, what) {}
@@ -27,24 +26,24 @@ class GltfObject {
     if (!json.is_object()) broken("is not an object");
   }
   [[nodiscard]] bool has(const char* key) const { return json_->contains(key); }
-  /// In its "extensions".
+  /// Returns whether the object's "extensions" has this name.
   [[nodiscard]] bool has_extension(const char* name) const {
     return has("extensions") && object("extensions").has(name);
   }
-  /// True if `key` is an object that holds this text; anything else there is someone else's business.
+  /// Returns true if `key` is an object that holds this text. Anything else there is ignored.
   [[nodiscard]] bool holds_text(const char* key, const char* inner_key, const char* value) const;
-  /// A whole number up to 2^53, or `otherwise` if it is not there.
+  /// Returns a whole number up to 2^53, or `otherwise` if it is missing.
   [[nodiscard]] std::uint64_t number(const char* key, std::uint64_t otherwise) const;
   [[nodiscard]] std::uint64_t number(const char* key) const;
   [[nodiscard]] double real(const char* key) const;
   [[nodiscard]] std::string text(const char* key) const;
-  [[nodiscard]] bool flag(const char* key) const;  ///< false if it is not there
+  [[nodiscard]] bool flag(const char* key) const;  ///< false if it is missing
   [[nodiscard]] GltfObject object(const char* key) const;
-  /// An array; empty if it is not there.
+  /// Returns an array; empty if it is missing.
   [[nodiscard]] const GltfJson& array(const char* key) const;
   [[nodiscard]] GltfObject item(const char* key, std::uint64_t i) const;      ///< object i of an array
   [[nodiscard]] std::uint64_t index(const char* key, std::uint64_t i) const;  ///< whole number i of an array
-  /// N numbers, or `otherwise` if they are not there.
+  /// Returns N numbers, or `otherwise` if they are missing.
   template <std::size_t N>
   [[nodiscard]] std::array<double, N> numbers(const char* key, std::array<double, N> otherwise) const {
     if (!has(key)) return otherwise;
@@ -61,7 +60,7 @@ class GltfObject {
   [[nodiscard]] std::string dump() const { return json_->dump(); }   ///< its JSON
   /// Throws bad_input "file: place what", with Remedy::repair_file.
   [[noreturn]] void broken(const std::string& what) const;
-  /// Throws Unfit "file: place what": `what` says what to do.
+  /// Throws Unfit "file: place what"; `what` includes what to do.
   [[noreturn]] void unfit(const std::string& what) const;
 
  private:
@@ -70,32 +69,31 @@ class GltfObject {
   std::string file_, place_;
 };
 
-/// Of a glTF, or of a tileset. Throws bad_input, with the name, if it requires an extension that is not known.
+/// Throws bad_input, with the name, if a glTF or a tileset requires an unknown extension.
 void check_required_extensions(const GltfObject& root);
 
-/// Whether an extension of a content is read, or changes nothing of what triangles a viewer draws, nor where.
+/// Returns whether an extension is read, or does not change which triangles a viewer draws, and where.
 [[nodiscard]] bool keeps_triangles(const std::string& extension);
 
-/// The componentType of an accessor, one that glTF knows.
+/// Returns the componentType of an accessor. Throws unless glTF has it.
 [[nodiscard]] ComponentType component_type(const GltfObject& accessor);
 
-inline constexpr std::array kVectorTypes = {"SCALAR", "VEC2", "VEC3", "VEC4"};  ///< by components
+inline constexpr std::array kVectorTypes = {"SCALAR", "VEC2", "VEC3", "VEC4"};  ///< by number of components
 inline constexpr std::size_t kMatrixNumbers = 16;                               ///< of MAT4, by columns
-/// The extension of views, and its later name: KHR adds codecs, which are not read.
+/// The extension of views, and its later name. The KHR version adds codecs, which are not read.
 inline constexpr std::array kMeshoptNames = {"EXT_meshopt_compression", "KHR_meshopt_compression"};
 
 struct CountedJson {
   GltfJson json;
-  std::uint64_t bytes = 0;  ///< of memory that it takes
+  std::uint64_t bytes = 0;  ///< memory that it takes
 };
-/// What is made of a JSON while it is there: so many bytes for each time that a word stands in it.
+/// The memory of objects made from a JSON text: `bytes` for each occurrence of a word in it.
 struct MadeOfJson {
   std::string_view word;
   std::uint64_t bytes = 0;
 };
-/// The JSON of a file that is no glTF. `held`: bytes of SceneOptions::document that are taken already. `made` is
-/// counted with the JSON before that is parsed; `later` only in the limit that a refusal names. Throws as GltfDocument
-/// does.
+/// Reads the JSON of a file that is no glTF. `held`: bytes of SceneOptions::document that are taken already. `made` is
+/// counted with the JSON before it is parsed; `later` only in the limit that a refusal names. Throws as GltfDocument.
 [[nodiscard]] CountedJson read_json(const SceneFilePtr& file, const SceneOptions& options, std::uint64_t held = 0,
                                     const MadeOfJson& made = {}, const MadeOfJson& later = {});
 
@@ -104,32 +102,33 @@ class GltfDocument {
   GltfDocument(const SceneFilePtr& file, const SceneOptions& options);
 
   [[nodiscard]] GltfObject root() const { return GltfObject(json_, file_->name(), ""); }
-  /// Of its JSON.
+  /// Returns the memory of the JSON.
   [[nodiscard]] std::uint64_t memory_bytes() const { return json_bytes_; }
-  /// The bytes of SceneOptions::document that it took while it was parsed.
+  /// Returns the bytes of SceneOptions::document that parsing took.
   [[nodiscard]] std::uint64_t document_bytes() const { return document_bytes_; }
-  /// Accessor i, checked against its views; `components` is what its type must have: 1 to 4, or kMatrixNumbers.
+  /// Returns accessor i, checked against its views. `components`: the number that its type must have: 1 to 4, or
+  /// kMatrixNumbers.
   Accessor accessor(std::uint64_t i, std::size_t components);
-  /// All numbers of accessor i, called `what` if they take more than SceneOptions::document.
+  /// Returns all numbers of accessor i. `what`: their name for the error if they take more than SceneOptions::document.
   std::vector<double> numbers(std::uint64_t i, std::size_t components, const char* what);
   [[nodiscard]] std::vector<double> numbers(const Accessor& accessor, const char* what) const;
   /// Throws out_of_resource if `what` takes more than SceneOptions::document.
   void check_memory(const char* what, std::uint64_t bytes) const;
-  /// Of a primitive with KHR_draco_mesh_compression, unpacks what its accessors say: they have data then. False if it
-  /// is none.
+  /// Unpacks the accessors of a primitive with KHR_draco_mesh_compression, which have data then. Returns false for
+  /// other primitives.
   bool unpack(const GltfObject& primitive);
-  /// The positions or normals of a primitive, called `name` in its morph targets, if it has gone so far to each of
-  /// these.
+  /// Returns the positions or normals of a primitive after its morph targets, `name` in them, were applied with these
+  /// weights.
   Accessor morphed(const GltfObject& primitive, const char* name, const Accessor& vectors,
                    const std::vector<double>& weights);
-  /// An accessor of vectors that were computed, kept in scratch. `off`: how far rounding may have moved a number.
+  /// Keeps computed vectors in scratch as an accessor. `off`: the most that rounding may have moved a number.
   Accessor keep_vectors(const std::vector<double>& numbers, double off);
-  /// Where image i lies.
+  /// Returns the place of image i.
   ImagePlace image(std::uint64_t i);
-  /// All buffers that accessors have named so far, in one file.
+  /// Returns all buffers that accessors have named so far, in one file.
   [[nodiscard]] SceneFilePtr bytes() const { return bytes_; }
-  /// Views and primitives met so far that may be read without an extension, and then say something else: those with
-  /// EXT_meshopt_compression are compared, those with KHR_draco_mesh_compression cannot be.
+  /// Returns how many views and primitives met so far may be read without an extension, and then have other content.
+  /// Views with EXT_meshopt_compression are compared; primitives with KHR_draco_mesh_compression cannot be, and count.
   [[nodiscard]] std::uint64_t differing() const { return differing_; }
 
  private:
@@ -149,12 +148,13 @@ class GltfDocument {
   SceneFilePtr open_beside(const GltfObject& buffer, const std::string& uri) const;
   View view(std::uint64_t i);
   View part_of_buffer(const GltfObject& object);
-  /// A view with EXT_meshopt_compression, or KHR_meshopt_compression.
+  /// Unpacks a view with EXT_meshopt_compression or KHR_meshopt_compression.
   View unpacked(std::uint64_t i, const GltfObject& packed);
   [[nodiscard]] bool requires_one_of(std::span<const char* const> extensions) const;
   [[nodiscard]] std::optional<View> plain_view(std::uint64_t i);
   [[nodiscard]] std::vector<std::byte> packed_bytes(const View& view) const;
-  [[nodiscard]] std::uint64_t keep(std::span<const std::byte> plain);  ///< in scratch; its address
+  /// Keeps bytes in scratch; returns their address.
+  [[nodiscard]] std::uint64_t keep(std::span<const std::byte> plain);
   void read_sparse(const GltfObject& sparse, Accessor& a);
   void check_sparse_numbers(const GltfObject& numbers, const Accessor& a) const;
 
@@ -163,7 +163,7 @@ class GltfDocument {
   std::string temp_dir_;
   GltfJson json_;
   std::uint64_t json_bytes_ = 0, document_bytes_ = 0, differing_ = 0;
-  std::vector<SceneFilePtr> lifted_;  // embedded buffers
+  std::vector<SceneFilePtr> lifted_;  // decoded strings of the JSON
   SceneFilePtr glb_data_;             // the binary chunk
   std::shared_ptr<JoinedFile> bytes_ = std::make_shared<JoinedFile>();
   std::vector<std::optional<Data>> buffers_;
@@ -171,8 +171,8 @@ class GltfDocument {
     std::uint64_t address = 0, count = 0;
   };
   std::map<std::uint64_t, View> unpacked_;
-  std::map<std::uint64_t, Numbers> unpacked_numbers_;  // of accessors, without gaps
-  std::shared_ptr<ScratchFile> scratch_;               // of what was unpacked
+  std::map<std::uint64_t, Numbers> unpacked_numbers_;  // unpacked numbers of accessors, without gaps
+  std::shared_ptr<ScratchFile> scratch_;               // unpacked bytes
 };
 
 }  // namespace bp

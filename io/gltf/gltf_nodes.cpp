@@ -11,12 +11,12 @@ std::optional<UpAxis> gltf_up(const GltfObject& root) {
   return {};
 }
 
-// Files of ours stand upright in glTF's y-up world: back to their own coordinates.
+// Turns files of this suite, which stand upright in glTF's y-up world, back to their own coordinates.
 Affine gltf_world(std::optional<UpAxis> up) {
   return affine_of(to_y_up(up.value_or(UpAxis::y)).inverse());
 }
 
-// Not as scenes are turned where x is up: by a quarter turn around y.
+// Turns differ from those of scenes if x is up: a quarter turn around y.
 Affine gltf_in_tile(UpAxis up) {
   if (up == UpAxis::x) return affine_of(AxisTurn{{2, 1, 0}, {true, false, false}});
   return affine_of(to_y_up(UpAxis::z).inverse()) * affine_of(to_y_up(up));
@@ -31,7 +31,7 @@ Affine gltf_matrix(const GltfObject& object, const char* key) {
   return a;
 }
 
-// The default scene, else the first; a document without scenes shows every node that is no child.
+// Returns the roots of the default scene, else of the first. In a document without scenes: every node that is no child.
 std::vector<std::uint64_t> gltf_roots(const GltfObject& root) {
   std::vector<std::uint64_t> roots;
   if (root.array("scenes").empty()) {

@@ -9,9 +9,9 @@
 #include "io/scene/points/scene_points.h"
 #include "lib/core/vec3.h"
 
-// glTF and GLB: the accessors POSITION, NORMAL and TANGENT of every mesh that a node shows are written anew, and the
-// bounds of POSITION in the JSON. They stay in their places; a mesh that stands in several places gets copies at the
-// end of the first buffer. What cannot follow is refused (gltf_vertices.cpp).
+// glTF and GLB: the accessors POSITION, NORMAL and TANGENT of every mesh that a node shows are written anew, as are the
+// bounds of POSITION in the JSON. They stay in their places; a mesh in several places gets copies at the end of the
+// first buffer. Files with vertices that cannot follow are refused (gltf_vertices.cpp).
 
 namespace bp {
 
@@ -88,14 +88,14 @@ class GltfPoints final : public ScenePoints {
   }
   [[nodiscard]] std::vector<GltfVertices> targets_in(detail::GltfCopy& copy);
   void append(detail::GltfCopy& copy, Accessor& accessor, std::uint64_t& number);
-  /// Moves some vertices; where they are in the nodes, before and after.
+  /// Moves some vertices. Returns them in the scene; `local` gets them in their nodes, before and after.
   PointBatch move_batch(const GltfVertices& v, std::uint64_t first, std::size_t n, const MovePoints& move,
                         const detail::GltfCopy& copy, PointBatch& local);
   std::vector<float> changes_of(const GltfVertices& v, std::uint64_t first, std::size_t n, const MovePoints& move,
                                 const detail::GltfCopy& copy, Bounds3d& bounds);
   void write_batch(const GltfVertices& v, std::uint64_t first, std::size_t n, const MovePoints& move,
                    detail::GltfCopy& copy, Bounds3d& bounds);
-  /// The first three components; the bytes stay in bytes_.
+  /// Reads the first three components; the bytes stay in bytes_.
   template <class File>
   void take(const File& file, const Accessor& a, std::uint64_t first, std::size_t n, std::vector<Vec3d>& out) {
     bytes_.resize((n - 1) * a.stride + 4 * a.components);
@@ -107,7 +107,7 @@ class GltfPoints final : public ScenePoints {
       out[i] = {values[0], values[1], values[2]};
     }
   }
-  /// Of what take() took. Values that stay keep their bytes.
+  /// Writes elements that take() read. Values that stay keep their bytes.
   void put(detail::GltfCopy& copy, const Accessor& a, std::uint64_t first, const std::vector<Vec3d>& values) {
     take(copy, a, first, values.size(), scratch_);
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -127,7 +127,8 @@ class GltfPoints final : public ScenePoints {
   std::vector<Vec3d> scratch_;
 };
 
-/// Where all vertices are written. Copies get accessors at the end of the buffer, and primitives name them.
+/// Returns the places to which all vertices are written. Copies get accessors at the end of the buffer, which their
+/// primitives name.
 std::vector<GltfVertices> GltfPoints::targets_in(detail::GltfCopy& copy) {
   std::vector<GltfVertices> targets = plan_.vertices;
   for (GltfVertices& v : targets) {
@@ -197,7 +198,7 @@ void GltfPoints::write_batch(const GltfVertices& v, std::uint64_t first, std::si
   if (v.tangent) put(copy, *v.tangent, first, local.tangents);
 }
 
-/// The scene itself stays at rest.
+/// Writes an animation. The scene itself stays at rest.
 void GltfPoints::write_frames(std::size_t frames, double seconds, const MoveFrame& move, OutputFile& out) {
   detail::GltfCopy copy = copy_of_file();
   copy.plan_copies(plan_);
@@ -222,7 +223,7 @@ void GltfPoints::write_frames(std::size_t frames, double seconds, const MoveFram
   copy.write(out);
 }
 
-/// Positions, with normals between them if there are any.
+/// Returns the changes of positions, each followed by that of the normal if there are normals.
 std::vector<float> GltfPoints::changes_of(const GltfVertices& v, std::uint64_t first, std::size_t n,
                                           const MovePoints& move, const detail::GltfCopy& copy, Bounds3d& bounds) {
   PointBatch local;

@@ -49,9 +49,9 @@ void Curve::blend_cubic(std::size_t k, double u, std::vector<double>& out) const
   if (path == "rotation") make_unit(out);
 }
 
-/// Along the shorter arc.
+/// Turns along the shorter arc.
 void Curve::turn(std::size_t k, double u, std::vector<double>& out) const {
-  constexpr double kLine = 0.9999;  // a cosine: from here on the arc is a line
+  constexpr double kLine = 0.9999;  // a cosine: beyond it the arc is as good as a line
   const double *a = key(k), *b = key(k + 1);
   double cosine = 0;
   for (std::size_t i = 0; i < size; ++i) cosine += a[i] * b[i];
@@ -62,7 +62,7 @@ void Curve::turn(std::size_t k, double u, std::vector<double>& out) const {
   make_unit(out);
 }
 
-/// Before the first key and after the last one their values hold.
+/// Returns the value at a time; before the first key and after the last one their values.
 std::vector<double> Curve::at(double time) const {
   const std::size_t after = std::size_t(std::upper_bound(times.begin(), times.end(), time) - times.begin());
   const std::size_t k = after == 0 ? 0 : after - 1;
@@ -117,7 +117,7 @@ class PoseFinder {
   GltfObject root_;
   const SceneOptions& options_;
   const std::string name_;
-  std::uint64_t bytes_ = 0;  ///< of numbers in memory
+  std::uint64_t bytes_ = 0;  ///< numbers in memory
 };
 
 std::vector<double> PoseFinder::numbers(std::uint64_t number, std::size_t components) {
@@ -152,7 +152,7 @@ std::vector<Curve> PoseFinder::curves_of(const GltfObject& animation) {
     curve.node = target.number("node");
     curve.path = target.text("path");
     const bool vector = curve.path == "translation" || curve.path == "scale", turn = curve.path == "rotation";
-    if (!vector && !turn && curve.path != "weights") continue;  // of an extension
+    if (!vector && !turn && curve.path != "weights") continue;  // the path of an extension
     read_keys(animation.item("samplers", channel.number("sampler")), vector ? 3 : turn ? 4 : 1, curve);
     curves.push_back(std::move(curve));
   }

@@ -70,9 +70,9 @@ class SceneBuilder {
     Affine parent;
     bool wanted;  // it is below a node whose name fits
   };
-  /// What moves a mesh before its node places it.
+  /// The morph weights and skin that move a mesh before its node places it.
   struct Moved {
-    std::vector<double> weights;  // how far it has gone to its morph targets; empty: it has not
+    std::vector<double> weights;  // weights of its morph targets; empty: none
     std::uint64_t skin = kNoSkin;
     auto operator<=>(const Moved&) const = default;
   };
@@ -81,7 +81,7 @@ class SceneBuilder {
     bool wanted;
     Moved moved;
   };
-  /// Of a mesh once it has moved; all of its parts, or those whose names fit.
+  /// A mesh with its weights and skin: all of its parts, or only those whose names fit.
   using MovedMesh = std::tuple<std::uint64_t, bool, Moved>;
   [[nodiscard]] Affine placed() const;
   void add_nodes(const std::vector<std::uint64_t>& roots, const Affine& world);
@@ -107,7 +107,7 @@ class SceneBuilder {
   GltfObject root_;
   SceneFilePtr file_;
   const bool colors_;
-  TextureTable* const textures_;  // null: not asked for
+  TextureTable* const textures_;  // null: images are not asked for
   const bool surface_;
   GltfMaterials materials_;
   const bool walls_only_;
@@ -117,14 +117,14 @@ class SceneBuilder {
   const std::size_t level_;
   const std::optional<ContentPlace> place_;
   InstancedScene scene_;
-  std::vector<std::string> names_;  // of scene_.nodes, if parts_ asks for triangles
+  std::vector<std::string> names_;  // names of scene_.nodes, if parts_ asks for triangles
   std::map<MovedMesh, Range> meshes_;
-  std::vector<std::optional<Affine>> places_;  // of the nodes that were reached
-  std::vector<Skinned> skinned_;               // nodes that wait until all joints are placed
+  std::vector<std::optional<Affine>> places_;  // places of the nodes that were reached
+  std::vector<Skinned> skinned_;               // nodes with skins, which wait until all joints are placed
   std::map<std::uint64_t, GltfSkin> skins_;
 };
 
-// Of a content. Tiles have z up. An extension of older files moves them there.
+// Returns the place of a content in its tile. Tiles have z up. CESIUM_RTC of older files moves contents.
 Affine SceneBuilder::placed() const {
   Affine centre;
   if (root_.has_extension("CESIUM_RTC")) {
@@ -162,7 +162,7 @@ void SceneBuilder::add_nodes(const std::vector<std::uint64_t>& roots, const Affi
   }
 }
 
-// Nodes that stand for others at coarser levels: where a scene lists them, too, they are not drawn beside these.
+// Returns the nodes that are coarser levels of others. If a scene lists them as well, they are not drawn.
 std::set<std::uint64_t> SceneBuilder::coarser_nodes() const {
   std::set<std::uint64_t> nodes;
   for (std::size_t i = 0; i < root_.array("nodes").size(); ++i) {
@@ -174,7 +174,7 @@ std::set<std::uint64_t> SceneBuilder::coarser_nodes() const {
   return nodes;
 }
 
-// The node that stands for node i at the level asked for: its last one, if it has fewer.
+// Returns the node that represents node i at the level asked for; its last level if it has fewer.
 std::uint64_t SceneBuilder::level_of(std::uint64_t i) {
   const GltfObject node = root_.item("nodes", i);
   if (!node.has_extension("MSFT_lod")) return i;
@@ -198,7 +198,7 @@ const ScenePose::Node* SceneBuilder::pose_of(std::uint64_t node) const {
   return found == pose_->nodes.end() ? nullptr : &found->second;
 }
 
-// How far the mesh of a node has gone to its morph targets; empty: it has not.
+// Returns the morph weights of a node's mesh; empty: none.
 std::vector<double> SceneBuilder::weights_of(const GltfObject& node, const ScenePose::Node* pose) const {
   std::vector<double> weights;
   if (pose_ != nullptr && pose_->base) return weights;
@@ -221,7 +221,7 @@ void SceneBuilder::add_mesh_node(const GltfObject& node, const Affine& transform
   if (parts_.asks_for_triangles()) names_.push_back(name_of(node));
 }
 
-/// The name of a node with a mesh, or of the mesh, or its number.
+/// Returns the name of a node with a mesh, or the mesh's name, or its number.
 std::string SceneBuilder::name_of(const GltfObject& node) const {
   const GltfObject mesh = root_.item("meshes", node.number("mesh"));
   for (const GltfObject& named : {node, mesh}) {
@@ -230,8 +230,8 @@ std::string SceneBuilder::name_of(const GltfObject& node) const {
   return node.place();
 }
 
-/// Reads the triangles of each node by themselves. The names are asked for when something is wrong with a scene, and
-/// the memory of the nodes needs no room for them otherwise.
+/// Reads the triangles of each node separately. Names are asked for only when something is wrong with a scene, so the
+/// memory of nodes has no room for names otherwise.
 void SceneBuilder::note_parts() {
   for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
     MeshNode node = scene_.nodes[i];
@@ -248,7 +248,7 @@ void SceneBuilder::note_parts() {
   }
 }
 
-// Its joints alone say where it is.
+// Adds a mesh with a skin. Only its joints decide where it is.
 void SceneBuilder::add_skinned(const Skinned& skinned) {
   const GltfObject node = root_.item("nodes", skinned.node);
   if (node.has_extension("EXT_mesh_gpu_instancing"))
@@ -292,7 +292,7 @@ void SceneBuilder::add_primitive(const GltfObject& p, const Moved& moved) {
   if (mode < kTriangles) return;  // points and lines
   if (walls_only_ && p.has("material") && materials_.see_through(p.number("material"))) return;
   Primitive primitive;
-  const bool plain = doc_.unpack(p);  // its triangles are no strip then
+  const bool plain = doc_.unpack(p);  // true if it was packed: its triangles form no strip then
   primitive.mode = plain            ? Primitive::Mode::triangles
                    : mode == kFan   ? Primitive::Mode::fan
                    : mode == kStrip ? Primitive::Mode::strip
@@ -320,7 +320,7 @@ void SceneBuilder::add_normals(const GltfObject& p, const Moved& moved, Primitiv
   if (moved.skin != kNoSkin) primitive.normals = skin(moved.skin).normals(attributes, *primitive.normals);
 }
 
-// Section 3.9.2: the factor times the colours of the vertices, in linear light.
+// Adds the colours of vertices, in linear light, which the factor multiplies (section 3.9.2).
 void SceneBuilder::add_colors(const GltfObject& p, const GltfObject& attributes, Primitive& primitive) {
   if (p.has("material")) {
     const std::array<double, 4> rgba = materials_.base_color(p.number("material"));
@@ -335,7 +335,7 @@ void SceneBuilder::add_colors(const GltfObject& p, const GltfObject& attributes,
         fmt::format("have {} colours for {} positions", primitive.colors->count, primitive.positions.count));
 }
 
-/// What is wrong with an image's place on the triangles is no reason to refuse them.
+/// Adds a material's images. Faults of an image's coordinates are noted, and are no reason to refuse the triangles.
 void SceneBuilder::try_texture(std::uint64_t material, const GltfObject& attributes, Primitive& primitive) {
   try {
     materials_.add_texture(material, attributes, primitive);
@@ -370,7 +370,7 @@ std::optional<std::uint32_t> SceneBuilder::instance_array(const GltfObject& node
 RawSourcePtr open_gltf(SceneFilePtr file, const SceneOptions& options, const std::optional<ContentPlace>& place) {
   InstancedScene scene = SceneBuilder(file, options, place).build();
 #ifdef __GLIBC__
-  ::malloc_trim(0);  // the document is gone, and what comes counts on its memory
+  ::malloc_trim(0);  // gives the document's memory back: the next steps need it
 #endif
   return stream_instances(std::move(scene), options);
 }

@@ -8,12 +8,12 @@
 /// Numbers of samplers (glTF 2.0, section 5.26).
 namespace bp {
 
-/// Repeats, unless the number is another known one.
+/// Returns the wrapping of a number; repeat for an unknown one.
 [[nodiscard]] inline TextureWrap wrap_of_gltf(std::uint64_t number) {
   return number == 33071 ? TextureWrap::clamp : number == 33648 ? TextureWrap::mirror : TextureWrap::repeat;
 }
 
-/// A sampler that is smooth near and far.
+/// Returns a sampler that filters near and far.
 [[nodiscard]] inline GltfOutJson gltf_sampler(const std::array<TextureWrap, 2>& wrap) {
   const auto number = [](TextureWrap w) {
     return w == TextureWrap::clamp ? 33071 : w == TextureWrap::mirror ? 33648 : 10497;

@@ -7,7 +7,7 @@ namespace bp {
 
 namespace {
 
-/// Names of all extensions, wherever they stand, whether the document declares them or not.
+/// Returns the names of all extensions in the document, declared or not.
 std::set<std::string> extensions_in(const GltfObject& root) {
   std::set<std::string> names;
   for (const GltfJson& name : root.array("extensionsUsed"))
@@ -17,7 +17,7 @@ std::set<std::string> extensions_in(const GltfObject& root) {
     const GltfJson& json = *open.back();
     open.pop_back();
     for (const auto& [key, value] : json.items()) {
-      if (json.is_object() && key == "extras") continue;  // of whoever wrote it
+      if (json.is_object() && key == "extras") continue;  // extras may hold anything
       if (json.is_object() && key == "extensions" && value.is_object()) {
         for (const auto& [name, extension] : value.items()) names.insert(name);
       }

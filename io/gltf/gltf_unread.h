@@ -3,9 +3,9 @@
 
 namespace bp {
 
-/// What a glTF says that may change what a viewer shows of it beyond what is read: extensions that are not known
-/// (keeps_triangles()), those that move and need not be read, animations, scenes that are not there, matrices that are
-/// not affine, materials that can be seen through.
+/// Returns the content of a glTF that is not read and may change what a viewer shows: unknown extensions
+/// (keeps_triangles()), extensions that move meshes and need not be read, animations, missing scenes, matrices that are
+/// not affine, transparent materials.
 [[nodiscard]] UnreadParts gltf_unread(const GltfObject& root);
 
 }  // namespace bp

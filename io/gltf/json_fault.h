@@ -4,7 +4,7 @@
 
 namespace bp::detail {
 
-/// What is wrong with a JSON text, without the number that nlohmann gives the kind of error.
+/// Returns the fault of a JSON text, without the number that nlohmann gives the kind of error.
 inline std::string json_fault(const std::exception& e) {
   const std::string text = e.what();
   const std::size_t end = text.find("] ");

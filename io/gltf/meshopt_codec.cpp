@@ -8,8 +8,8 @@ namespace bp {
 
 namespace {
 
-// The codecs store at least this much: a byte for each triangle, and for vertices two bits for every 16 values of each
-// byte of the stride. What promises more was damaged, and would cost memory before it is found out.
+// The codecs store at least a byte for each triangle, and for vertices two bits for every 16 values of each byte of the
+// stride. A view that claims more is damaged, and would take memory before that is found out.
 constexpr std::uint64_t kMostPerByte = 64;
 constexpr std::uint64_t kMostStride = 256;
 

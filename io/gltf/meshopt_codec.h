@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-/// The byte codecs of EXT_meshopt_compression (Khronos, glTF extension registry), by meshoptimizer. Lossless but for
-/// normals: no other filter is ever applied when encoding.
+/// The byte codecs of EXT_meshopt_compression (Khronos, glTF extension registry), by meshoptimizer. Lossless except for
+/// normals: no other filter is used when encoding.
 namespace bp {
 
 using TriangleIndices = std::vector<std::array<std::uint32_t, 3>>;
@@ -16,27 +16,27 @@ using TriangleIndices = std::vector<std::array<std::uint32_t, 3>>;
 /// new vertex, its old number; vertices without a triangle are left out. Deterministic.
 [[nodiscard]] std::vector<std::uint32_t> optimize_order(TriangleIndices& triangles, std::size_t vertices);
 
-/// `data`: count * stride bytes; stride a multiple of 4, at most 256.
+/// Encodes vertices. `data`: count * stride bytes; stride a multiple of 4, at most 256.
 [[nodiscard]] std::string encode_attributes(const std::string& data, std::size_t stride);
-/// Unit vectors as octahedral coordinates of 8 bits, 4 bytes each: what encode_attributes() gets for a view with the
-/// filter OCTAHEDRAL, which decodes them to within 1.1 degrees.
+/// Returns unit vectors as octahedral coordinates of 8 bits, 4 bytes each: the input of encode_attributes() for a view
+/// with the filter OCTAHEDRAL, which decodes them to within 1.1 degrees.
 [[nodiscard]] std::string octahedral(const std::vector<std::array<float, 3>>& normals);
-/// The same with a fourth number from -1 to 1, as tangents have it.
+/// As above, with a fourth number from -1 to 1, as tangents have it.
 [[nodiscard]] std::string octahedral(const std::vector<std::array<float, 4>>& tangents);
-/// Decoding may turn a triangle's corners around, and keeps their cyclic order.
+/// Encodes triangles. Decoding may rotate a triangle's corners.
 [[nodiscard]] std::string encode_triangles(const TriangleIndices& triangles, std::size_t vertices);
 
 enum class MeshoptMode { attributes, triangles, indices };
 enum class MeshoptFilter { none, octahedral, quaternion, exponential };
 
-/// What a view says of its compressed bytes.
+/// The description of a view's compressed bytes.
 struct MeshoptView {
   MeshoptMode mode = MeshoptMode::attributes;
   MeshoptFilter filter = MeshoptFilter::none;
   std::uint64_t count = 0, stride = 0;
 };
 
-/// Decodes into count * stride bytes. Empty text: done; else what is wrong with the bytes, "have ..." or "are ...".
+/// Decodes into count * stride bytes. Returns an empty text, or what is wrong with the bytes, "have ..." or "are ...".
 /// Reads and writes nowhere else, whatever the bytes are.
 [[nodiscard]] std::string decode_meshopt(const MeshoptView& view, std::span<const std::byte> bytes,
                                          std::vector<std::byte>& out);

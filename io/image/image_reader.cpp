@@ -28,7 +28,7 @@ void check_size(std::uint64_t width, std::uint64_t height, const std::string& na
   if (bytes > most_bytes) throw NeedsMemory(fmt::format("{}: the image", name), bytes, most_bytes, 0);
 }
 
-/// An image of this size, if it may be so large.
+/// Returns an empty image of this size. Throws if it would be too large.
 TextureImage sized(std::uint64_t width, std::uint64_t height, const std::string& name, std::uint64_t most_bytes) {
   check_size(width, height, name, 1, most_bytes);
   return {int(width), int(height)};
@@ -58,7 +58,7 @@ TextureImage decode_png(std::span<const std::byte> bytes, const std::string& nam
   return image;
 }
 
-/// libjpeg leaves by a jump: nothing with a destructor may live between setjmp() and it.
+/// libjpeg leaves by a jump: between setjmp() and the jump no object with a destructor may live.
 struct JpegFault {
   jpeg_error_mgr manager;
   std::jmp_buf back;
@@ -134,7 +134,7 @@ TextureImage decode_tga(std::span<const std::byte> bytes, const std::string& nam
   return std::move(*image);
 }
 
-/// Images that are not read here, by their first bytes.
+/// Returns the name of an image format that is not read, by the first bytes; null if they are of none.
 const char* foreign_image(std::span<const std::byte> bytes) {
   struct Foreign {
     std::string_view magic;

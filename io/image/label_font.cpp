@@ -21,7 +21,7 @@ using FacePtr = std::unique_ptr<FT_FaceRec_, FaceCloser>;
 
 constexpr char32_t kReplacement = 0xFFFD;
 
-/// The first character of `text`, which is taken away; kReplacement for a byte that begins none.
+/// Takes the first character off `text`; kReplacement for a byte that begins none.
 char32_t next_character(std::string_view& text) {
   const auto first = static_cast<unsigned char>(text[0]);
   const std::size_t length = first < 0x80   ? 1
@@ -61,7 +61,7 @@ class FreeTypeFont final : public Typeface {
  private:
   static int advance(const FT_GlyphSlot glyph) { return int((glyph->advance.x + 32) >> 6); }
 
-  /// Glyphs that cannot be loaded are passed over.
+  /// Calls f for each glyph that can be loaded.
   template <class F>
   void for_each_glyph(std::string_view text, int size, FT_Int32 flags, const F& f) {
     if (FT_Set_Pixel_Sizes(face_.get(), 0, FT_UInt(size)) != 0) return;
@@ -70,7 +70,7 @@ class FreeTypeFont final : public Typeface {
     }
   }
 
-  /// Bitmaps hold how much of each pixel the glyph covers, in 256 steps.
+  /// Blends a glyph. Its bitmap tells how much of each pixel it covers, in 256 steps.
   static void blend(Image& image, int x, int y, const FT_Bitmap& bitmap, Color color) {
     if (bitmap.pixel_mode != FT_PIXEL_MODE_GRAY) return;
     for (int row = std::max(0, -y); row < int(bitmap.rows) && y + row < image.height; ++row) {
@@ -83,7 +83,7 @@ class FreeTypeFont final : public Typeface {
     }
   }
 
-  LibraryPtr library_;  // outlives the face
+  LibraryPtr library_;  // must outlive the face
   FacePtr face_;
 };
 

@@ -20,7 +20,7 @@ std::vector<std::uint8_t> heights_of(const TextureImage& image, int y) {
   return row;
 }
 
-/// Neighbours of `i` among `count`, and how far apart they are.
+/// The two neighbours of texel `i` among `count`, and the distance between them.
 struct Neighbours {
   int before, after, distance;
 };
@@ -34,7 +34,7 @@ Neighbours neighbours(int i, int count, bool repeats) {
 }  // namespace
 
 bool is_grey(const TextureImage& image) {
-  constexpr int kSame = 8;  // of 255
+  constexpr int kSame = 8;  // largest difference between the channels of a grey texel, of 255
   return std::all_of(image.texels.begin(), image.texels.end(), [](const TextureImage::Texel& t) {
     return std::abs(int(t[0]) - int(t[1])) <= kSame && std::abs(int(t[1]) - int(t[2])) <= kSame;
   });

@@ -4,22 +4,23 @@
 /// Images that MTL names as `bump`: some programs write heights there, others directions (docs/levels.md).
 namespace bp {
 
-/// How an image is a relief.
+/// The interpretation of an image as a relief.
 struct Relief {
-  double strength = 1;  ///< white is so many texels higher than black; what leans leans so much more
-  bool repeats = true;  ///< beyond an edge is what lies at the opposite one; else an edge has one neighbour
+  double strength = 1;  ///< heights: texels between black and white; directions: factor of their slopes
+  /// The texel beyond an edge is the one at the opposite edge; else texels at an edge have one neighbour.
+  bool repeats = true;
   friend bool operator==(const Relief&, const Relief&) = default;
 };
 
-/// Whether all texels are grey, as heights are; what JPEG adds to grey is not seen. O(texels).
+/// Returns whether all texels are grey, as heights are. Small differences, which JPEG adds, are ignored. O(texels).
 [[nodiscard]] bool is_grey(const TextureImage& image);
 
-/// Turns heights into directions in tangent space, green upwards (TextureSurface::normal). Slopes are those between the
-/// two neighbours of a texel. They have their strength before they become bytes: a step of one grey value is 1/255 of a
-/// texel, and would be lost. O(texels); in place, with four rows beside it.
+/// Turns heights into directions in tangent space, green upwards (TextureSurface::normal). The slope at a texel is that
+/// between its two neighbours. The strength is applied before slopes are rounded to bytes: a step of one grey value is
+/// 1/255 of a texel, and would be lost. O(texels); in place, with four rows in addition.
 void turn_into_directions(TextureImage& heights, const Relief& relief);
 
-/// Makes directions lean by the strength more, as a normal map's scale does. O(texels).
+/// Multiplies the slopes of directions, as a normal map's scale does. O(texels).
 void strengthen(TextureImage& directions, double strength);
 
 }  // namespace bp

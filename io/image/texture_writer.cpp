@@ -18,7 +18,7 @@ namespace {
   fail(ErrorCode::out_of_resource, "texture: it cannot be compressed ({})", why);
 }
 
-/// libjpeg leaves by a jump: nothing with a destructor may live between setjmp() and it.
+/// libjpeg leaves by a jump: between setjmp() and the jump no object with a destructor may live.
 struct JpegWriter {
   jpeg_compress_struct codec{};
   struct Fault {
@@ -56,7 +56,7 @@ struct JpegWriter {
     jpeg_set_defaults(&codec);
     jpeg_set_quality(&codec, kQuality, TRUE);
     codec.optimize_coding = TRUE;
-    // Whole colour resolution: charts are small, and half of it would bleed over their edges.
+    // Full colour resolution: charts are small, and half of it would bleed over their edges.
     codec.comp_info[0].h_samp_factor = codec.comp_info[0].v_samp_factor = 1;
     jpeg_start_compress(&codec, TRUE);
     while (codec.next_scanline < codec.image_height) {

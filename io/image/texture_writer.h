@@ -5,14 +5,14 @@
 
 namespace bp {
 
-/// An image as a file holds it.
+/// An encoded image.
 struct EncodedImage {
   std::string bytes;
   std::string type;  ///< "image/jpeg" or "image/png"
 };
 
-/// JPEG (quality 90) if every texel is opaque, else PNG. Same image, same bytes (and libraries). Throws bad_argument if
-/// a side is 0, out_of_resource if it cannot be compressed.
+/// Encodes an image: JPEG (quality 90) if every texel is opaque, else PNG. Same image, same bytes (and libraries).
+/// Throws bad_argument if a side is 0, out_of_resource if it cannot be compressed.
 [[nodiscard]] EncodedImage encode_texture(const TextureImage& image);
 
 }  // namespace bp

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <cstring>
 #include <memory>
-// Nothing else of it: less code that meets broken files. Its BMP reader shows memory that was never set.
+// Only TGA: less code that meets broken files. The library's BMP reader returns memory that was never set.
 #define STBI_ONLY_TGA
 #define STBI_NO_STDIO
 #define STBI_NO_LINEAR
@@ -17,7 +17,7 @@ namespace bp {
 
 namespace {
 
-/// A file that notes whether the decoder asked for more of it than there is. The decoder takes zeros then.
+/// A file in memory that notes whether the decoder asked for more than there is. The decoder gets zeros then.
 struct Reading {
   std::span<const std::byte> left;
   bool ended = false;
@@ -37,10 +37,10 @@ struct Reading {
   static int eof(void* self) { return static_cast<Reading*>(self)->left.empty() ? 1 : 0; }
 };
 
-/// Whether a TGA that is not packed has fewer texels than it says: its rows are taken as they come.
+/// Returns whether an uncompressed TGA has fewer bytes than its size needs: the decoder takes rows as they come.
 bool lacks_rows(std::span<const std::byte> bytes, std::uint64_t texels) {
   const auto at = [&](std::size_t i) { return std::to_integer<std::uint64_t>(bytes[i]); };
-  if (at(2) > 3) return false;  // packed
+  if (at(2) > 3) return false;  // compressed
   const std::uint64_t colors = at(1) == 1 ? (at(5) | at(6) << 8) * ((at(7) + 7) / 8) : 0;
   return bytes.size() < 18 + at(0) + colors + texels * ((at(16) + 7) / 8);
 }

@@ -19,7 +19,7 @@ void append(std::string& bytes, const Number& x) {
   bytes.append(reinterpret_cast<const char*>(&x), sizeof x);
 }
 
-/// One primitive: vertices in the order of the file.
+/// The arrays of one primitive: vertices in the order of the file.
 class LeafPrimitive {
  public:
   LeafPrimitive(const LeafPart& part, UpAxis up, GlbData& data)
@@ -130,7 +130,7 @@ class LeafBuilder {
     return LeafPrimitive(part, up_, data_).json(mapped, !one_color);
   }
 
-  /// Whether it has an image.
+  /// Adds a material; returns whether it has an image.
   bool add_material(const TextureMaterial& material, const std::string& image, std::array<double, 4> factor) {
     const TextureSurface& surface = material.surface;
     Json pbr{{"metallicFactor", surface.metal_factor}, {"roughnessFactor", surface.roughness_factor}};
@@ -175,7 +175,7 @@ class LeafBuilder {
     return number_of(textures_, texture);
   }
 
-  /// Of an element, which is added if it is not there.
+  /// Returns the number of an element, which is added if it is new.
   static std::size_t number_of(Json& array, const Json& element) {
     const auto found = std::find(array.begin(), array.end(), element);
     const auto number = std::size_t(found - array.begin());

@@ -9,19 +9,19 @@
 
 namespace bp {
 
-/// The image of a material as a file beside the leaf; empty: it has none.
+/// Returns the file of a material's image in the leaf's folder; empty: it has none.
 using LeafImageName = std::function<std::string(std::uint32_t image)>;
 
-/// How a leaf looks beside its triangles.
+/// Images and colours of a leaf.
 struct LeafLooks {
-  const TextureSet* images = nullptr;  ///< null: none
+  const TextureSet* images = nullptr;  ///< null: no images
   LeafImageName name_of;
-  bool colors = true;  ///< false: grey
+  bool colors = true;  ///< false: the leaf is grey
   TileCompression compression = TileCompression::meshopt;
 };
 
-/// A leaf as the content of a tile: as tile_glb(), but positions are float32, and images lie in files of their own,
-/// which leaves share. Both sides of triangles are shown. Same leaf, same bytes.
+/// Returns a leaf as the content of a tile: as tile_glb(), but positions are float32, and images lie in files of their
+/// own, which leaves share. Both sides of triangles are shown. Same leaf, same bytes.
 [[nodiscard]] std::string leaf_glb(const std::string& name, const SceneLeaf& leaf, const LeafLooks& looks, UpAxis up,
                                    const std::vector<Provenance>& provenance);
 

@@ -22,7 +22,7 @@ using Json = GltfOutJson;
 
 constexpr std::int64_t kShortInteger = 32767;
 
-/// A tile's vertices relative to its origin, in lattice steps and turned to y up.
+/// Converts a tile's vertices to lattice steps from its origin, turned to y up.
 class TilePlace {
  public:
   TilePlace(const LatticeMesh& mesh, LatticeCoord origin) : turn_(to_y_up(mesh.frame.up)), origin_(origin) {
@@ -43,7 +43,7 @@ class TilePlace {
   std::int64_t reach_ = 0;
 };
 
-/// The numbers of POSITION, with their bounds. at(v): of vertex v.
+/// The numbers of POSITION, with their bounds. at(v): the position of vertex v.
 template <class Number>
 struct Positions {
   std::string bytes;
@@ -66,7 +66,7 @@ struct Positions {
   }
 };
 
-/// Of the copies in `order`.
+/// Returns the normals of the copies in `order`.
 std::vector<std::array<float, 3>> normals_of(const ShadedMesh& mesh, const std::vector<std::uint32_t>& order,
                                              UpAxis up) {
   std::vector<std::array<float, 3>> normals;
@@ -75,7 +75,7 @@ std::vector<std::array<float, 3>> normals_of(const ShadedMesh& mesh, const std::
   return normals;
 }
 
-/// Of the copies in `order`.
+/// Returns the vectors of the copies in `order`.
 std::vector<std::array<float, 4>> in_order(const std::vector<std::array<float, 4>>& all,
                                            const std::vector<std::uint32_t>& order, UpAxis up) {
   std::vector<std::array<float, 4>> tangents;
@@ -101,7 +101,7 @@ class GlbBuilder {
  public:
   enum class Data { plain, compressed };
 
-  /// `origin`: is subtracted from all coordinates, and told; exactly, or it throws.
+  /// `origin`: is subtracted from all coordinates, and noted in the file. Throws if the subtraction rounds.
   explicit GlbBuilder(const std::string& file, Data data, const Vec3d& origin = {})
       : file_(file), data_(data == Data::compressed), origin_(origin) {}
 
@@ -119,7 +119,7 @@ class GlbBuilder {
     return json()["nodes"].size() - 1;
   }
 
-  /// The same of a tile: quantized where 16 bits suffice; its node has a scale alone.
+  /// Adds the mesh of a tile: quantized where 16 bits suffice; its node has a scale only.
   void add_tile(const NamedMesh& named, LatticeCoord origin) {
     check_mesh(named);
     const LatticeMesh& mesh = *named.mesh;
@@ -143,7 +143,8 @@ class GlbBuilder {
     write_glb(document(gltf_asset("bplod", first.provenance, first.frame.up, origin_, contract), roots), data_.bytes(),
               out);
   }
-  /// As the content of a tile: extras.up does not ask readers of ours to turn back to the axes of the scene.
+  /// Returns the content of a tile. Its extras.up does not ask readers of this suite to turn back to the axes of the
+  /// scene.
   [[nodiscard]] std::string tile_bytes(const LatticeMesh& mesh, const Vec3d& tile_origin) {
     Json asset = gltf_asset("bplod", mesh.provenance, UpAxis::y, {}, name_of(Contract::tile));
     asset["extras"]["tile_origin"] = tile_origin;
@@ -161,7 +162,7 @@ class GlbBuilder {
     if (named.mesh->triangles.empty()) fail(ErrorCode::bad_argument, "{}: the mesh has no triangle", named.name);
   }
 
-  /// positions(order): adds the accessor of the vertices in this order, and returns its number.
+  /// Adds a mesh. add_positions(order): adds the accessor of the vertices in this order, and returns its number.
   template <class AddPositions>
   void add_mesh(const NamedMesh& named, const AddPositions& add_positions) {
     const LatticeMesh& mesh = *named.mesh;
@@ -204,7 +205,8 @@ class GlbBuilder {
         bytes, 4, {{"componentType", kGltfUint8}, {"normalized", true}, {"count", bytes.size() / 4}, {"type", "VEC4"}});
   }
 
-  /// Of the copies in `order`; 16-bit integers for [0, 1] where the mesh is compressed: a 16th of a texel.
+  /// Returns the texture coordinates of the copies in `order`. If the mesh is compressed: 16-bit integers for [0, 1], a
+  /// 16th of a texel.
   [[nodiscard]] std::string uv_bytes(const ShadedMesh& mesh, const std::vector<std::uint32_t>& order) const {
     std::string bytes;
     if (mesh.uv.empty()) return bytes;
@@ -225,7 +227,7 @@ class GlbBuilder {
     return data_.add_attributes(bytes, data_.is_compressed() ? 4 : 8, std::move(accessor));
   }
 
-  /// Its number.
+  /// Adds a material; returns its number.
   std::size_t add_material(const LatticeMesh& mesh) {
     if (!mesh.texture) {
       if (!plain_material_) {
@@ -247,7 +249,7 @@ class GlbBuilder {
     return materials_.size() - 1;
   }
 
-  /// Its number; none without an image.
+  /// Adds a texture; returns its number; none without an image.
   std::optional<std::size_t> add_texture(const std::string& image, const std::string& type) {
     if (image.empty()) return {};
     const std::size_t number = json()["textures"].size();
@@ -265,7 +267,7 @@ class GlbBuilder {
   std::optional<std::size_t> plain_material_;
 };
 
-/// Of all meshes of a file: they stand together.
+/// Returns the offset for all meshes of a file, which stand together.
 std::optional<Vec3d> offset_of(std::span<const NamedMesh> all, const Vec3d& origin) {
   std::vector<const LatticeMesh*> meshes;
   for (const NamedMesh& named : all) {

@@ -6,50 +6,47 @@
 #include "io/mesh/mesh_writer.h"
 #include "lib/mesh/lattice_mesh.h"
 
-/// Levels of detail as GLB, without loss: a reader that works in double finds frame.world(v) exactly, in scene units
-/// and without a transform of the node as a rule (mesh_writer.h). Same meshes, same bytes; the caller commits.
-/// Vertices have normals and are split at creases (shaded_mesh.h), and there is one matte material, so that viewers
-/// show the form without set-up. A mesh with colours gets them as COLOR_0: 8 bits a channel, normalized, linear light
-/// as glTF wants it. The options' origin is subtracted from every vertex and told in asset.extras.origin; normals
-/// are always written.
-/// All throw bad_argument if a mesh has no triangle or spans more than float32 holds exactly (at least 2^19 voxels), or
-/// if a difference to the origin is no exact double.
+/// Levels of detail as GLB, without loss: a reader that works in double finds frame.world(v) exactly, in scene units,
+/// and mostly without a transform of the node (mesh_writer.h). Same meshes, same bytes; the caller commits. Vertices
+/// have normals and are split at creases (shaded_mesh.h), and there is one matte material, so that viewers show the
+/// form at once. The colours of a mesh become COLOR_0: 8 bits a channel, normalized, linear light as glTF wants it. The
+/// options' origin is subtracted from every vertex and noted in asset.extras.origin; normals are always written. All
+/// functions throw bad_argument if a mesh has no triangle or spans more than float32 holds exactly (at least 2^19
+/// voxels), or if a difference to the origin is no exact double.
 namespace bp {
 
 struct NamedMesh {
-  std::string name;  ///< of its node and mesh
+  std::string name;  ///< name of its node and mesh
   const LatticeMesh* mesh = nullptr;
 };
 
-/// All levels, finest first, in one file: the finest one's node is the scene's first and only one, and carries MSFT_lod
-/// (Microsoft, glTF extension registry) with the others and their screen coverages; readers without it see the finest,
-/// if they read what the scene names (Blender imports every node).
+/// Writes all levels, finest first, to one file. The node of the finest level is the only one of the scene; it has
+/// MSFT_lod (Microsoft, glTF extension registry) with the others and their screen coverages. Readers without that
+/// extension show the finest level, if they read only the nodes of the scene (Blender imports every node).
 ///   coverage  one for each level: the least share of the screen's area, covered by the level's bounding sphere, at
-///   which
-///             it is drawn; falling
+///             which it is drawn; falling
 void write_lod_glb(std::span<const NamedMesh> levels, std::span<const double> coverage, OutputFile& out,
                    const MeshWriteOptions& options = {});
 
-/// All meshes as nodes of one scene.
+/// Writes all meshes as nodes of one scene.
 void write_parts_glb(std::span<const NamedMesh> parts, OutputFile& out, const MeshWriteOptions& options = {});
 
-/// How contents of tiles are stored: with EXT_meshopt_compression and KHR_mesh_quantization, or as plain float32, which
+/// The storage of tiles' contents: with EXT_meshopt_compression and KHR_mesh_quantization, or as plain float32, which
 /// every viewer reads without a decoder.
 enum class TileCompression { meshopt, none };
 
-/// The content of a tile, as the bytes of a GLB. Compressed, positions are 16-bit integers where these hold the mesh,
-/// else float32, and normals are octahedral, 8 bits. The node has a scale and no offset:
-/// vertices are relative to `origin` (asset.extras.tile_origin), which the tile's transform gives back, in double. A
-/// z-up mesh is turned to glTF's y up, which 3D Tiles turns back; unlike in other files of ours, extras.up does not ask
-/// a reader to.
+/// Returns the content of a tile, as the bytes of a GLB. Compressed, positions are 16-bit integers if these hold the
+/// mesh, else float32, and normals are octahedral, 8 bits. The node has a scale and no offset: vertices are relative to
+/// `origin` (asset.extras.tile_origin), which the tile's transform adds again, in double. A z-up mesh is turned to
+/// glTF's y up, which 3D Tiles turns back; unlike in other files of this suite, extras.up does not ask a reader to.
 [[nodiscard]] std::string tile_glb(const NamedMesh& tile, LatticeCoord origin,
                                    TileCompression compression = TileCompression::meshopt);
 
-/// The lattice point of `frame` that lies at `p`. Throws `failed` if there is none.
+/// Returns the lattice point of `frame` that lies at `p`. Throws `failed` if there is none.
 [[nodiscard]] LatticeCoord lattice_point(const GridFrame& frame, const Vec3d& p);
 
-/// What the share of a 1920 x 1080 screen is that a sphere covers when a length of `error` inside it, `diameter` being
-/// its own, spans one pixel; at most 1.
+/// Returns the share of a 1920 x 1080 screen that a sphere covers when a length of `error` in it spans one pixel;
+/// `diameter`: the sphere's. At most 1.
 [[nodiscard]] double coverage_at_one_pixel(double diameter, double error);
 
 }  // namespace bp

@@ -18,7 +18,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "binary formats are written in place");
 
-/// a - b, and whether it is exact.
+/// A difference a - b, and whether it is exact.
 struct Difference {
   double value;
   bool exact;
@@ -37,7 +37,7 @@ std::string text_of(const Vec3d& p, const char* between = " ") {
   return text_of(p[0]) + between + text_of(p[1]) + between + text_of(p[2]);
 }
 
-/// The multiple of a voxel nearest to `p`: subtracting it from a lattice point is exact.
+/// Returns the multiple of a voxel nearest to `p`; subtracting it from a lattice point is exact.
 Vec3d rounded_to_voxels(const GridFrame& frame, const Vec3d& p) {
   Vec3d rounded;
   for (std::size_t i = 0; i < 3; ++i) rounded[i] = std::nearbyint(p[i] / frame.voxel) * frame.voxel + 0.0;
@@ -72,7 +72,7 @@ void check_floats(const LatticeMesh& mesh, const WorldVertices& vertices, const 
   }
 }
 
-/// Bytes of plain values, gathered before they go out.
+/// Gathers the bytes of plain values before they are written.
 class Bytes {
  public:
   explicit Bytes(OutputFile& out) : out_(out) {}

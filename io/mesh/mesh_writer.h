@@ -2,36 +2,26 @@
 #include <string>
 
 #include "io/files/file.h"
-#include "io/mesh/contract.h"
+#include "io/mesh/mesh_write_options.h"
 #include "lib/mesh/lattice_mesh.h"
 
-/// Meshes to files, without loss: read back, each vertex is exactly frame.world(v) - origin, or the write is refused.
-///   .glb .gltf  POSITION is in scene units, and the node has no transform, if float32 holds each vertex. Else the node
-///               has a translation, or, for meshes of very many voxels, a scale, too: exact in double
+/// Writes meshes to files, without loss: read back, each vertex is exactly frame.world(v) - origin, or the write is
+/// refused.
+///   .glb .gltf  POSITION is in scene units, and the node has no transform, if float32 holds each vertex. If not,
+///               the node has a translation, or, for meshes of very many voxels, a scale, too: exact in double
 ///               (detail/gltf_place.h). A frame that is not y-up is turned, in the positions (lib/core/up_axis.h);
 ///               asset.extras.up tells which axis was up.
-///   .ply        binary little endian, doubles    .obj  decimals that read back to the same double
-///   .obj and .ply hold the quads of mesh.quads as such, after the triangles that are left; the others hold triangles
+///   .ply        binary little endian, doubles
+///   .obj        decimals that read back to the same double
 ///   .stl        binary, float32: only if each coordinate is a float
+/// .obj and .ply hold the quads of mesh.quads as quads, after the other triangles; the other formats hold triangles.
 namespace bp {
 
-enum class MeshFormat { glb, gltf, ply, obj, stl };
-
-struct MeshWriteOptions {
-  Vec3d origin{};        ///< scene units, subtracted from each vertex; each difference must be an exact double
-  bool normals = false;  ///< write unit vertex normals, weighted by angle; STL has none
-  std::optional<Contract> contract{};  ///< what the file is to claim of itself; STL has no place for it
-};
-/// The name of the contract; empty: none.
-[[nodiscard]] inline std::string contract_name(const MeshWriteOptions& options) {
-  return options.contract ? name_of(*options.contract) : "";
-}
-
-/// Format by extension, case ignored. Throws bad_argument for any other.
+/// Returns the format of a file name's extension, case ignored. Throws bad_argument for any other.
 [[nodiscard]] MeshFormat mesh_format_of(const std::string& path);
 
-/// Before there is a mesh: throws bad_argument, naming an origin that fits, if subtracting `origin` from lattice points
-/// of `box` would round.
+/// Throws bad_argument, with an origin that fits, if subtracting `origin` from lattice points of `box` would round. To
+/// be called before there is a mesh.
 void check_origin(const GridFrame& frame, const VoxelBox& box, const Vec3d& origin);
 
 /// Writes `mesh`; the caller commits `out`. Same mesh, same bytes.

@@ -8,7 +8,8 @@ namespace bp {
 
 namespace {
 
-/// Vertices of the mesh, so that it stays closed; with colours, one for each copy, which has one colour.
+/// Writes vertices. Without colours: those of the mesh, so that it stays closed. With colours: one for each copy, which
+/// has one colour.
 void write_vertices(const LatticeMesh& mesh, const ShadedMesh& drawn, OutputFile& out, const Vec3d& origin) {
   const auto line = [&](std::uint32_t v, const std::string& rest) {
     const Vec3d p = moved_exactly(mesh.frame, mesh.frame.world(mesh.vertices[v]), origin);
@@ -34,7 +35,7 @@ void write_obj_level(const LatticeMesh& mesh, const std::string& name, const std
   if (!materials.empty()) out.write("mtllib " + materials + "\n");
   out.write("o " + name + "\n");
   write_vertices(mesh, drawn, out, options.origin);
-  for (const auto& p : drawn.uv) out.write(fmt::format("vt {:.7g} {:.7g}\n", p[0], 1 - double(p[1])));  // from below
+  for (const auto& p : drawn.uv) out.write(fmt::format("vt {:.7g} {:.7g}\n", p[0], 1 - double(p[1])));  // v from below
   for (const auto& n : drawn.normals) out.write(fmt::format("vn {:.4f} {:.4f} {:.4f}\n", n[0], n[1], n[2]));
   if (!materials.empty()) out.write("usemtl " + name + "\n");
   for (const auto& t : drawn.triangles) {

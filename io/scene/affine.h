@@ -9,12 +9,12 @@
 
 namespace bp {
 
-/// A sum in double, from left to right, and a bound of what rounding has changed: 0 if it is exact. The error of a
-/// product is a double, unless it underflows, and so is that of a sum.
+/// A sum in double, from left to right, and a bound on its rounding: 0 if it is exact. The error of a product is a
+/// double, unless it underflows, and so is that of a sum.
 struct RoundedSum {
   double value = 0, off = 0;
 
-  /// `off_a`: a may be off by so much.
+  /// Adds a * b. `off_a`, `off_b`: bounds on the errors of a and b.
   void add_product(double a, double off_a, double b, double off_b) {
     const double product = a * b;
     off += std::abs(std::fma(a, b, -product)) + std::abs(a) * off_b + off_a * (std::abs(b) + off_b);
@@ -26,18 +26,18 @@ struct RoundedSum {
     off += std::abs((value - (sum - part)) + (x - part));
     value = sum;
   }
-  /// With the rounding of the bound itself.
+  /// Returns the bound, with the rounding of the bound itself.
   [[nodiscard]] double bound() const { return off * (1 + 0x1p-40); }
 };
 
-/// A point, and how far it may be off along each axis.
+/// A point, and a bound on its error along each axis.
 struct PlacedPoint {
   Vec3d point{};
   double off = 0;
 };
 
-/// How far each number of a 3 x 4 matrix may be off. Scenes have many transforms, and most of them are exact: these
-/// take a pointer for it.
+/// Bounds on the errors of a 3 x 4 matrix's numbers. Scenes have many transforms, and most of them are exact: these
+/// take only a pointer.
 class MatrixBounds {
  public:
   MatrixBounds() = default;
@@ -65,20 +65,20 @@ class MatrixBounds {
   std::unique_ptr<Numbers> all_;  // null: all are 0
 };
 
-/// Affine map of points, in double: rows of a 3 x 4 matrix. A product of scale and translation alone applies exactly
+/// An affine map of points, in double: rows of a 3 x 4 matrix. A product of scale and translation alone applies exactly
 /// wherever the result is a double, since the terms of the other axes are zeros.
 struct Affine {
   std::array<std::array<double, 4>, 3> m{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
-  /// How far each number may be from that of the map that a file describes. Products keep account of it.
+  /// Bounds on the difference of each number from that of the map that a file describes. Products keep them up to date.
   MatrixBounds off{};
 
-  /// All numbers may be off by this share of them.
+  /// Adds this share of each number to the bounds.
   void blur(double share) {
     for (std::size_t i = 0; i < 3; ++i) {
       for (std::size_t j = 0; j < 4; ++j) off.add(i, j, share * std::abs(m[i][j]));
     }
   }
-  /// As operator(), of a point that may be off by `off_p` along each axis.
+  /// As operator(), for a point with an error of at most `off_p` along each axis.
   [[nodiscard]] PlacedPoint place(const Vec3d& p, double off_p) const {
     PlacedPoint out;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -96,7 +96,7 @@ struct Affine {
             ((m[1][0] * p[0] + m[1][1] * p[1]) + m[1][2] * p[2]) + m[1][3],
             ((m[2][0] * p[0] + m[2][1] * p[1]) + m[2][2] * p[2]) + m[2][3]};
   }
-  /// First b, then a.
+  /// Returns the map that applies b, then a.
   friend Affine operator*(const Affine& a, const Affine& b) {
     Affine product;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -113,7 +113,7 @@ struct Affine {
     }
     return product;
   }
-  /// Of a surface's normal, of any length; the outside stays outside.
+  /// Maps a surface's normal, of any length; it still points outwards.
   [[nodiscard]] Vec3d normal(const Vec3d& n) const {
     const double sign = mirrors() ? -1 : 1;
     Vec3d out{};
@@ -124,7 +124,7 @@ struct Affine {
     }
     return out;
   }
-  /// True if it turns the outside of a mesh into its inside.
+  /// Returns true if the map turns the outside of a mesh into its inside.
   [[nodiscard]] bool mirrors() const {
     return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
                m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]) <
@@ -132,7 +132,7 @@ struct Affine {
   }
 };
 
-/// Exact.
+/// Returns the exact map of a turn.
 [[nodiscard]] inline Affine affine_of(const AxisTurn& turn) {
   Affine a;
   a.m = {};
@@ -140,8 +140,8 @@ struct Affine {
   return a;
 }
 
-/// Translation after rotation (a quaternion x y z w of any length but 0) after scale. A quaternion that turns nothing
-/// leaves all numbers exact; of others a number of the rotation has some 10 roundings, of terms up to 2.
+/// Returns translation after rotation (a quaternion x y z w of any length but 0) after scale. A quaternion without
+/// rotation leaves all numbers exact; otherwise a number of the rotation has some 10 roundings, of terms up to 2.
 [[nodiscard]] inline Affine affine_of(const Vec3d& t, const std::array<double, 4>& q, const Vec3d& s) {
   const double x = q[0], y = q[1], z = q[2], w = q[3], square = x * x + y * y + z * z + w * w;
   const double two = square > 0 ? 2 / square : 0;

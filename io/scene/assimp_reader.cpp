@@ -20,11 +20,11 @@
 #include "io/scene/instanced_scene.h"
 #include "lib/core/error.h"
 
-// Every format that has no reader of its own, through Assimp. Its importers are not made for broken files (they crash,
-// loop, or take all memory), so they run in a child process. The child leaves each mesh once in a scratch file, as
-// packed positions and triangles, and sends back the places where the meshes stand.
-// Its memory goes with it; from there on the scene is streamed as glTF is. No step of postprocessing: polygons become
-// triangles as everywhere, points and lines are dropped, and node transforms are composed in double.
+// Reads every format without a reader of its own, through Assimp. Its importers are not made for broken files (they
+// crash, loop, or take all memory), so they run in a child process. The child writes each mesh once to a scratch file,
+// as packed positions and triangles, and sends back the places of the meshes. Its memory ends with it; from there on
+// the scene is streamed as glTF is. No postprocessing is used: polygons become triangles as in all readers, points and
+// lines are dropped, and node transforms are composed in double.
 
 namespace bp {
 
@@ -38,23 +38,24 @@ std::string remedy_for(const std::string& name) {
   return way.empty() ? "convert it to GLB, PLY or OBJ" : way;
 }
 
-constexpr std::uint64_t kAnswerCopies = 4;  // of what the child sends, and what is made of it
+constexpr std::uint64_t kAnswerCopies = 4;  // the answer is copied: as bytes, and as the description that is made of it
 
-/// Assimp takes some 20 times the size of a file; this allows twice as much. Of what a document may take, the answer
-/// gets a quarter once the child is gone.
+/// Returns the limits of the child. Assimp takes some 20 times the size of a file; this allows twice as much. The
+/// answer gets a quarter of the document's memory once the child is gone.
 ChildLimits limits_for(std::uint64_t file_bytes, const MemoryShare& budget) {
   ChildLimits limits;
   limits.memory_bytes = std::min(kMaxMemoryBytes, (std::uint64_t(1) << 30) + 40 * file_bytes);
   limits.cpu_seconds = 5 + file_bytes / 50000;
-  limits.wall_seconds = 600 + 4 * limits.cpu_seconds;  // a machine may have other things to do
+  limits.wall_seconds = 600 + 4 * limits.cpu_seconds;  // a busy machine needs more time
   if (budget.bytes == 0) return limits;
   limits.memory_bytes = std::min(limits.memory_bytes, budget.bytes);
   limits.answer_bytes = budget.bytes / kAnswerCopies;
   return limits;
 }
 
-/// Memory of an importer for each byte of a file, about: what a refusal names must suffice. Measured with files of
-/// loose triangles, 8 to 31 MB: 7 for AC3D, 11 for COLLADA, 8 for DXF. Others: as above.
+/// Returns about how many bytes an importer takes for each byte of a file: the limit that a refusal names must suffice.
+/// Measured with files of loose triangles, 8 to 31 MB: 7 for AC3D, 11 for COLLADA, 8 for DXF. For others see
+/// limits_for().
 std::uint64_t bytes_per_byte(const std::string& extension) {
   if (extension == "dae") return 16;
   return extension == "ac" || extension == "acc" || extension == "ac3d" ? 8 : 20;
@@ -83,7 +84,7 @@ std::string importer_of(const std::string& extension) {
 
 class SceneUnloader {
  public:
-  /// `exact`: what is known better than Assimp knows it; may be null.
+  /// `exact`: lists that are known better than Assimp knows them; may be null.
   SceneUnloader(ScratchFile& scratch, const SceneOptions& options, const ExactScene* exact)
       : scratch_(scratch),
         exact_(exact),
@@ -136,7 +137,7 @@ bool SceneUnloader::see_through(const aiMesh& mesh, const aiScene& scene) {
          scene.mMaterials[mesh.mMaterialIndex]->Get(AI_MATKEY_OPACITY, opacity) == aiReturn_SUCCESS && opacity < 1;
 }
 
-// One that is passed over keeps its number, and has no triangles.
+// Adds a mesh. A mesh that is left out keeps its number, and has no triangles.
 void SceneUnloader::add_mesh(const aiMesh& mesh, const ExactMesh* exact, bool passed_over) {
   MeshRecord record;
   record.vertices = mesh.mNumVertices;
@@ -147,7 +148,7 @@ void SceneUnloader::add_mesh(const aiMesh& mesh, const ExactMesh* exact, bool pa
   summary_.meshes.push_back(record);
 }
 
-// Of the mesh that was added last.
+// Writes the positions of the mesh that was added last.
 void SceneUnloader::add_positions(const aiMesh& mesh, const ExactMesh* exact) {
   static_assert(sizeof(aiVector3D) == 3 * sizeof(float), "positions are written as they lie");
   MeshRecord& record = summary_.meshes.back();
@@ -157,7 +158,7 @@ void SceneUnloader::add_positions(const aiMesh& mesh, const ExactMesh* exact) {
                                                      : std::as_bytes(std::span(mesh.mVertices, mesh.mNumVertices)));
 }
 
-// Of the mesh that was added last. Where a format knows no materials, Assimp invents a grey one.
+// Writes the colours of the mesh that was added last. For formats without materials, Assimp invents a grey one.
 void SceneUnloader::add_colors(const aiMesh& mesh, const aiScene& scene) {
   static_assert(sizeof(aiColor4D) == 4 * sizeof(float), "colours are written as they lie");
   MeshRecord& record = summary_.meshes.back();
@@ -170,7 +171,7 @@ void SceneUnloader::add_colors(const aiMesh& mesh, const aiScene& scene) {
   if (material.Get(AI_MATKEY_COLOR_DIFFUSE, c) == aiReturn_SUCCESS) record.base_color = {c.r, c.g, c.b};
 }
 
-// Points and lines are no bad faces: a drawing is full of them.
+// Adds a face. Points and lines do not count as bad faces: drawings are full of them.
 void SceneUnloader::add_face(const aiFace& face, const aiMesh& mesh, const ExactMesh* exact,
                              std::vector<std::uint32_t>& indices) {
   if (face.mNumIndices < 3) return;
@@ -201,7 +202,7 @@ void SceneUnloader::add_nodes(const aiScene& scene) {
     stack.pop_back();
     if (next.exact != nullptr && !is_rounded(*next.exact, *next.node)) {
       next.exact = nullptr;
-      if (exact_->knows_nodes) ++summary_.unfollowed.transforms;  // once for all nodes below
+      if (exact_->knows_nodes) ++summary_.unfollowed.transforms;  // counted once for all nodes below
     }
     const Affine transform = next.parent * (next.exact != nullptr ? next.exact->transform : rounded_affine(*next.node));
     if (has_bones) places.add(*next.node, transform);
@@ -213,7 +214,7 @@ void SceneUnloader::add_nodes(const aiScene& scene) {
   follow_bones(scene, places);
 }
 
-/// Assimp knows too little of COLLADA's morph targets; a reader of our own has counted them.
+/// Assimp knows too little of COLLADA's morph targets; read_collada_nodes() has counted them.
 void SceneUnloader::follow_bones(const aiScene& scene, const BonePlaces& places) {
   const bool knows_morphs = exact_ != nullptr && exact_->knows_nodes;
   for (NodeRecord& node : summary_.nodes) {
@@ -228,7 +229,8 @@ void SceneUnloader::follow_bones(const aiScene& scene, const BonePlaces& places)
   }
 }
 
-/// None of another format. Throws bad_alloc without room for it: memory must not decide what is read.
+/// Reads a format that has an exact reader; none for others. Throws bad_alloc without room for it: memory must not
+/// decide what is read.
 std::optional<ExactScene> read_exactly(const SceneFile& file, const std::string& extension) {
   const bool collada = extension == "dae", ac3d = extension == "ac" || extension == "acc" || extension == "ac3d";
   if (!collada && !ac3d) return {};
@@ -245,7 +247,7 @@ std::string import(const SceneFilePtr& file, const std::string& extension, Scrat
                      std::equal(suffix.rbegin(), suffix.rend(), path.rbegin(),
                                 [](char a, char b) { return a == (b >= 'A' && b <= 'Z' ? char(b + 32) : b); });
   const std::string name = named ? path : path + suffix;
-  std::string parts;  // outlives the importer
+  std::string parts;  // must outlive the importer
   const std::optional<ExactScene> exact = read_exactly(*file, extension);
   if (exact && exact->unread != nullptr)
     fail(ErrorCode::bad_input, "{}: {}; export it as glTF (GLB)", file->name(), exact->unread);
@@ -255,9 +257,10 @@ std::string import(const SceneFilePtr& file, const std::string& extension, Scrat
   const aiScene* const scene = importer.ReadFile(name, 0);
   if (scene == nullptr) {
     const std::string_view why = importer.GetErrorString();
-    const bool known_xml = extension == "dae" && exact;  // if Assimp calls it malformed, its parser had no memory
+    // If Assimp calls a known XML malformed, its parser had no memory.
+    const bool known_xml = extension == "dae" && exact;
     if (why.find("bad_alloc") != why.npos || (known_xml && why.find("malformed XML") != why.npos))
-      throw std::bad_alloc();  // it was caught
+      throw std::bad_alloc();  // Assimp has caught it
     fail(ErrorCode::bad_input, "{}: cannot be read: {}; repair it, or {}", file->name(), importer.GetErrorString(),
          remedy_for(file->name()));
   }

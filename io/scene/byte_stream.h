@@ -14,13 +14,13 @@ class ByteStream {
   [[nodiscard]] std::uint64_t offset() const { return begin_ + cur_; }
   [[nodiscard]] std::uint64_t remaining() const { return file_->size() - std::min(file_->size(), offset()); }
 
-  /// The next n <= kMaxTake bytes, valid until the next call. Throws bad_input if the file ends before them.
+  /// Returns the next n <= kMaxTake bytes, valid until the next call. Throws bad_input if the file ends before them.
   const std::byte* take(std::size_t n) {
     if (n > end_ - cur_) refill(n);
     cur_ += n;
     return buffer_.get() + cur_ - n;
   }
-  /// Throws bad_input if the file ends before n bytes.
+  /// Skips n bytes. Throws bad_input if the file ends before them.
   void skip(std::uint64_t n);
   [[noreturn]] void fail_truncated() const;
   [[nodiscard]] const SceneFile& file() const { return *file_; }

@@ -24,7 +24,7 @@ bool holds(const std::array<std::string_view, N>& endings, const std::string& en
   return std::find(endings.begin(), endings.end(), ending) != endings.end();
 }
 
-/// Where the ending begins, with its dot; the end if there is none.
+/// Returns the position of the ending, with its dot; the end if there is none.
 std::size_t dot_of(const std::string& path) {
   const std::size_t dot = path.find_last_of("./");
   return dot == std::string::npos || path[dot] != '.' ? path.size() : dot;

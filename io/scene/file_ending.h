@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-/// What the name of a file that is to be written promises.
+/// The kind of file that the name of an output promises.
 namespace bp {
 
 enum class FileKind {
@@ -20,11 +20,11 @@ struct FileEnding {
   [[nodiscard]] bool is(FileKind asked) const { return kind == asked; }
 };
 
-/// The ending of a name; a packer's (.gz, .zst) is passed over: "nii" for a.nii.gz.
+/// Returns the ending of a name. The ending of a packer (.gz, .zst) is skipped: "nii" for a.nii.gz.
 [[nodiscard]] FileEnding file_ending_of(const std::string& path);
 
-/// The name with another ending instead of its own and a packer's: "a.bpv" for a.nii.gz. Without any if `ending` is
-/// empty.
+/// Returns the name with another ending instead of its own and a packer's: "a.bpv" for a.nii.gz; without any if
+/// `ending` is empty.
 [[nodiscard]] std::string with_ending(const std::string& path, const std::string& ending);
 
 }  // namespace bp

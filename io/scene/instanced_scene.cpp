@@ -61,7 +61,7 @@ std::uint64_t decode_index(const std::byte* from, ComponentType type) {
   }
 }
 
-/// The bytes for vertices that the scene's description leaves.
+/// Returns the bytes that the scene's description leaves for vertices.
 std::uint64_t cache_bytes(const InstancedScene& scene, const SceneOptions& options) {
   const std::uint64_t described = scene.memory_bytes();
   if (options.document.bytes == 0) return options.memory_bytes;
@@ -73,14 +73,14 @@ std::uint64_t cache_bytes(const InstancedScene& scene, const SceneOptions& optio
   return std::min(options.memory_bytes, 2 * options.memory_bytes - described);
 }
 
-/// Elements of accessors, read through one cache.
+/// Reads elements of accessors through one cache.
 class ElementReader {
  public:
-  /// A small file has a small cache: of a tileset's contents, thousands are opened in a run.
+  /// A small file gets a small cache: thousands of a tileset's contents are opened in a run.
   ElementReader(const SceneFilePtr& file, std::uint64_t budget)
       : cache_(file, std::min(budget, file->size() + 8 * BlockCache::kBlockBytes)) {}
 
-  /// Bytes of element i in `raw`, or false where it is zeros.
+  /// Reads the bytes of element i into `raw`; returns false if it is zeros.
   bool fetch(const Accessor& a, std::uint64_t i, std::byte* raw) {
     const std::size_t size = bytes_of(a.type) * a.components;
     const std::uint64_t at = replacement(a, i);
@@ -105,7 +105,7 @@ class ElementReader {
     std::byte raw[8];
     return fetch(a, i, raw) ? decode_index(raw, a.type) : 0;
   }
-  /// Plain packed indices [first, first + n), n at most a cache block of them.
+  /// Reads the packed indices [first, first + n); n at most a cache block of them.
   void indices(const Accessor& a, std::uint64_t first, std::size_t n, std::vector<std::uint64_t>& out) {
     out.resize(n);
     const std::size_t size = bytes_of(a.type);
@@ -118,7 +118,7 @@ class ElementReader {
   }
 
  private:
-  /// Position of element i among the replaced ones, or replaced_count.
+  /// Returns the position of element i among the replaced ones, or replaced_count.
   std::uint64_t replacement(const Accessor& a, std::uint64_t i) {
     std::uint64_t lo = 0, hi = a.replaced_count;
     while (lo < hi) {
@@ -219,21 +219,21 @@ class InstancedSource final : public RawSource {
 
   InstancedScene scene_;
   ElementReader elements_;
-  // Where the stream stands.
+  // The position of the stream.
   std::size_t node_ = 0;
   std::uint64_t instance_ = 0;
   std::uint32_t primitive_ = 0;
-  bool open_ = false;  // the members below are those of this primitive in this instance
+  bool open_ = false;  // the members below belong to this primitive in this instance
   std::uint64_t triangle_ = 0, triangles_ = 0, first_index_ = 0;
   Affine transform_;
-  bool mirrored_ = false, stays_ = true;  // its transform does; it moves nothing
+  bool mirrored_ = false, stays_ = true;  // the transform mirrors; it moves nothing
   std::vector<std::uint64_t> window_;     // indices from window_begin_ on
   std::uint64_t window_begin_ = 0;
   std::uint64_t instances_ = 0;
   Rounding rounding_;
 };
 
-// Finds the next primitive that holds triangles, through instances and nodes.
+// Finds the next primitive with triangles, through instances and nodes.
 bool InstancedSource::enter_primitive() {
   while (!open_) {
     if (node_ == scene_.nodes.size()) return false;
@@ -270,7 +270,7 @@ void InstancedSource::place() {
   stays_ = transform_.m == Affine().m && !transform_.off.any();
 }
 
-/// Integers that stand for [-1, 1] are divided, which rounds once.
+/// Returns a placed vertex. Integers that stand for [-1, 1] are divided, which rounds once.
 PlacedPoint InstancedSource::placed(const Primitive& p, std::uint64_t vertex) {
   const Vec3d point = elements_.vector<3>(p.positions, vertex);
   double off = p.positions.off;
@@ -324,7 +324,7 @@ void InstancedSource::add_triangle(std::vector<TriangleD>& out, std::vector<Tria
     off = std::max(off, placed_corner.off);
     for (const double x : triangle[k]) largest = std::max(largest, std::abs(x));
   }
-  // A share that is no more than a few roundings of the numbers themselves says most about other triangles.
+  // A bound of no more than a few roundings of the numbers themselves comes mostly from other triangles.
   if (off > 0) rounding_.see(off, largest, std::max(0x1p-50, 4 * p.positions.share));
   out.push_back(triangle);
   if (colors != nullptr) colors->push_back({color_of(p, corner[0]), color_of(p, corner[1]), color_of(p, corner[2])});

@@ -9,11 +9,11 @@
 #include "io/scene/part_names.h"
 #include "io/scene/raw_source.h"
 
-// Wavefront OBJ: the lines "v" and "f"; a free-form surface ("surf") counts as a face that cannot be read, and
-// everything else is passed over; if colours or walls are asked for, "usemtl" and "mtllib" too, and the three numbers
-// after a vertex' position (an extension of many programs). One pass streams faces while the vertices before them
-// collect in the pool. A face that names a vertex further down makes the rest of the vertices load at once, so that
-// "there is no such vertex" is never said too early.
+// Wavefront OBJ: the lines "v" and "f". A free-form surface ("surf") counts as a face that cannot be read; everything
+// else is skipped. If colours or walls are asked for, "usemtl" and "mtllib" are read, too, and the three numbers after
+// a vertex' position (an extension of many programs). One pass streams faces while the vertices before them are added
+// to the pool. A face that names a later vertex makes all other vertices load at once, so that a vertex is called
+// missing only if the file does not have it.
 
 namespace bp {
 
@@ -59,8 +59,8 @@ class ObjSource final : public PolygonSource {
     names_ = {};
   }
 
-  /// Consumes the keyword: 'v', 'f', 'l', 'o' or 'g' if that is all of it, 't' for "vt", 'n' for "vn", 's' for "surf",
-  /// 'u' for "usemtl" and 'm' for "mtllib", 0 for any other, comments included.
+  /// Consumes the keyword. Returns 'v', 'f', 'l', 'o' or 'g' for these words, 't' for "vt", 'n' for "vn", 's' for
+  /// "surf", 'u' for "usemtl" and 'm' for "mtllib", 0 for any other, comments included.
   static char keyword(TextScanner& text);
   [[nodiscard]] bool is_wanted() const { return parts_.takes_all() || fits_.object || fits_.group || fits_.material; }
   void read_vertex(TextScanner& text);
@@ -80,9 +80,9 @@ class ObjSource final : public PolygonSource {
   SceneFilePtr file_;
   TextScanner text_;
   VertexPool pool_;
-  std::optional<VertexPool> vertex_colors_;                    // if asked for; up to the last vertex that has one
-  std::optional<VertexPool> places_;                           // "vt" lines, if asked for
-  std::optional<VertexPool> normals_;                          // "vn" lines, if asked for
+  std::optional<VertexPool> vertex_colors_;  // if colours are asked for; up to the last vertex that has one
+  std::optional<VertexPool> places_;         // "vt" lines, if asked for
+  std::optional<VertexPool> normals_;        // "vn" lines, if asked for
   std::vector<std::uint64_t> corner_places_, corner_normals_;  // of the face; kNoVertex: none
   std::shared_ptr<TextureTable> textures_;
   MtlMaterials materials_;
@@ -94,13 +94,14 @@ class ObjSource final : public PolygonSource {
   const PartFilter parts_;
   struct {
     bool object = false, group = false, material = false;
-  } fits_;  // parts_, of what the next faces belong to
+  } fits_;  // which names of the next faces fit parts_
   struct {
-    std::string part, material;  // of the last line "o" or "g": a group in an object says more; of "usemtl"
+    // Part: name of the last line "o" or "g", of which a group in an object tells more; material: of "usemtl".
+    std::string part, material;
   } names_;
-  bool passed_over_ = false;                                     // faces of the current material
-  std::uint64_t seen_ = 0, seen_places_ = 0, seen_normals_ = 0;  // "v", "vt" and "vn" lines of this pass
-  std::uint64_t lines_ = 0;                                      // "l" lines of this pass
+  bool passed_over_ = false;                                     // faces of the current material are left out
+  std::uint64_t seen_ = 0, seen_places_ = 0, seen_normals_ = 0;  // lines "v", "vt" and "vn" of this pass
+  std::uint64_t lines_ = 0;                                      // lines "l" of this pass
   bool all_loaded_ = false;                                      // the pool holds every vertex of the file
 };
 
@@ -158,7 +159,7 @@ void ObjSource::read_vertex(TextScanner& text) {
   if (vertex_colors_) read_vertex_color(text);
 }
 
-// A single number more is the weight of a rational curve's point.
+// Reads a vertex's colour. A single number after the position is the weight of a rational curve's point.
 void ObjSource::read_vertex_color(TextScanner& text) {
   Vec3d rgb;
   for (double& c : rgb) {
@@ -169,7 +170,7 @@ void ObjSource::read_vertex_color(TextScanner& text) {
   has_colors_ = true;
 }
 
-/// Numbers that are missing are 0.
+/// Reads a vector; missing numbers are 0.
 void ObjSource::read_vector(TextScanner& text, std::size_t numbers, VertexPool& pool) {
   Vec3d v{};
   for (std::size_t i = 0; i < numbers; ++i) {
@@ -207,8 +208,8 @@ void ObjSource::use_material(char key, const std::string& name) {
   has_colors_ = has_colors_ || material_ != kWhite;
 }
 
-/// If the materials do not fit, those of files named further down are counted, too, so that the message has the right
-/// number.
+/// Loads a file of materials. If the materials do not fit, those of files named later are counted, too, so that the
+/// message has the right number.
 void ObjSource::load_materials(const std::string& name) {
   materials_.load(file_->path(), name);
   if (materials_.fit()) return;
@@ -219,7 +220,7 @@ void ObjSource::load_materials(const std::string& name) {
   materials_.refuse();
 }
 
-// A line "g" may name several groups.
+// Takes a name. A line "g" may name several groups.
 void ObjSource::use_name(char key, const std::string& name) {
   if (key == 'o') fits_.object = parts_.fits(name);
   if (key == 'u') fits_.material = parts_.fits(name);
@@ -230,7 +231,7 @@ void ObjSource::use_name(char key, const std::string& name) {
   for (std::string word; words >> word;) fits_.group = parts_.fits(word) || fits_.group;
 }
 
-/// The part has the name of its group or object, else of its material.
+/// Notes the part of a face: named by its group or object, else by its material.
 void ObjSource::note_part(const std::vector<std::uint64_t>& corners) {
   for (const std::uint64_t corner : corners) {
     if (corner >= vertex_count()) return;
@@ -241,7 +242,7 @@ void ObjSource::note_part(const std::vector<std::uint64_t>& corners) {
   }
 }
 
-// Corners are "v", "v/vt", "v//vn", "v/vt/vn", with any of the later numbers missing.
+// Reads corners: "v", "v/vt", "v//vn", "v/vt/vn"; later numbers may be missing.
 void ObjSource::read_corners(std::vector<std::uint64_t>& corners) {
   corners.clear();
   corner_places_.clear();
@@ -259,20 +260,21 @@ void ObjSource::read_corners(std::vector<std::uint64_t>& corners) {
   }
 }
 
-/// Many good files lack the last line's end: only with a face that cannot be whole does it tell that more is missing.
+/// Checks a face on a last line without a line end. Many good files lack that end: only a face that cannot be whole
+/// tells that the file was cut off.
 void ObjSource::check_last_line(const std::vector<std::uint64_t>& corners) {
   if (!text_.at_end()) return;
   const bool whole = std::all_of(corners.begin(), corners.end(), [&](std::uint64_t i) { return i < pool_.size(); });
   if (corners.size() < 3 || !whole) text_.fail_here("the file ends in the middle of its data; it is truncated");
 }
 
-/// Of a number in a line "f" that counts lines so far, from 1, or backwards; kNoVertex: none.
+/// Returns the number of a line that a face names: counted from 1, or backwards from `seen` lines; kNoVertex: none.
 std::uint64_t ObjSource::number_before(std::int64_t index, std::uint64_t seen) {
   if (index == 0 || index < -std::int64_t(seen) || index > std::int64_t(seen)) return kNoVertex;
   return index > 0 ? std::uint64_t(index) - 1 : seen - std::uint64_t(-index);
 }
 
-/// What follows the number of a vertex: its place in the image and its normal must stand further up.
+/// Reads the numbers after a vertex: its place in the image and its normal, which must stand further up.
 void ObjSource::read_corner_place() {
   corner_places_.push_back(kNoVertex);
   if (normals_) corner_normals_.push_back(kNoVertex);
@@ -294,7 +296,8 @@ std::uint64_t ObjSource::resolve(std::int64_t index) {
   return i;
 }
 
-// An earlier pass that was cut short may have left the pool ahead of this one: those vertices are not read twice.
+// Loads all later vertices. An earlier pass that was cut short may have left the pool ahead of this one: those vertices
+// are not read twice.
 void ObjSource::load_ahead() {
   std::uint64_t known = pool_.size() - seen_;
   TextScanner ahead(file_, text_.mark());

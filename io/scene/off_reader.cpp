@@ -38,7 +38,7 @@ class OffSource final : public PolygonSource {
 
   TextScanner text_;
   VertexPool pool_;
-  TextScanner::Mark start_;  // of the faces
+  TextScanner::Mark start_;  // start of the faces
   std::uint64_t vertices_ = 0, faces_ = 0, face_ = 0;
 };
 
@@ -86,7 +86,7 @@ void OffSource::read_header() {
   text_.next_line();  // the count of edges may be missing
 }
 
-// Each number takes two characters at least; the last one may lack its line end.
+// Throws if the file is too short: each number takes at least two characters; the last one may lack its line end.
 void OffSource::check_room(std::uint64_t count, std::uint64_t bytes, const char* what) {
   if (count > (text_.remaining() + 1) / bytes) {
     text_.fail_here("the header promises {} {}, but only {} bytes follow; the file is truncated", count, what,

@@ -4,17 +4,18 @@
 #include <set>
 #include <string>
 
-#include "io/scene/name_pattern.h"
+#include "io/files/name_pattern.h"
 #include "lib/core/coords.h"
 
 namespace bp {
 
-/// Names of the parts of a scene, without those that would make it too much: files may hold millions.
+/// Names of the parts of a scene, up to a limit: files may hold millions.
 struct PartNames {
   static constexpr std::size_t kMostBytes = std::size_t(1) << 20;
   std::set<std::string> names;
   bool complete = true;
-  /// Asks for the parts that hold a triangle like this, by one name each. Empty: asks for all names.
+  /// Returns whether a triangle is asked for: parts that hold such a triangle are noted, by one name each. Empty: all
+  /// names are noted.
   std::function<bool(const TriangleD&)> of_triangle;
 
   void add(const std::string& name) {
@@ -28,7 +29,7 @@ struct PartNames {
   std::size_t bytes_ = 0;
 };
 
-/// Asks whether names fit SceneOptions::parts, and notes all of them.
+/// Tells whether names fit SceneOptions::parts, and notes all names.
 class PartFilter {
  public:
   PartFilter(std::string pattern, std::shared_ptr<PartNames> met)
@@ -39,9 +40,9 @@ class PartFilter {
     if (met_ && !asks_for_triangles()) met_->add(name);
     return fits_pattern(name, pattern_);
   }
-  /// PartNames::of_triangle is there: the reader calls note() for each part and its triangles.
+  /// Returns whether PartNames::of_triangle is set: then the reader calls note() for each part and its triangles.
   [[nodiscard]] bool asks_for_triangles() const { return met_ != nullptr && met_->of_triangle != nullptr; }
-  /// Notes the part of this name if it holds such a triangle. Returns whether it does.
+  /// Notes the part of this name if the triangle is asked for; returns whether it is.
   bool note(const std::string& name, const TriangleD& triangle) const {
     const bool holds = met_->of_triangle(triangle);
     if (holds) met_->add(name);

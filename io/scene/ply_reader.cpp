@@ -7,10 +7,10 @@
 #include "io/scene/raw_source.h"
 
 // PLY (Turk 1994), ASCII and binary of both byte orders. Elements other than vertex, face and tristrips, and properties
-// other than x, y, z and the vertex lists, are passed over; if colours are asked for, red, green and blue of vertices
-// and faces are not. Vertices of a binary file whose records have one size are not loaded at all: they are read where
-// they stand, through a block cache. Elements may come in any order. Files as most programs write them are read faster
-// by detail/packed_ply.h.
+// other than x, y, z and the vertex lists, are skipped; if colours are asked for, red, green and blue of vertices and
+// faces are read, too. Vertices of a binary file whose records have one size are not loaded at all: they are read in
+// place, through a block cache. Elements may come in any order. Files as most programs write them are read faster by
+// detail/packed_ply.h.
 
 namespace bp {
 
@@ -20,7 +20,7 @@ namespace {
 class Strip {
  public:
   void restart() { length_ = 0; }
-  /// True if `corner` closes the triangle now in `corners`.
+  /// Adds a corner; returns true if it closes the triangle now in `corners`.
   bool add(std::uint64_t corner, std::vector<std::uint64_t>& corners) {
     const bool closes = length_ >= 2;
     if (closes && length_ % 2 == 0) corners.assign({a_, b_, corner});
@@ -84,16 +84,16 @@ class PlySource final : public PolygonSource {
   std::uint64_t vertex_count_ = 0;
   std::unique_ptr<PlyPackedVertices> packed_;
   std::unique_ptr<VertexPool> pool_;
-  std::optional<PlyColors> vertex_numbers_;           // if colours are asked for and there
-  std::unique_ptr<PlyPackedVertices> packed_colors_;  // as packed_
-  std::unique_ptr<VertexPool> color_pool_;            // as pool_
-  std::optional<PlyColors> face_numbers_;             // of the element now being read
-  LinearColor face_color_;                            // of the last face
-  typename Cursor::Mark start_{};                     // of the first element with faces
-  std::size_t first_ = kNone;                         // its number
-  std::size_t element_ = 0;                           // now being read
-  std::uint64_t record_ = 0;                          // of that element
-  std::uint64_t strip_left_ = 0;                      // indices of the open strip
+  std::optional<PlyColors> vertex_numbers_;           // set if colours are asked for and present
+  std::unique_ptr<PlyPackedVertices> packed_colors_;  // colours, in place as packed_
+  std::unique_ptr<VertexPool> color_pool_;            // colours, in memory as pool_
+  std::optional<PlyColors> face_numbers_;             // colours of the current element
+  LinearColor face_color_;                            // colour of the last face
+  typename Cursor::Mark start_{};                     // position of the first element with faces
+  std::size_t first_ = kNone;                         // number of that element
+  std::size_t element_ = 0;                           // the current element
+  std::uint64_t record_ = 0;                          // the next record of that element
+  std::uint64_t strip_left_ = 0;                      // indices left in the open strip
   Strip strip_;
 };
 
@@ -115,7 +115,7 @@ void PlySource<Cursor>::find_parts(const SceneFilePtr& file, const SceneOptions&
       skip_element(element);
     }
   }
-  if (first_ == kNone) first_ = header_.elements.size();  // points only
+  if (first_ == kNone) first_ = header_.elements.size();  // the file has points only
 }
 
 template <class Cursor>
@@ -203,7 +203,7 @@ bool PlySource<Cursor>::next_face(std::vector<std::uint64_t>& corners) {
     if (record_ == 0 && strip_left_ == 0) cursor_.check_count(element);
     if (record_ == 0 && has_colors_) face_numbers_ = PlyColors::of(element);
     if (list == kNone) {
-      if (holds_faces(element)) this->bad_faces_ += element.count;  // of a kind that is not read
+      if (holds_faces(element)) this->bad_faces_ += element.count;  // faces of a kind that is not read
       skip_element(element);
     } else if (element.name == "face" && record_ < element.count) {
       ++record_;
@@ -239,7 +239,7 @@ void PlySource<Cursor>::read_face(const PlyElement& element, std::size_t list, s
   cursor_.end_record();
 }
 
-// One triangle at a time: a strip may be as long as the file.
+// Reads one triangle at a time: a strip may be as long as the file.
 template <class Cursor>
 bool PlySource<Cursor>::next_of_strip(const PlyElement& element, std::size_t list,
                                       std::vector<std::uint64_t>& corners) {
@@ -272,7 +272,7 @@ RawSourcePtr open_ply(SceneFilePtr file, const SceneOptions& options) {
   PlyHeader header = read_ply_header(file);
   if (header.format == PlyHeader::Format::ascii)
     return std::make_unique<PlySource<PlyAsciiCursor>>(file, options, std::move(header));
-  const bool colors = options.colors && ply_has_colors(header);  // those the other one does not know
+  const bool colors = options.colors && ply_has_colors(header);  // the packed reader knows no colours
   if (RawSourcePtr packed = colors ? nullptr : open_packed_ply(file, options, header)) return packed;
   return std::make_unique<PlySource<PlyBinaryCursor>>(file, options, std::move(header));
 }

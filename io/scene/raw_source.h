@@ -1,30 +1,34 @@
 #pragma once
 #include "io/scene/affine.h"
 #include "io/scene/scene_file.h"
-#include "io/scene/scene_reader.h"
+#include "io/scene/scene_options.h"
+#include "lib/core/indexed_mesh.h"
+#include "lib/core/triangle_source.h"
 #include "lib/exact/polygon_cut.h"
 
-/// What each format implements: triangles as they stand in the file, nothing dropped but faces that name no corners.
+/// The interface of every format's reader: triangles as they are in the file; only faces without existing corners are
+/// dropped.
 namespace bp {
 
-/// Triangles on their way from a file.
+/// A batch of triangles being read from a file.
 struct RawBatch {
-  bool colored = false, textured = false;  ///< asked for; textures only along with colours
+  bool colored = false, textured = false;  ///< what is asked for; textures only together with colours
   std::vector<TriangleD> triangles;
-  std::vector<TriangleColors> colors;     ///< if asked for; fewer than triangles: all are white
-  std::vector<TriangleTexture> textures;  ///< if asked for; fewer than triangles: the rest has none
-  std::vector<std::uint8_t> inner_edges;  ///< TriangleSource::read_faces(); fewer than triangles: the rest has none
-  std::vector<std::byte> bytes;           ///< that complete() will make them of
-  std::vector<std::byte> vertices;        ///< memory of complete(), to be used again
-  std::uint64_t records = 0, count = 0;   ///< faces in `bytes`, and their triangles if all are good
-  std::uint64_t bad_faces = 0;            ///< met by complete()
+  std::vector<TriangleColors> colors;     ///< if asked for; if there are fewer than triangles, all are white
+  std::vector<TriangleTexture> textures;  ///< if asked for; if there are fewer than triangles, the others have none
+  /// TriangleSource::read_faces(); if there are fewer than triangles, the others have none.
+  std::vector<std::uint8_t> inner_edges;
+  std::vector<std::byte> bytes;          ///< complete() makes triangles of them
+  std::vector<std::byte> vertices;       ///< buffer of complete(), kept for later batches
+  std::uint64_t records = 0, count = 0;  ///< faces in `bytes`, and their triangles if all faces are good
+  std::uint64_t bad_faces = 0;           ///< found by complete()
 };
 
-/// What a file says that may change what a viewer shows of it, and that no reader here follows; a line each.
+/// Content of a file that may change what a viewer shows and that no reader here follows; a line each.
 struct UnreadParts {
-  std::vector<std::string> moves;        ///< may move or hide its triangles, or put others in their place
-  std::vector<std::string> see_through;  ///< may let an eye through them
-  bool has_holes = false;                ///< images may cut holes into them
+  std::vector<std::string> moves;        ///< may move or hide its triangles, or replace them
+  std::vector<std::string> see_through;  ///< may make its triangles transparent
+  bool has_holes = false;                ///< images may cut holes into its triangles
 };
 
 class RawSource {
@@ -32,7 +36,7 @@ class RawSource {
   static constexpr std::size_t kBatch = 1 << 14;  ///< triangles per read(), about
 
   virtual ~RawSource() = default;
-  /// Replaces `out` by the next triangles; false, and `out` empty, at the end.
+  /// Replaces `out` by the next triangles; returns false, and `out` empty, at the end.
   virtual bool read(std::vector<TriangleD>& out) = 0;
   /// As TriangleSource::read_colored() and has_colors().
   virtual bool read_colored(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors) {
@@ -42,7 +46,7 @@ class RawSource {
   }
   [[nodiscard]] virtual bool has_colors() const { return false; }
   [[nodiscard]] virtual bool has_textures() const { return false; }
-  /// The same in two steps, so that many batches are decoded at once: next() fetches one, in order, on one thread at a
+  /// Reads in two steps, so that many batches are decoded at once: next() fetches a batch, in order, on one thread at a
   /// time; complete() makes its triangles, on any thread. A batch may turn out to hold no triangle.
   virtual bool next(RawBatch& batch) {
     batch.bad_faces = 0;
@@ -57,27 +61,30 @@ class RawSource {
   [[nodiscard]] virtual std::uint64_t posed() const { return 0; }        ///< SceneCounts::posed
   [[nodiscard]] virtual std::uint64_t differing() const { return 0; }    ///< SceneCounts::differing
   [[nodiscard]] virtual Unfollowed unfollowed() const { return {}; }     ///< SceneCounts::unfollowed
-  [[nodiscard]] virtual UnreadParts unread() const { return {}; }        ///< of contents of tiles; others tell nothing
-  [[nodiscard]] virtual Rounding rounding() const { return {}; }         ///< SceneCounts::rounding, of what was read
-  [[nodiscard]] virtual std::size_t levels() const { return 1; }    ///< of the file: SceneOptions::level is one of them
+  [[nodiscard]] virtual UnreadParts unread() const { return {}; }        ///< contents of tiles only
+  /// SceneCounts::rounding of the triangles read so far.
+  [[nodiscard]] virtual Rounding rounding() const { return {}; }
+  /// Levels of the file: SceneOptions::level is one of them.
+  [[nodiscard]] virtual std::size_t levels() const { return 1; }
   [[nodiscard]] virtual std::uint64_t points() const { return 0; }  ///< vertices read so far, where they are counted
   [[nodiscard]] virtual std::uint64_t lines() const { return 0; }   ///< elements met, where they are counted
   [[nodiscard]] std::uint64_t bad_faces() const {
     return bad_faces_;
-  }  ///< since the last rewind; not those of complete()
+  }  ///< since the last rewind, without those of complete()
 
  protected:
   std::uint64_t bad_faces_ = 0;
 };
 using RawSourcePtr = std::unique_ptr<RawSource>;
 
-/// The triangles of the polygon that was cut last, out of the places of its corners or of their number alone.
+/// Cuts a polygon into triangles, by the positions of its corners or by their number alone. Holds the polygon that was
+/// cut last.
 class FaceTriangles {
  public:
   /// fans: as SceneOptions::fans.
   explicit FaceTriangles(bool fans) : fans_(fans), places_(4) {}
 
-  /// place(k): of corner k of n, at least 3.
+  /// Cuts a polygon of n corners, at least 3. place(k): position of corner k.
   template <class Place>
   void cut(std::size_t n, const Place& place) {
     corners_ = n;
@@ -98,7 +105,7 @@ class FaceTriangles {
   [[nodiscard]] CutTriangle operator[](std::size_t i) const {
     return triangles_.empty() ? fan_triangle(i) : triangles_[i];
   }
-  /// The bits of triangle i for TriangleSource::read_faces().
+  /// Returns the bits of triangle i for TriangleSource::read_faces().
   [[nodiscard]] std::uint8_t inner_edges(std::size_t i) const {
     const bool first = i == 0, last = i + 3 == corners_;
     const int bits = (first ? 0 : kSamePolygonBefore) | (last ? 0 : kSamePolygonAfter);
@@ -106,7 +113,7 @@ class FaceTriangles {
     const auto [a, b, c] = triangles_[i];
     return std::uint8_t(bits | (follows(a, b) ? 0 : 1) | (follows(b, c) ? 0 : 2) | (follows(c, a) ? 0 : 4));
   }
-  /// place: as for cut(), for corners that are not kept here.
+  /// Returns a triangle's corners. place: as in cut(), for corners that are not kept here.
   template <class Place>
   [[nodiscard]] TriangleD places(const CutTriangle& t, const Place& place) const {
     if (!held_) return {place(t[0]), place(t[1]), place(t[2])};
@@ -120,14 +127,16 @@ class FaceTriangles {
   PolygonCutter cutter_;
   std::size_t corners_ = 2;
   bool held_ = false;                       // places_ are those of the polygon
-  std::vector<Vec3d> places_;               // at least as many as it has corners
+  std::vector<Vec3d> places_;               // at least one for each corner
   std::span<const CutTriangle> triangles_;  // empty: the fan
 };
 
-/// Formats whose faces are lists of vertex numbers. A format gives faces and vertices; they are checked and cut here.
+/// Base of formats whose faces are lists of vertex numbers. A format gives faces and vertices; they are checked and cut
+/// here.
 class PolygonSource : public RawSource {
  public:
-  static constexpr std::size_t kMaxCorners = std::size_t(1) << 20;  ///< of a face; more is taken for a broken file
+  /// Most corners of a face; a file with more is considered broken.
+  static constexpr std::size_t kMaxCorners = std::size_t(1) << 20;
 
   explicit PolygonSource(const SceneOptions& options) : cut_(options.fans) {}
 
@@ -142,21 +151,21 @@ class PolygonSource : public RawSource {
  protected:
   static constexpr std::uint64_t kNoVertex = ~std::uint64_t(0);
 
-  /// Replaces `corners` by those of the next face (kNoVertex for one that cannot exist); false at the end.
+  /// Replaces `corners` by those of the next face (kNoVertex for one that cannot exist); returns false at the end.
   virtual bool next_face(std::vector<std::uint64_t>& corners) = 0;
   [[nodiscard]] virtual std::uint64_t vertex_count() const = 0;
   [[nodiscard]] virtual Vec3d vertex(std::uint64_t i) = 0;
-  /// Of a corner of the face that next_face() gave last.
+  /// Returns the colour of a corner of the last face.
   [[nodiscard]] virtual LinearColor corner_color(std::uint64_t) { return kWhite; }
-  /// Of the face that next_face() gave last, and of its corner number k.
+  /// Return the material of the last face, and the texture coordinates of its corner k.
   [[nodiscard]] virtual std::uint32_t face_material() const { return TriangleTexture::kNoMaterial; }
   [[nodiscard]] virtual std::array<float, 2> corner_uv(std::size_t) { return {}; }
-  /// Of that corner, if SceneOptions::surface asked for them.
+  /// Returns the normal of that corner, if SceneOptions::surface asked for normals.
   [[nodiscard]] virtual PackedNormal corner_normal(std::size_t) { return 0; }
   virtual void rewind_faces() = 0;
 
  private:
-  /// `rest`: for textures, if it asks for them, and inner edges.
+  /// Reads triangles. `rest`: gets textures, if it asks for them, and inner edges.
   bool read(std::vector<TriangleD>& out, std::vector<TriangleColors>* colors, RawBatch* rest);
   bool open_face();
   void add_rest(RawBatch& rest, std::size_t triangle, const CutTriangle& corners);
@@ -164,33 +173,33 @@ class PolygonSource : public RawSource {
 
   std::vector<std::uint64_t> corners_;
   FaceTriangles cut_;
-  std::size_t next_ = 0, end_ = 0;  // triangles of the open face
+  std::size_t next_ = 0, end_ = 0;  // range of the open face's triangles
 };
 
-/// As open_scene().
+/// Filters a source as open_scene() does.
 [[nodiscard]] std::unique_ptr<TriangleSource> filtered(std::string name, RawSourcePtr raw, const SceneOptions& options);
 
-/// A triangle with its corners as the rest of the suite wants them (scene_reader.h): tiny and negative zeros are 0.
+/// Sets tiny coordinates and negative zeros to 0, as the other parts of the suite want them (scene_reader.h).
 void normalize(TriangleD& t);
-/// The same, but nothing moves: only negative zeros are 0.
+/// Sets only negative zeros to 0: nothing moves.
 void drop_signs_of_zeros(TriangleD& t);
 [[nodiscard]] bool is_finite(const TriangleD& t);
 
-/// As read_mesh(), from a source that is open.
+/// Reads a mesh as read_mesh(), from an open source.
 [[nodiscard]] IndexedMesh mesh_of(const std::string& name, RawSource& raw, const SceneOptions& options,
                                   SceneCounts& counts);
 
-/// Throws out_of_resource, with the figure, if `what` of a file takes more than `left` bytes: what is not held yet of
-/// SceneOptions::document. `later`: bytes that will be taken of it beside these; the limit that is named has room for
-/// them.
+/// Throws out_of_resource, with the figure, if `what` of a file takes more than `left` bytes: the part of
+/// SceneOptions::document that is still free. `later`: bytes that will be taken in addition; the limit in the error has
+/// room for them.
 void check_document(const SceneOptions& options, const std::string& name, const char* what, std::uint64_t bytes,
                     std::uint64_t left, std::uint64_t later = 0);
 
-/// Options that leave next to no memory for a description: opening refuses before it takes any, and the limit that the
-/// refusal names is for this description alone. For asking files what they take.
+/// Returns options that leave next to no memory for a description: opening then refuses before it takes any, and names
+/// the limit of this description alone. Used to ask files how much they take.
 [[nodiscard]] SceneOptions without_memory(SceneOptions options);
 
-/// Directory of scratch files.
+/// Returns the directory of scratch files.
 [[nodiscard]] std::string temp_dir_of(const SceneOptions& options);
 
 [[nodiscard]] RawSourcePtr open_ply(SceneFilePtr file, const SceneOptions& options);
@@ -198,20 +207,20 @@ void check_document(const SceneOptions& options, const std::string& name, const 
 [[nodiscard]] RawSourcePtr open_obj(SceneFilePtr file, const SceneOptions& options);
 [[nodiscard]] RawSourcePtr open_off(SceneFilePtr file, const SceneOptions& options);
 
-/// Where the content of a tile stands, and which of its axes is up.
+/// The place of a tile's content, and the axis that is up in it.
 struct ContentPlace {
   Affine tile;
   UpAxis up = UpAxis::y;
 };
-/// `place`: what extras.up says is not asked then.
+/// Opens a glTF. With `place`, extras.up is ignored.
 [[nodiscard]] RawSourcePtr open_gltf(SceneFilePtr file, const SceneOptions& options,
                                      const std::optional<ContentPlace>& place = {});
-/// A tileset of 3D Tiles: all contents of tiles that are added to, and of others those below which there are no tiles;
-/// of one of ours with leaves, these alone.
-/// z is up, as 3D Tiles has it, or what a tileset of ours says. One content is open at a time. Throws bad_input if
-/// contents are missing, or if tilesets name each other in a ring.
+/// Opens a tileset of 3D Tiles. Reads every tile with refine=ADD, and of REPLACE tiles only those without tiles below.
+/// If the tileset was made with `--leaves`, it reads the leaf contents only. z is up, as in 3D Tiles, or the axis that
+/// a tileset of this suite tells. One content is open at a time. Throws bad_input if contents are missing, or if
+/// tilesets name each other in a ring.
 [[nodiscard]] RawSourcePtr open_tileset(SceneFilePtr file, const SceneOptions& options);
-/// Any other format; `extension` (lower case) says which.
+/// Opens any other format; `extension` (lower case) tells which.
 [[nodiscard]] RawSourcePtr open_with_assimp(SceneFilePtr file, const std::string& extension,
                                             const SceneOptions& options);
 [[nodiscard]] bool assimp_reads(const std::string& extension);

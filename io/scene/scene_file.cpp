@@ -70,8 +70,8 @@ SceneFilePtr spool(InputFile& pipe, const std::string& temp_dir) {
 
 SceneFilePtr open_scene_file(const std::string& path, const std::string& temp_dir, NamedBy named_by) {
   auto file = std::make_unique<InputFile>(path, named_by);
-  keep_file(path);  // also what no list of a scene's parts holds
-  // A seekable stdin may stand anywhere in its file, so it is spooled from there as a pipe is.
+  keep_file(path);  // keeps it also if no list of a scene's parts has it
+  // A seekable stdin may be read from the middle of its file, so it is spooled from there as a pipe is.
   if (!file->seekable() || path == "-") return spool(*file, temp_dir);
   return std::make_shared<PlainFile>(std::move(file));
 }

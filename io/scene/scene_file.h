@@ -15,7 +15,7 @@ namespace bp {
 class SceneFile {
  public:
   virtual ~SceneFile() = default;
-  /// Up to buffer.size() bytes at `offset`; fewer only at the end. Thread-safe.
+  /// Reads up to buffer.size() bytes at `offset`; fewer only at the end. Thread-safe.
   virtual std::size_t read_at(std::uint64_t offset, std::span<std::byte> buffer) const = 0;
   [[nodiscard]] virtual std::uint64_t size() const = 0;
   [[nodiscard]] virtual std::string name() const = 0;            ///< for messages
@@ -27,19 +27,19 @@ using SceneFilePtr = std::shared_ptr<const SceneFile>;
 [[nodiscard]] SceneFilePtr open_scene_file(const std::string& path, const std::string& temp_dir,
                                            NamedBy named_by = NamedBy::user);
 
-/// Bytes of a scratch file that someone else appends to; `size` where another process did.
+/// Returns the bytes of a scratch file to which other code appends. `size`: set if another process does.
 [[nodiscard]] SceneFilePtr view_of(std::shared_ptr<const ScratchFile> scratch, const std::string& name,
                                    std::optional<std::uint64_t> size = {});
 
-/// `size` bytes at `offset` of `file`; the range need not exist, reads end where the file ends.
+/// Returns `size` bytes at `offset` of `file`. The range need not exist; reads end where the file ends.
 [[nodiscard]] SceneFilePtr part_of(SceneFilePtr file, std::uint64_t offset, std::uint64_t size);
 
-/// Files one behind the other in one address space, so that one cache serves them all.
+/// Files one after the other in one address space, so that one cache serves them all.
 class JoinedFile : public SceneFile {
  public:
-  /// Returns the address of the part's first byte.
+  /// Adds a part; returns the address of its first byte.
   std::uint64_t add(SceneFilePtr file);
-  /// Bytes within one part; the others may go.
+  /// Returns bytes within one part; the other parts may be freed.
   [[nodiscard]] SceneFilePtr part(std::uint64_t address, std::uint64_t size) const;
   std::size_t read_at(std::uint64_t offset, std::span<std::byte> buffer) const override;
   [[nodiscard]] std::uint64_t size() const override { return size_; }

@@ -23,11 +23,12 @@ namespace {
 
 constexpr std::uint64_t kMostJson = std::uint64_t(64) << 20;
 constexpr std::size_t kMostObj = std::size_t(64) << 10, kMostMtl = std::size_t(1) << 20;
-constexpr std::size_t kMostToken = std::size_t(16) << 10;  // bytes; a path has 4096, each of them may be %41
-constexpr std::size_t kMostNames = std::size_t(4) << 20;   // bytes of all names
+// Bytes; a path has up to 4096, each of which may be written as %41.
+constexpr std::size_t kMostToken = std::size_t(16) << 10;
+constexpr std::size_t kMostNames = std::size_t(4) << 20;  // bytes of all names
 constexpr std::size_t kMostDeep = 1000;
 
-/// The JSON in a range of a file, piece by piece. Long strings and numbers are cut: buffers lie in some.
+/// The JSON in a range of a file, piece by piece. Long strings and numbers are cut, since some hold buffers.
 class JsonBytes final : public std::streambuf {
  public:
   JsonBytes(const InputFile& file, std::uint64_t begin, std::uint64_t size)
@@ -50,9 +51,9 @@ class JsonBytes final : public std::streambuf {
   }
 
  private:
-  /// Whether c, which comes next, is not cut off.
+  /// Returns whether the next character, c, is kept.
   bool keeps(char c) {
-    const bool whole = escaped_ == 0 && (c & 0xC0) != 0x80;  // neither inside an escape nor inside a character
+    const bool whole = escaped_ == 0 && (c & 0xC0) != 0x80;  // c is neither inside an escape nor inside a character
     if (whole && (in_text_ ? c == '"' : std::strchr("\"[]{},: \t\r\n", c) != nullptr)) {
       in_text_ = !in_text_ && c == '"';
       cut_ = false;
@@ -74,8 +75,8 @@ class JsonBytes final : public std::streambuf {
   std::uint64_t at_, end_;
   std::string piece_;
   bool in_text_ = false, cut_ = false;
-  int escaped_ = 0;         // so many characters of an escape are to come
-  std::size_t length_ = 0;  // of the string or number
+  int escaped_ = 0;         // characters of an escape that are still to come
+  std::size_t length_ = 0;  // length of the string or number
 };
 
 /// Keeps buffers[].uri and images[].uri of a glTF document, and nothing else of it.
@@ -105,7 +106,7 @@ class UriCollector final : public nlohmann::json_sax<nlohmann::json> {
   bool number_float(double /*value*/, const std::string& /*text*/) override { return true; }
   bool binary(nlohmann::json::binary_t& /*value*/) override { return true; }
   bool parse_error(std::size_t /*at*/, const std::string& /*token*/, const nlohmann::json::exception&) override {
-    return false;  // what was named before stays
+    return false;  // the names found so far stay
   }
 
  private:
@@ -118,7 +119,7 @@ class UriCollector final : public nlohmann::json_sax<nlohmann::json> {
     return true;
   }
 
-  std::string open_;  // brackets around the place
+  std::string open_;  // brackets around the current place
   bool listed_ = false, uri_ = false;
   std::size_t bytes_ = 0;
 };
@@ -137,7 +138,7 @@ std::vector<std::string> named_by_gltf(const std::string& path) {
   return named_by_json(file, 0, file.size());
 }
 
-/// The first chunk holds the JSON.
+/// Returns the names in a GLB. The first chunk holds the JSON.
 std::vector<std::string> named_by_glb(const std::string& path) {
   const InputFile file(path);
   struct {
@@ -149,7 +150,7 @@ std::vector<std::string> named_by_glb(const std::string& path) {
   return named_by_json(file, sizeof head, head.size);
 }
 
-/// f(key, rest) for each line of a text file that has both.
+/// Calls f(key, rest) for each line of a text file that has both.
 template <class F>
 void for_each_line(const std::string& text, F&& f) {
   std::istringstream lines(text);
@@ -170,7 +171,8 @@ std::vector<std::string> named_by_obj(const std::string& text) {
   return names;
 }
 
-/// Options of a texture ("-s 1 1 1") stand before its name, which may have blanks: the whole, and its last word.
+/// Returns the names in an MTL. Options of a texture ("-s 1 1 1") stand before its name, which may have blanks: so the
+/// whole text and its last word are both tried.
 std::vector<std::string> named_by_mtl(const std::string& text) {
   std::vector<std::string> names;
   for_each_line(text, [&](const std::string& key, const std::string& rest) {
@@ -190,7 +192,7 @@ std::string head_of(const std::string& path, std::size_t bytes) {
   return text;
 }
 
-/// Of names in a file: their paths.
+/// Returns the paths of names in a file.
 std::vector<std::string> beside(const std::string& file, std::vector<std::string> names) {
   for (std::string& name : names) {
     if (!name.starts_with('/')) name.insert(0, folder_of(file) + "/");
@@ -198,7 +200,7 @@ std::vector<std::string> beside(const std::string& file, std::vector<std::string
   return names;
 }
 
-/// The same for names in an OBJ or MTL, which readers find by more than their letters.
+/// Returns the paths of names in an OBJ or MTL, which readers also find in other spellings (find_beside()).
 std::vector<std::string> found_beside(const std::string& file, std::vector<std::string> names) {
   for (std::string& name : names) name = find_beside(folder_of(file), name);
   return names;

@@ -7,7 +7,6 @@
 #include "io/scene/detail/foreign_format.h"
 #include "io/scene/detail/open_raw.h"
 #include "io/scene/detail/position_index.h"
-#include "io/scene/detail/scene_row.h"
 #include "io/scene/raw_source.h"
 #include "io/scene/scene_format.h"
 #include "io/scene/scene_pose.h"
@@ -23,7 +22,7 @@ bool in_predicate_domain(const TriangleD& t) {
   return bp::in_predicate_domain(t[0]) && bp::in_predicate_domain(t[1]) && bp::in_predicate_domain(t[2]);
 }
 
-/// Of a mesh read so far: counts the triangles that are left, too, so that the figure is known.
+/// Checks the limit for a mesh read so far. Counts all remaining triangles, so that the error has the right figure.
 void check_limit(const std::string& name, const MeshLimit& limit, std::uint64_t before, const IndexedMesh& mesh,
                  RawSource& raw, RawBatch& batch) {
   const std::uint64_t here = mesh.triangles.size();
@@ -34,13 +33,14 @@ void check_limit(const std::string& name, const MeshLimit& limit, std::uint64_t 
     raw.complete(batch);
     all += batch.triangles.size();
   }
-  const double vertices = double(mesh.vertices.size()) / double(here) * double(all);  // as many of each triangle
+  // The same number for each triangle.
+  const double vertices = double(mesh.vertices.size()) / double(here) * double(all);
   const std::uint64_t bytes = before + limit.needed(all, std::uint64_t(vertices));
   throw NeedsMemory(fmt::format("{}: {} {} triangles", name, limit.purpose, all), bytes, limit.memory.bytes,
                     limit.memory.limit_with(bytes - limit.memory.bytes));
 }
 
-/// `before`: bytes of levels that are in memory.
+/// Reads a mesh. `before`: bytes of levels that are in memory.
 IndexedMesh mesh_of(const std::string& name, RawSource& raw, const SceneOptions& options, std::uint64_t before,
                     SceneCounts& met) {
   const bool keep_extremes = options.keep_extremes;
@@ -76,8 +76,8 @@ IndexedMesh mesh_of(const std::string& name, RawSource& raw, const SceneOptions&
   return mesh;
 }
 
-/// Drops what has no area or no place, and counts it. Batches are decoded and sifted in parallel, some ahead of the
-/// caller.
+/// Drops and counts triangles without area or with coordinates that are not finite. Batches are decoded and sifted in
+/// parallel, some ahead of the caller.
 class FilteredScene final : public TriangleSource {
  public:
   FilteredScene(std::string name, RawSourcePtr raw, const SceneOptions& options)
@@ -130,7 +130,7 @@ class FilteredScene final : public TriangleSource {
  private:
   struct Batch {
     RawBatch raw;
-    SceneCounts counts;  // of its triangles
+    SceneCounts counts;  // counts of its triangles
   };
 
   static std::size_t batches_in(std::uint64_t memory_bytes) {
@@ -139,7 +139,7 @@ class FilteredScene final : public TriangleSource {
     return std::size_t(std::clamp<std::uint64_t>(memory_bytes / 2 / kBatchBytes, 1, wanted));
   }
 
-  /// Sets batch_ to the next one with triangles; false, and one without, at the end.
+  /// Sets batch_ to the next one with triangles; at the end returns false and sets an empty one.
   bool read_batch(bool colored, bool textured = false) {
     batch_ = &end_;
     end_.triangles.clear();
@@ -158,7 +158,7 @@ class FilteredScene final : public TriangleSource {
     counts_.differing = raw_->differing();
     counts_.unfollowed = raw_->unfollowed();
     counts_.rounding = raw_->rounding();
-    const SceneCounts& c = counts_;  // at the end; whoever names a file of points wants them enclosed
+    const SceneCounts& c = counts_;  // at the end; somebody who names a file of points wants them enclosed
     if (!some_parts_ && batch_->triangles.empty() && c.triangles + c.degenerate + c.non_finite + c.bad_faces == 0 &&
         raw_->points() + raw_->lines() > 0)
       refuse_points(name_, raw_->points(), raw_->lines());
@@ -186,7 +186,7 @@ class FilteredScene final : public TriangleSource {
     return ready_ > 0;
   }
 
-  /// No coordinate is zero, tiny, huge or NaN: nothing to normalize, nothing to find fault with.
+  /// Returns whether no coordinate is zero, tiny, huge or NaN: then nothing must be normalized or checked.
   static bool is_plain(const TriangleD& t) {
     bool plain = true;
     for (const Vec3d& p : t) {
@@ -210,7 +210,8 @@ class FilteredScene final : public TriangleSource {
         ++counts.non_finite;
         continue;
       }
-      // Beyond the domain no area can be told from none here; whoever wants extremes can.
+      // Beyond the domain of the predicates, whether there is area cannot be decided; a caller that keeps extremes can
+      // handle these.
       const bool degenerate = (plain || in_predicate_domain(t)) && is_degenerate(t);
       if (degenerate) ++counts.degenerate;
       if (degenerate && !keep_degenerate_) continue;
@@ -233,10 +234,10 @@ class FilteredScene final : public TriangleSource {
   bool keep_degenerate_, keep_extremes_, some_parts_;
   SceneCounts counts_;
   std::vector<Batch> batches_;
-  RawBatch end_;  // without triangles
+  RawBatch end_;  // an empty batch
   RawBatch* batch_ = &end_;
-  std::size_t next_ = 0, ready_ = 0;  // of batches_
-  std::uint64_t bad_faces_ = 0;       // met by complete()
+  std::size_t next_ = 0, ready_ = 0;  // range in batches_
+  std::uint64_t bad_faces_ = 0;       // found by complete()
 };
 
 }  // namespace
@@ -252,13 +253,6 @@ std::unique_ptr<TriangleSource> open_scene(const std::string& path, const SceneO
 void check_stdin_once(const std::vector<std::string>& paths) {
   if (std::count(paths.begin(), paths.end(), "-") > 1)
     fail(ErrorCode::bad_argument, "stdin (-) is named twice, and can be read once");
-}
-
-std::unique_ptr<TriangleSource> open_scenes(std::vector<std::string> paths, const SceneOptions& options) {
-  if (paths.empty()) fail(ErrorCode::bad_argument, "no scene was named; name a file, or - for stdin");
-  check_stdin_once(paths);
-  if (paths.size() == 1) return open_scene(paths[0], options);
-  return scene_row(std::move(paths), options);
 }
 
 IndexedMesh mesh_of(const std::string& name, RawSource& raw, const SceneOptions& options, SceneCounts& counts) {
@@ -280,7 +274,7 @@ std::vector<ScenePose> read_poses(const std::string& path, const SceneOptions& o
 }
 
 std::vector<IndexedMesh> read_levels(const std::string& path, const SceneOptions& options) {
-  const SceneFilePtr file = open_scene_or_mesh(path, options);  // stdin can be opened once
+  const SceneFilePtr file = open_scene_or_mesh(path, options);  // stdin can be opened only once
   std::vector<IndexedMesh> levels;
   SceneOptions one = options;
   std::size_t count = 1;
@@ -288,7 +282,7 @@ std::vector<IndexedMesh> read_levels(const std::string& path, const SceneOptions
   for (one.level = 0; one.level < count; ++one.level) {
     const RawSourcePtr raw = open_raw(file, path, one);
     count = raw->levels();
-    constexpr std::size_t kMost = 64;  // each of them is read by itself
+    constexpr std::size_t kMost = 64;  // each of them is read separately
     if (count > kMost) fail(ErrorCode::bad_input, "{}: {} levels, and at most {} are read", path, count, kMost);
     SceneCounts ignored;
     levels.push_back(mesh_of(path, *raw, one, bytes, ignored));

@@ -8,8 +8,9 @@
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 
-// STL, ASCII and binary. Many binary files start with "solid" too, so the size decides first: 84 bytes and 50 for each
-// of the triangles that bytes 80 to 83 promise. Only then words count: "solid", and a "facet" or an "endsolid" near by.
+// STL, ASCII and binary. Many binary files start with "solid", too, so the size decides first: 84 bytes and 50 for each
+// of the triangles that bytes 80 to 83 promise. Words count only after that: "solid", and a "facet" or an "endsolid"
+// near the start.
 
 namespace bp {
 
@@ -23,7 +24,7 @@ class BinaryStl final : public RawSource {
  public:
   BinaryStl(SceneFilePtr file, std::uint64_t triangles) : file_(std::move(file)), triangles_(triangles) {
     const std::uint64_t room = (file_->size() - kHeaderBytes) / kTriangleBytes;
-    if (triangles < room) {  // other readers go by the size
+    if (triangles < room) {  // other readers use the size
       fail(ErrorCode::bad_input, "{}: its header promises {} triangles, and it holds {}; the file is damaged",
            file_->name(), triangles, room);
     }
@@ -74,7 +75,7 @@ class BinaryStl final : public RawSource {
  private:
   static TriangleD decode(const std::byte* record) {
     float c[9];
-    std::memcpy(c, record + 12, sizeof c);  // behind the normal
+    std::memcpy(c, record + 12, sizeof c);  // after the normal
     return {{{c[0], c[1], c[2]}, {c[3], c[4], c[5]}, {c[6], c[7], c[8]}}};
   }
   void fetch(std::uint64_t first, RawBatch& batch) const {
@@ -108,7 +109,7 @@ class AsciiStl final : public RawSource {
 
   TextScanner text_;
   bool in_solid_ = false;
-  std::uint64_t corners_ = 0;  // of the open loop
+  std::uint64_t corners_ = 0;  // corners of the open loop
   Vec3d first_{}, previous_{};
 };
 
@@ -119,7 +120,7 @@ bool AsciiStl::read(std::vector<TriangleD>& out) {
       if (in_solid_) text_.fail_here("the file ends before 'endsolid'; it is truncated");
       break;
     }
-    // The word that stands in front of nearly all of the file is taken without a copy.
+    // The most frequent word of the file is compared without a copy.
     const std::string_view word = text_.word();
     if (word == "vertex") {
       read_vertex(out);
@@ -144,7 +145,7 @@ void AsciiStl::statement(std::string_view raw, std::vector<TriangleD>& out) {
     return;
   }
   if (word == "endfacet") return;
-  if (word == "solid" || word == "endsolid" || word == "color") {  // a name of any words follows
+  if (word == "solid" || word == "endsolid" || word == "color") {  // a name of any number of words follows
     if (word != "color") in_solid_ = word == "solid";
     return text_.next_line();
   }

@@ -13,7 +13,7 @@ namespace bp {
 
 namespace {
 
-constexpr std::uint64_t kMostBytes = std::uint64_t(512) << 20;  // of an image as it lies in its file
+constexpr std::uint64_t kMostBytes = std::uint64_t(512) << 20;  // of an encoded image
 
 template <class T>
 std::uint32_t number_of(const std::string& key, const T& value, std::map<std::string, std::uint32_t>& numbers,
@@ -36,7 +36,7 @@ std::vector<std::byte> bytes_of(const ImagePlace& place, std::uint64_t most) {
   return bytes;
 }
 
-/// Whether the image is other than in its file.
+/// Turns an image into directions; returns whether that changed it.
 bool make_directions(TextureImage& image, const Relief& relief) {
   if (is_grey(image)) {
     turn_into_directions(image, relief);

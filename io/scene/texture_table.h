@@ -10,43 +10,44 @@
 #include "io/scene/scene_file.h"
 #include "lib/core/texture.h"
 
-/// What readers of scenes say of images: where they are, and how materials show them. Images are decoded when asked
-/// for.
+/// The images that readers of scenes find: their places, and how materials show them. Images are decoded when they are
+/// needed.
 namespace bp {
 
-/// Bytes of a scene's own, or a file; neither: the image is missing.
+/// The place of an image: bytes within a scene, or a file; neither: the image is missing.
 struct ImagePlace {
-  std::string name;                   ///< for messages
-  SceneFilePtr bytes;                 ///< may be null
-  std::string path;                   ///< may be empty
-  std::optional<Relief> relief = {};  ///< heights if it is grey, else directions: it is given as directions, with its
-                                      ///< strength; of at most kMostRelief texels
+  std::string name;    ///< for messages
+  SceneFilePtr bytes;  ///< may be null
+  std::string path;    ///< may be empty
+  /// Heights if the image is grey, else directions. The image is delivered as directions with this strength; it may
+  /// have at most kMostRelief texels.
+  std::optional<Relief> relief = {};
 };
 
 /// The images of a table that cannot be shown.
 struct ImageFaults {
   std::size_t images = 0;
-  std::string first;  ///< "FILE: reason" of the first of them; empty if there is none
+  std::string first;  ///< "FILE: reason" for the first of them; empty if there is none
 };
 
 constexpr std::uint64_t kMostRelief = std::uint64_t(1) << 24;
 
 class TextureTable final : public TextureSet {
  public:
-  /// The number of the image, or the material, with this key; added if there is none yet. Not while others ask.
+  /// Return the number of the image, or the material, with this key, which is added if it is new. Not thread-safe.
   std::uint32_t add_image(const std::string& key, ImagePlace place);
   std::uint32_t add_material(const std::string& key, const TextureMaterial& material);
 
-  /// A texture that cannot be shown, why, and what is done instead.
+  /// Adds a fault: a texture that cannot be shown, the reason, and what is done instead.
   void add_fault(const std::string& fault) { faults_.insert(fault); }
   [[nodiscard]] const std::set<std::string>& faults() const { return faults_; }
 
-  /// Whether an image is there whose head can be read.
+  /// Returns whether there is an image whose head can be read.
   [[nodiscard]] bool has_images() const;
-  /// Why the head of an image cannot be read, as "FILE: reason"; empty if it can.
+  /// Returns why the head of an image cannot be read, as "FILE: reason"; empty if it can.
   [[nodiscard]] std::string fault_of(std::uint32_t i) const;
   [[nodiscard]] ImageFaults image_faults() const;
-  /// Of all image files together; those that are missing have none.
+  /// Returns the size of all image files together; missing ones count as 0.
   [[nodiscard]] std::uint64_t file_bytes() const;
   [[nodiscard]] const TextureMaterial& material(std::uint32_t i) const override { return materials_.at(i); }
   [[nodiscard]] std::uint32_t image_count() const override { return std::uint32_t(images_.size()); }
@@ -55,7 +56,7 @@ class TextureTable final : public TextureSet {
   [[nodiscard]] TextureImage image(std::uint32_t i, std::uint64_t most_bytes) const override;
 
  private:
-  /// Throws bad_input where size() gives zeros.
+  /// Returns the size; throws bad_input where size() returns zeros.
   [[nodiscard]] std::array<int, 2> size_in_file(std::uint32_t i) const;
   std::vector<ImagePlace> images_;
   std::vector<TextureMaterial> materials_;

@@ -15,7 +15,7 @@ static_assert(std::endian::native == std::endian::little, "words are stored as t
 
 namespace {
 
-/// Transposes 8 x 8 bytes; its own inverse.
+/// Transposes 8 x 8 bytes; it is its own inverse.
 void transpose_bytes(std::array<std::uint64_t, 8>& w) {
   const auto swap = [&w](std::size_t i, std::size_t distance, int shift, std::uint64_t mask) {
     const std::uint64_t t = ((w[i] >> shift) ^ w[i + distance]) & mask;

@@ -26,13 +26,13 @@ namespace {
 
 constexpr char kMagic[8] = {'b', 'p', 'r', 'e', 's', 'u', 'l', 1};
 
-/// Before the zstd frame. Little-endian, as all machines that we run on.
+/// The head before the zstd frame. Little-endian, as all machines that the suite runs on.
 struct Head {
   char magic[8];
   std::uint64_t key[2];
-  std::uint64_t size;      ///< of the result
-  std::uint64_t packed;    ///< of the frame
-  std::uint64_t check[2];  ///< XXH3-128 of all that is before, and of the frame
+  std::uint64_t size;      ///< size of the result
+  std::uint64_t packed;    ///< size of the frame
+  std::uint64_t check[2];  ///< XXH3-128 of all fields before, and of the frame
 };
 
 XXH128_hash_t check_of(const Head& head, std::span<const std::byte> frame) {
@@ -134,9 +134,9 @@ class FolderStore final : public ResultStore {
     return folder_ + "/" + hex.substr(0, 2) + "/" + hex.substr(2);
   }
 
-  /// A file without a name gets one when it is complete: nothing is left of it if the process is killed. False where
-  /// the file system has no such files, or where the name is taken. That file stays: another thread may just have put
-  /// it.
+  /// Writes a file without a name, and names it when it is complete: nothing remains if the process is killed. Returns
+  /// false if the file system has no such files, or if the name is taken. The file with that name stays: another thread
+  /// may just have put it.
   static bool put_unnamed(const std::string& place, const std::string& name, const Head& head,
                           std::span<const std::byte> packed) {
     const Descriptor file(::open(place.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666));
@@ -147,7 +147,7 @@ class FolderStore final : public ResultStore {
     return ::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
   }
 
-  /// Replaces what has the name, in one step: a damaged result, or another one.
+  /// Replaces the file of that name in one step: a damaged result, or another one.
   static void put_beside(const std::string& name, const Head& head, std::span<const std::byte> packed) {
     OutputFile file(name, true);
     file.write(std::as_bytes(std::span(&head, 1)));

@@ -13,7 +13,7 @@ namespace bp {
 namespace {
 
 constexpr int kLevel = 1;                   // scratch is written once and read once: speed counts
-constexpr std::uint64_t kIndexBytes = 100;  // one entry of the map, and its handle, about
+constexpr std::uint64_t kIndexBytes = 100;  // for each entry of the map, and its handle, about
 
 struct FreeCompressor {
   void operator()(ZSTD_CCtx* c) const { ZSTD_freeCCtx(c); }
@@ -83,10 +83,10 @@ class ZstdScratch final : public Scratch {
  private:
   struct Chunk {
     std::uint64_t size = 0, packed = 0, offset = 0;
-    std::vector<std::byte> data;  ///< empty: in the scratch file
+    std::vector<std::byte> data;  ///< empty: the bytes are in the scratch file
   };
 
-  /// Null: the bytes may stay in memory, and are counted.
+  /// Returns the scratch file for the bytes, or null if they may stay in memory, where they are counted.
   ScratchFile* reserve(std::uint64_t bytes) {
     const std::lock_guard lock(mutex_);
     if (used_ + bytes + (chunks_.size() + 1) * kIndexBytes <= memory_bytes_) {
@@ -96,7 +96,7 @@ class ZstdScratch final : public Scratch {
     if (!file_) file_ = std::make_unique<ScratchFile>(temp_dir_);
     return file_.get();
   }
-  /// The map never moves its elements.
+  /// Finds a chunk. The map never moves its elements.
   const Chunk& find(Handle handle) const {
     const std::lock_guard lock(mutex_);
     return chunks_.at(handle);

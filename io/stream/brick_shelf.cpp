@@ -17,9 +17,9 @@ namespace bp {
 
 namespace {
 
-constexpr std::size_t kPageBytes = 1024;   // of the scratch file; a compressed brick takes 1 to 33 of them
-constexpr std::uint64_t kIndexBytes = 80;  // one entry of the map, about
-constexpr std::uint64_t kLeastIndex = std::uint64_t(4) << 20;  // that every pool may have
+constexpr std::size_t kPageBytes = 1024;   // pages of the scratch file; a compressed brick takes 1 to 33 of them
+constexpr std::uint64_t kIndexBytes = 80;  // for each entry of the map, about
+constexpr std::uint64_t kLeastIndex = std::uint64_t(4) << 20;  // every pool may have this much
 
 void raise(std::atomic<std::uint64_t>& peak, std::uint64_t value) {
   std::uint64_t old = peak.load(std::memory_order_relaxed);
@@ -65,7 +65,7 @@ class PageFile {
     if (end_ + (pages.size() - old) > 0xffffffffu)
       fail(ErrorCode::out_of_resource, {Remedy::more_memory}, "the scratch file in {} would exceed 4 TiB", directory_);
     for (std::uint32_t& page : pages.subspan(old)) page = std::uint32_t(end_++);
-    std::sort(pages.begin(), pages.end());  // neighbours go in one call
+    std::sort(pages.begin(), pages.end());  // neighbouring pages go in one call
     return *file_;
   }
 
@@ -95,7 +95,7 @@ struct ShelfPool::State {
   PageFile pages;
   std::atomic<std::uint64_t> used{0}, peak{0}, entries{0};
 
-  /// Takes `bytes` unless that would bring the memory in use beyond `limit`.
+  /// Takes `bytes` unless the memory in use would exceed `limit`.
   bool try_take(std::uint64_t bytes, std::uint64_t limit) {
     std::uint64_t now = used.load();
     do {
@@ -104,7 +104,7 @@ struct ShelfPool::State {
     raise(peak, now + bytes);
     return true;
   }
-  /// Throws if the index leaves no room for another entry. Threads at work may add theirs beyond.
+  /// Throws if the index leaves no room for another entry. Threads at work may exceed it by theirs.
   void check_index() const {
     const std::uint64_t bytes = (entries + 1) * kIndexBytes;
     if (bytes <= budget + kLeastIndex) return;
@@ -120,7 +120,7 @@ struct ShelfPool::State {
     give_back(kIndexBytes);
   }
   void take(std::uint64_t bytes) { raise(peak, used.fetch_add(bytes) + bytes); }
-  /// True if the next brick may not fit, however it compresses.
+  /// Returns true if the next brick may not fit, however well it compresses.
   [[nodiscard]] bool crowded() const { return used + kIndexBytes + kPageBytes + detail::kBrickBytes > budget; }
   void give_back(std::uint64_t bytes) { used.fetch_sub(bytes); }
 };
@@ -133,7 +133,7 @@ enum class Place : std::uint8_t { none, raw, packed, spilled };
 struct Entry {
   BrickFill fill = BrickFill::full;
   Place place = Place::none;
-  std::uint32_t size = 0;  // compressed
+  std::uint32_t size = 0;  // compressed size
   std::unique_ptr<std::byte[]> data;
 
   [[nodiscard]] std::size_t page_count() const { return (size + kPageBytes - 1) / kPageBytes; }
@@ -206,7 +206,7 @@ class Shard {
     erase(pool, coord);
   }
 
-  /// Compresses one brick that lies raw in this shard; false if there is none.
+  /// Compresses one raw brick of this shard; returns false if there is none.
   bool pack_one(ShelfPool::State& pool) {
     if (raw_count_ == 0) return false;
     const std::lock_guard lock(mutex_);
@@ -254,7 +254,7 @@ class Shard {
     }
   }
 
-  /// The caller has taken the memory.
+  /// Keeps a compressed brick, whose memory the caller has taken.
   static void keep_packed(std::span<const std::byte> packed, Entry& entry) {
     entry.place = Place::packed;
     entry.size = std::uint32_t(packed.size());
@@ -270,7 +270,8 @@ class Shard {
     pool.take(entry.memory());
   }
 
-  /// raw_ may name bricks that are gone or named twice; it is made anew before it grows beyond twice the bricks.
+  /// Notes a raw brick. raw_ may name bricks that are gone, or name a brick twice; it is made anew before it grows
+  /// beyond twice the bricks.
   void remember_raw(BrickCoord coord) {
     if (raw_.size() > 2 * raw_count_.load() + 64) {
       raw_.clear();
@@ -318,7 +319,7 @@ class Shard {
   mutable std::shared_mutex mutex_;
   std::unordered_map<BrickCoord, Entry, CoordHash> entries_;
   std::vector<BrickCoord> raw_;
-  std::atomic<std::size_t> raw_count_{0};  // written under the lock
+  std::atomic<std::size_t> raw_count_{0};  // written only under the lock
 };
 
 class PooledShelf final : public BrickShelf {
@@ -347,12 +348,12 @@ class PooledShelf final : public BrickShelf {
   [[nodiscard]] std::uint64_t memory_bytes() const override { return pool_->used; }
 
  private:
-  // The top bits: the map inside uses the low ones.
+  // Uses the top bits, since the map inside uses the low ones.
   static std::size_t index(BrickCoord coord) { return CoordHash()(coord) >> 58; }
   Shard& shard(BrickCoord coord) { return shards_[index(coord)]; }
   [[nodiscard]] const Shard& shard(BrickCoord coord) const { return shards_[index(coord)]; }
 
-  /// Compresses what lies raw before anything is spilled. Takes one shard's lock at a time.
+  /// Compresses raw bricks before any brick is spilled. Takes one shard's lock at a time.
   void make_room() {
     if (!pool_->crowded()) return;
     for (Shard& shard : shards_) {

@@ -8,7 +8,7 @@
 /// Shelves: bricks that wait, in memory while they fit, then compressed, then on disk.
 namespace bp {
 
-/// What the shelves of one pool hold now, and held at most.
+/// The memory and scratch that the shelves of one pool use now, and used at most.
 struct ShelfUse {
   std::uint64_t memory_bytes = 0, peak_memory_bytes = 0;    ///< bricks and their index
   std::uint64_t scratch_bytes = 0, peak_scratch_bytes = 0;  ///< in the scratch file; its size is the peak
@@ -35,10 +35,10 @@ class ShelfPool {
   std::shared_ptr<State> state_;
 };
 
-/// One shelf with a budget of its own.
+/// Returns one shelf with a budget of its own.
 [[nodiscard]] std::unique_ptr<BrickShelf> make_shelf(std::uint64_t memory_bytes, const std::string& temp_dir);
 
-/// A factory of shelves that share one budget.
+/// Returns a factory of shelves that share one budget.
 [[nodiscard]] ShelfFactory make_shelf_factory(std::uint64_t memory_bytes, const std::string& temp_dir);
 
 }  // namespace bp

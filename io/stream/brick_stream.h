@@ -7,7 +7,7 @@
 #include "io/files/file.h"
 #include "lib/grid/stream.h"
 
-/// The brick stream: reader and writer of the format in docs/brick-stream.md.
+/// Reader and writer of the brick stream (docs/brick-stream.md).
 namespace bp {
 
 struct LayerTotals {
@@ -15,11 +15,12 @@ struct LayerTotals {
   friend bool operator==(const LayerTotals&, const LayerTotals&) = default;
 };
 
-/// What the end record says of a stream.
+/// The totals of a stream, as its end record has them.
 struct StreamTotals {
-  std::array<LayerTotals, 2> layers{};                ///< by Layer
-  std::uint64_t checksum_low = 0, checksum_high = 0;  ///< of the content: layer, coordinate and voxels of each brick
-  std::uint64_t bytes = 0;                            ///< of the stream; not part of the content
+  std::array<LayerTotals, 2> layers{};  ///< by Layer
+  /// Checksum of the content: layer, coordinate and voxels of each brick.
+  std::uint64_t checksum_low = 0, checksum_high = 0;
+  std::uint64_t bytes = 0;  ///< size of the stream; not part of the content
 
   [[nodiscard]] std::string checksum() const;  ///< 32 hexadecimal digits; independent of order, tiling, compression
   void add(const StreamTotals& t);             ///< counts and checksum of disjoint parts
@@ -27,7 +28,7 @@ struct StreamTotals {
 };
 
 /// Reads a stream, in one pass, some batches ahead in parallel. Checks everything: damage of any kind is bad_input with
-/// the byte offset and, where there is one, the brick. Memory: about 2 MiB for each thread, at most 20 MiB.
+/// the byte offset and, if there is one, the brick. Memory: about 2 MiB for each thread, at most 20 MiB.
 class BrickReader final : public BrickSource {
  public:
   explicit BrickReader(const std::string& path);  ///< "-" is stdin; reads the header
@@ -35,15 +36,16 @@ class BrickReader final : public BrickSource {
 
   [[nodiscard]] const StreamHeader& header() const override;
   bool read(Brick& out) override;
-  [[nodiscard]] const StreamTotals& totals() const;  ///< so far; all of it once read() returned false
+  [[nodiscard]] const StreamTotals& totals() const;  ///< totals so far; complete once read() has returned false
 
  private:
   struct State;
   std::unique_ptr<State> state_;
 };
 
-/// Writes a stream; the same bricks and header give the same bytes, whatever the threads. Memory as the reader's, and
-/// 24 bytes a slab. Call finish(), then commit the file. Throws `failed` if bricks come out of order or out of the box.
+/// Writes a stream; the same bricks and header give the same bytes, for any number of threads. Memory as the reader,
+/// and 24 bytes a slab. Call finish(), then commit the file. Throws `failed` if bricks come out of order or outside of
+/// the box.
 class BrickWriter final : public BrickSink {
  public:
   /// Writes the header. `level` is zstd's; 1 writes some 600 MB/s of bricks per core at 10 to 40 to 1, higher levels
@@ -53,7 +55,7 @@ class BrickWriter final : public BrickSink {
 
   void write(const Brick& brick) override;
   void finish() override;
-  [[nodiscard]] const StreamTotals& totals() const;  ///< after finish()
+  [[nodiscard]] const StreamTotals& totals() const;  ///< valid after finish()
 
  private:
   struct State;

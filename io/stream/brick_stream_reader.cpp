@@ -22,7 +22,7 @@ bool starts_with(std::span<const std::byte> bytes, std::string_view text) {
   return bytes.size() >= text.size() && std::memcmp(bytes.data(), text.data(), text.size()) == 0;
 }
 
-/// What a file that is none of ours looks like.
+/// Returns a description of a file that is no stream of this suite.
 std::string describe(std::span<const std::byte> head) {
   struct Kind {
     std::string_view start;
@@ -43,7 +43,7 @@ std::string describe(std::span<const std::byte> head) {
       {"BPVS", "a stream of voxels without its frame"},
       {"\x28\xb5\x2f\xfd", "a zstd file of something else"},
   };
-  constexpr std::size_t kWord = 4;  // fewer characters may be chance
+  constexpr std::size_t kWord = 4;  // a shorter run of letters may be chance
   for (const Kind& kind : kinds) {
     if (starts_with(head, kind.start)) return fmt::format("looks like {}, not a stream of voxels", kind.what);
   }
@@ -55,14 +55,14 @@ std::string describe(std::span<const std::byte> head) {
   return "is not a stream of voxels" + (text.size() < kWord ? "" : fmt::format("; it begins with '{}'", text));
 }
 
-/// A batch on its way in.
+/// A batch that is being read.
 struct InBatch {
-  std::uint64_t offset = 0;  ///< of its head in the stream
+  std::uint64_t offset = 0;  ///< offset of its head in the stream
   std::uint32_t records_declared = 0, raw_bytes = 0;
   BrickCoord first, last;
   std::vector<std::byte> packed, raw;
   std::vector<Record> records;
-  std::vector<BrickBits> mixed;  ///< as many as records say; those behind are of a batch before
+  std::vector<BrickBits> mixed;  ///< at least one for each mixed record; further ones are left from earlier batches
   StreamTotals totals;
   std::string fault;  ///< why it cannot be used; empty if it can
 
@@ -71,7 +71,7 @@ struct InBatch {
   }
 };
 
-/// Section 6, record heads; null if all is well.
+/// Reads the record heads (section 6); returns a fault, or "" if there is none.
 std::string read_records(const StreamHeader& header, InBatch& batch) {
   ByteSource in(batch.raw);
   std::size_t mixed = 0;
@@ -102,7 +102,7 @@ std::string read_records(const StreamHeader& header, InBatch& batch) {
   return "";
 }
 
-/// Voxels of the mixed bricks, neither all empty nor all full; null if all is well.
+/// Reads the mixed bricks, which must be neither empty nor full; returns a fault, or "".
 std::string read_voxels(InBatch& batch) {
   const std::span<const std::byte> planes = batch.planes();
   batch.mixed.resize(std::max(batch.mixed.size(), planes.size() / kBrickBytes));
@@ -137,15 +137,15 @@ struct BrickReader::State {
   StreamHeader header;
   StreamTotals totals;
   std::vector<InBatch> batches = std::vector<InBatch>(batches_ahead());  // kept, with their memory
-  std::size_t ready = 0;                                                 // batches that hold bricks
-  std::size_t at_batch = 0, at_record = 0, at_mixed = 0;                 // next to hand out
-  std::exception_ptr pending;  // met while reading ahead; thrown when its turn comes
+  std::size_t ready = 0;                                                 // number of batches with bricks
+  std::size_t at_batch = 0, at_record = 0, at_mixed = 0;                 // position of the next brick to hand out
+  std::exception_ptr pending;  // found while reading ahead; thrown when its turn comes
   std::uint64_t index_offset = 0;
   std::uint32_t index_size = 0;  // not 0: the index has begun
   std::optional<Record> previous;
-  IndexEntry slab;  // in progress, if it has a batch
+  IndexEntry slab;  // the slab in progress, if it has a batch
   std::uint32_t slabs = 0;
-  Digest index;  // of the index as it should be
+  Digest index;  // the index as it should be
 
   explicit State(const std::string& path) : file(path) {}
 
@@ -180,7 +180,7 @@ struct BrickReader::State {
   void decode_ahead();
 };
 
-/// Refuses what is not the beginning of a brick stream, as far as it goes.
+/// Refuses bytes that are not the beginning of a brick stream, as far as they go.
 void BrickReader::State::check_magic(std::span<const std::byte> head) {
   const auto begins = [&](std::size_t at, const void* bytes, std::size_t n) {
     return at >= head.size() || std::memcmp(head.data() + at, bytes, std::min(n, head.size() - at)) == 0;
@@ -200,7 +200,7 @@ void BrickReader::State::check_magic(std::span<const std::byte> head) {
   }
 }
 
-/// Section 4. The version comes first: a later one may have changed anything after it.
+/// Reads the header (section 4). The version comes first: a later version may have changed everything after it.
 void BrickReader::State::read_header() {
   std::array<std::byte, kFrameHeadBytes + kStreamMagic.size() + 2> start;
   const std::size_t got = file.read(start);
@@ -227,10 +227,10 @@ void BrickReader::State::read_header() {
   read_payload(payload, known);
 }
 
-/// The rest of a header of which `known` bytes are there.
+/// Reads the rest of a header of which `known` bytes are there.
 void BrickReader::State::read_payload(std::vector<std::byte>& payload, std::size_t known) {
   const std::size_t size = payload.size();
-  // The two texts are declared in the fixed part: check before reading on.
+  // The fixed part declares the sizes of the two texts; they are checked before reading on.
   take(std::span(payload).subspan(known, kHeaderFixedBytes - known), "header");
   ByteSource sizes(std::span<const std::byte>(payload).subspan(kHeaderFixedBytes - 8));
   const auto scale = sizes.get<std::uint32_t>(), provenance = sizes.get<std::uint32_t>();
@@ -243,7 +243,7 @@ void BrickReader::State::read_payload(std::vector<std::byte>& payload, std::size
   header = decode_header(std::span(payload).first(size - kHashBytes), file.name());
 }
 
-/// Section 5, and the bytes of section 6. False when the index comes instead, which is then read, with the end record.
+/// Reads a batch (sections 5 and 6). False if the index comes instead, which it reads with the end record.
 bool BrickReader::State::fetch(InBatch& batch) {
   batch.offset = file.offset();
   const auto frame_bytes = take<kFrameHeadBytes>("next frame: there is no end record");
@@ -275,7 +275,7 @@ bool BrickReader::State::fetch(InBatch& batch) {
   return true;
 }
 
-/// What concerns more than one batch: order, totals, index.
+/// Checks what spans several batches: order, totals, index.
 void BrickReader::State::accept(const InBatch& batch) {
   if (!batch.fault.empty()) {
     refuse(batch.offset, "batch of bricks {} to {}: {}; the stream is damaged", brick_name(batch.first),
@@ -301,7 +301,7 @@ void BrickReader::State::close_slab() {
   slab = {};
 }
 
-/// Section 8, after the tag. Compared by hash: a copy of the index could be large.
+/// Reads the index (section 8) after its tag. It is compared by hash, since a copy of the index could be large.
 void BrickReader::State::read_index() {
   close_slab();
   const auto count = take<4>("index");
@@ -316,7 +316,7 @@ void BrickReader::State::read_index() {
     refuse(index_offset, "the index is not that of this stream; it is damaged");
 }
 
-/// Section 9.
+/// Reads the end record (section 9).
 void BrickReader::State::read_end() {
   const std::uint64_t offset = file.offset();
   const auto found = take<kFrameHeadBytes + kEndBytes>("end record");
@@ -334,8 +334,8 @@ void BrickReader::State::read_end() {
            "bytes follow the end record; streams cannot be joined by writing one after the other");
 }
 
-/// Reads some batches. What goes wrong waits in `pending` until the bricks before it were handed out, so that a
-/// stream gives the same bricks before the same error whatever the number of threads.
+/// Reads some batches. An error waits in `pending` until the bricks before it were handed out, so that a stream gives
+/// the same bricks before the same error for any number of threads.
 void BrickReader::State::fetch_ahead() {
   ready = at_batch = at_record = at_mixed = 0;
   try {

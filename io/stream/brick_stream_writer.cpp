@@ -13,7 +13,7 @@ using namespace detail;
 
 namespace {
 
-/// A batch on its way out.
+/// A batch that is being written.
 struct OutBatch {
   std::vector<Record> records;
   std::vector<BrickBits> mixed;
@@ -23,7 +23,7 @@ struct OutBatch {
   [[nodiscard]] bool full() const { return records.size() == kMaxRecords || mixed.size() == kMaxMixed; }
 };
 
-/// Section 6.
+/// Encodes a batch (section 6).
 void encode(OutBatch& batch, int level) {
   ByteSink heads;
   for (const Record& r : batch.records) put_record(heads, r);
@@ -36,7 +36,7 @@ void encode(OutBatch& batch, int level) {
   batch.totals = total(batch.records, planes);
 }
 
-/// Section 5.
+/// Returns the head of a batch (section 5).
 std::vector<std::byte> head_of(const OutBatch& batch) {
   ByteSink head;
   head.put_text(kBatchTag);
@@ -56,7 +56,7 @@ struct BrickWriter::State {
   int level;
   std::uint64_t bytes = 0;
   std::vector<OutBatch> batches = std::vector<OutBatch>(batches_ahead());  // kept, with their memory
-  std::size_t filling = 0;                                                 // the batch that bricks go to
+  std::size_t filling = 0;                                                 // the batch that gets bricks
   std::optional<Record> previous;
   std::vector<IndexEntry> slabs;
   StreamTotals totals;
@@ -82,12 +82,12 @@ void BrickWriter::State::check(const Record& r) const {
   if (previous && !before(header.slab_axis, *previous, r)) refuse("is out of order");
 }
 
-/// Closes the batch that is being filled. Where batches are cut depends on the bricks alone.
+/// Closes the batch that is being filled. Where batches are cut depends only on the bricks.
 void BrickWriter::State::next_batch() {
   if (++filling == batches.size()) write_batches();
 }
 
-/// Writes the batches before the one that is being filled, which has no bricks or is not there.
+/// Writes the batches before the one that is being filled, which has no bricks or does not exist.
 void BrickWriter::State::write_batches() {
   parallel_for(std::int64_t(filling), [&](std::int64_t i) { encode(batches[std::size_t(i)], level); });
   for (OutBatch& batch : std::span(batches).first(filling)) {
@@ -113,7 +113,8 @@ BrickWriter::~BrickWriter() = default;
 void BrickWriter::write(const Brick& brick) {
   State& s = *state_;
   Record record{brick.coord, brick.layer, brick.fill};
-  if (brick.fill == BrickFill::mixed) record.fill = classify(brick.bits);  // mixed in name only: stored as what it is
+  // Stored as what it is, if it is mixed in name only.
+  if (brick.fill == BrickFill::mixed) record.fill = classify(brick.bits);
   if (record.fill == BrickFill::empty) return;
   s.check(record);
   const bool new_slab = s.previous && s.previous->coord[s.header.slab_axis] != brick.coord[s.header.slab_axis];

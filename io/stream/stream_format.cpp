@@ -67,7 +67,7 @@ ScaleField field_of(const std::string& text, const GridFrame& frame, const std::
   return field;
 }
 
-/// The enumerator `value`, if there are so many.
+/// Returns enumerator `value`. Throws bad_input if there are not that many.
 template <class Enum>
 Enum enum_of(std::uint8_t value, int count, const char* what, const std::string& name) {
   if (value >= count) fail(ErrorCode::bad_input, "{}: header: unknown {} {}; update this tool", name, what, value);

@@ -6,78 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "io/store/brick_codec.h"
 #include "io/stream/brick_stream.h"
+#include "io/stream/stream_layout.h"
 
-/// Bytes of the brick stream (docs/brick-stream.md): constants, header, records, end record.
+/// Bytes of the brick stream (docs/brick-stream.md): header, records, end record.
 namespace bp::detail {
-
-constexpr std::uint32_t kFrameMagic = 0x184D2A5B;  ///< a skippable zstd frame, of ours
-constexpr std::array<unsigned char, 8> kStreamMagic{'B', 'P', 'V', 'S', '\r', '\n', 0x1a, '\n'};
-constexpr std::array<unsigned char, 8> kWeightMagic{'B', 'P', 'W', 'T', '\r', '\n', 0x1a, '\n'};  ///< io/deform
-constexpr std::uint16_t kStreamVersion = 1;
-constexpr std::uint16_t kFlagClosing = 1, kFlagScene = 2, kFlagField = 4, kFlagOrientation = 8;
-
-constexpr std::size_t kFrameHeadBytes = 8;
-constexpr std::size_t kHeaderFixedBytes = 128;  ///< before the texts
-constexpr std::size_t kHashBytes = 8;
-constexpr std::size_t kBatchHeadBytes = 40;
-constexpr std::size_t kRecordBytes = 16;
-constexpr std::size_t kIndexEntryBytes = 24;
-constexpr std::size_t kEndBytes = 96;
-
-constexpr std::uint32_t kMaxScaleBytes = 1u << 22, kMaxProvenanceBytes = 1u << 20, kMaxSceneBytes = 1u << 20;
-constexpr std::uint32_t kMaxOrientationBytes = 32 + 8 * (1u << 16) + 2 * OrientationField::kMostCells;
-constexpr std::uint32_t kMaxRecords = 4096, kMaxMixed = 32;
-constexpr std::uint32_t kMaxRawBytes = kMaxRecords * kRecordBytes + kMaxMixed * kBrickBytes;
-constexpr std::uint32_t kMaxPackedBytes = kMaxRawBytes + 65536;
-
-constexpr char kBatchTag[] = "BTCH", kIndexTag[] = "INDX", kEndTag[] = "TAIL";
-
-/// Appends little-endian values.
-class ByteSink {
- public:
-  template <class T>
-  void put(T value) {
-    const std::size_t n = bytes_.size();
-    bytes_.resize(n + sizeof(T));
-    std::memcpy(bytes_.data() + n, &value, sizeof(T));
-  }
-  void put_coord(BrickCoord c) { put(c.x), put(c.y), put(c.z); }
-  void put_text(std::string_view text) {
-    const auto* p = reinterpret_cast<const std::byte*>(text.data());
-    bytes_.insert(bytes_.end(), p, p + text.size());
-  }
-  [[nodiscard]] std::vector<std::byte>& bytes() { return bytes_; }
-
- private:
-  std::vector<std::byte> bytes_;
-};
-
-/// Takes little-endian values from bytes that are known to suffice, and that outlive it.
-class ByteSource {
- public:
-  explicit ByteSource(std::span<const std::byte> bytes) : bytes_(bytes) {}
-  template <class T>
-  [[nodiscard]] T get() {
-    T value;
-    std::memcpy(&value, bytes_.data(), sizeof(T));
-    bytes_ = bytes_.subspan(sizeof(T));
-    return value;
-  }
-  [[nodiscard]] BrickCoord get_coord() {
-    const auto x = get<std::int32_t>(), y = get<std::int32_t>();
-    return {x, y, get<std::int32_t>()};
-  }
-  [[nodiscard]] std::string get_text(std::size_t n) {
-    std::string text(reinterpret_cast<const char*>(bytes_.data()), n);
-    bytes_ = bytes_.subspan(n);
-    return text;
-  }
-
- private:
-  std::span<const std::byte> bytes_;
-};
 
 [[nodiscard]] std::uint64_t hash64(std::span<const std::byte> bytes);
 
@@ -95,17 +28,17 @@ class Digest {
   std::unique_ptr<void, FreeHashState> state_;
 };
 
-/// Batches that are compressed or decompressed at a time. No result depends on it.
+/// Returns the number of batches that are compressed or decompressed at a time. No result depends on it.
 [[nodiscard]] std::size_t batches_ahead();
 
-/// Wraps a payload in a skippable frame. `sealed`: the payload gets its hash at the end first.
+/// Wraps a payload in a skippable frame. `sealed`: the hash of the payload is appended first.
 [[nodiscard]] std::vector<std::byte> frame_of(std::vector<std::byte> payload, bool sealed);
-/// Whether a payload of at least kHashBytes ends with the hash of its bytes before.
+/// Returns whether a payload of at least kHashBytes ends with the hash of the bytes before.
 [[nodiscard]] bool seal_holds(std::span<const std::byte> payload);
 
-/// Payload of the header, without hash. Throws bad_argument if the header is out of range.
+/// Returns the payload of the header, without hash. Throws bad_argument if the header is out of range.
 [[nodiscard]] std::vector<std::byte> encode_header(const StreamHeader& header);
-/// From a payload whose sizes, version and hash were checked. Throws bad_input, naming the field.
+/// Decodes a payload whose sizes, version and hash were checked. Throws bad_input with the field.
 [[nodiscard]] StreamHeader decode_header(std::span<const std::byte> payload, const std::string& name);
 
 struct Record {
@@ -116,7 +49,7 @@ struct Record {
 void put_record(ByteSink& sink, const Record& record);
 [[nodiscard]] bool before(int slab_axis, const Record& a, const Record& b);  ///< the order of the stream
 
-/// Counts and content checksum of records. `planes`: the 32768 bytes of each mixed record, one after the other.
+/// Returns counts and content checksum of records. `planes`: the 32768 bytes of each mixed record, one after the other.
 [[nodiscard]] StreamTotals total(std::span<const Record> records, std::span<const std::byte> planes);
 
 /// One slab of the index.

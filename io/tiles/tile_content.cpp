@@ -13,7 +13,7 @@ namespace bp {
 
 namespace {
 
-/// What a b3dm holds behind its head and tables. Files beside the tile are those of its glTF.
+/// The content of a b3dm after its head and tables. Files that its glTF names lie in the tile's folder.
 class TilePart final : public SceneFile {
  public:
   TilePart(SceneFilePtr file, std::uint64_t begin, std::uint64_t end)
@@ -50,7 +50,7 @@ class B3dm {
   }
 
   [[nodiscard]] SceneFilePtr gltf() const { return std::make_shared<TilePart>(file_, begin(), head_.bytes); }
-  /// RTC_CENTER.
+  /// Returns the move by RTC_CENTER.
   [[nodiscard]] Affine move() const {
     Affine moved;
     for (std::size_t i = 0; i < 3; ++i) moved.m[i][3] = centre_[i];

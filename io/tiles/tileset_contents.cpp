@@ -15,13 +15,13 @@ namespace bp {
 
 namespace {
 
-// What real tilesets stay far below; beyond it a file asks for more than it can hold.
+// Limits that real tilesets stay far below; a file beyond them claims more than it can hold.
 constexpr std::size_t kMostNested = 16;  // tilesets below tilesets
 constexpr double kMostTilesets = 1 << 16;
 constexpr double kMostContents = 1 << 24;
 
-/// Looks at all tiles, so that those who come after need not. Leaves of ours are the scene (extras.leaf), and what
-/// stands beside them is not.
+/// Checks all tiles, so that later functions need not. Returns whether there are leaves of this suite: they are the
+/// scene (extras.leaf), and tiles without leaves are not.
 bool has_leaves(const GltfObject& tile, int depth) {
   check_tile(tile, depth);
   bool has = is_leaf(tile);
@@ -32,18 +32,18 @@ bool has_leaves(const GltfObject& tile, int depth) {
 
 struct FoundContent {
   std::string path;
-  bool is_tileset = false;  ///< that stands for the tiles below
+  bool is_tileset = false;  ///< the content is a tileset with further tiles
   Affine place;
 };
 
-/// Calls f(FoundContent) for what shows one tileset as fine as it is. Depth first, as it is drawn.
+/// Calls f(FoundContent) for each content that shows one tileset at its finest. Depth first, in drawing order.
 template <class F>
 class TileWalk {
  public:
   TileWalk(const GltfObject& root, const std::string& path, const F& f)
       : folder_(folder_of(path)), has_leaves_(has_leaves(root, 0)), f_(f) {}
 
-  /// adds: tiles are drawn beside those below them, as the tile above says.
+  /// adds: the tile above is refined by adding, so this tile is drawn in addition to those below it.
   void walk(const GltfObject& tile, const Affine& parent, bool adds = false) const {
     const Affine place = parent * affine_of_transform(tile_transform(tile));
     if (tile.has("refine")) adds = bp::adds(tile.text("refine"));
@@ -78,8 +78,8 @@ std::string real_path(const std::string& path) {
   return std::filesystem::weakly_canonical(path).string();
 }
 
-/// Counts what a tileset and those within it stand for, before any is followed: a few that name each other often stand
-/// for more than there are numbers. Each file is read once.
+/// Counts the contents of a tileset and of those within it before any is opened: a few tilesets that name each other
+/// repeatedly can mean more contents than there are numbers. Each file is read once.
 class ContentCounter {
  public:
   struct Count {
@@ -89,7 +89,8 @@ class ContentCounter {
 
   explicit ContentCounter(const SceneOptions& options) : options_(options) {}
 
-  /// Throws out_of_resource if a tileset within does not fit. The limit that is named has room for each that was met.
+  /// Counts all. Throws out_of_resource if a tileset within does not fit. The limit in the error has room for each that
+  /// was met.
   Count count_all(const GltfObject& tileset, const std::string& path, std::uint64_t bytes) {
     const Count all = count(tileset, path, bytes);
     if (refused_) throw Error(refused_->code(), refused_->what(), refused_->remedies(), least_limit_);
@@ -145,9 +146,9 @@ class ContentCounter {
 
   const SceneOptions& options_;
   std::map<std::string, Count> known_;
-  std::vector<std::string> open_;  // tilesets around the place
+  std::vector<std::string> open_;  // tilesets around the current place
   std::uint64_t held_ = 0;
-  std::optional<NeedsMemory> refused_;  // the first one
+  std::optional<NeedsMemory> refused_;  // the first refusal
   std::uint64_t least_limit_ = 0;
 };
 
@@ -155,7 +156,7 @@ std::string number_text(double n) {
   return n < 1e18 ? fmt::format("{:.0f}", n) : fmt::format("{:.3g}", n);
 }
 
-/// Depth first, as they are drawn.
+/// Finds the contents, depth first, in drawing order.
 class ContentFinder {
  public:
   explicit ContentFinder(const SceneOptions& options) : options_(options) {}
@@ -208,7 +209,7 @@ class ContentFinder {
   TilesetContents out_;
   UpAxis content_up_ = UpAxis::y;
   std::size_t missing_ = 0;
-  std::uint64_t held_ = 0;  // of the tilesets around the place
+  std::uint64_t held_ = 0;  // memory of the tilesets around the current place
   std::string first_missing_;
 };
 

@@ -4,28 +4,28 @@
 
 #include "io/scene/raw_source.h"
 
-/// The contents that show a tileset as fine as it is.
+/// The contents that show a tileset at its finest.
 namespace bp {
 
 struct CountedJson;
 
-/// A file with a glTF, and where it stands.
+/// A file with a glTF, and its place.
 struct ContentFile {
   std::string path;
   ContentPlace place;
 };
 
 struct TilesetContents {
-  UpAxis up = UpAxis::z;  ///< of their space
+  UpAxis up = UpAxis::z;  ///< axis that is up in the contents' space
   std::vector<ContentFile> files;
 };
 
-/// As open_tileset(), whose tileset's JSON is `json`.
-///   path  of the tileset; other files lie beside it
+/// Returns the contents of a tileset whose JSON is `json`; as open_tileset().
+///   path  the tileset's; other files lie in its folder
 [[nodiscard]] TilesetContents contents_of(const CountedJson& json, const std::string& path,
                                           const SceneOptions& options);
 
-/// Their triangles, one file after the other. Throws as open_tileset().
+/// Opens the triangles of all contents, one file after the other. Throws as open_tileset().
 [[nodiscard]] RawSourcePtr open_contents(TilesetContents contents, const SceneOptions& options);
 
 }  // namespace bp

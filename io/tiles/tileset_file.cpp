@@ -43,7 +43,7 @@ class Reader {
     tileset.content_up = content_up(root_);
     tileset.geometric_error = number_of(json_, root_, "geometricError");
     tileset.images = images(root_.object("asset"));
-    const GltfObject top = root_.object("root");  // says if there is none
+    const GltfObject top = root_.object("root");  // throws if there is none
     tileset.root = tile(top, json_["root"], 0);
     tileset.not_understood = unread_.lines();
     return tileset;
@@ -85,7 +85,7 @@ class Reader {
     return tile;
   }
 
-  /// Of a tileset of ours; anything else there is someone else's business.
+  /// Returns the images that a tileset of this suite names; anything else there is ignored.
   static std::vector<std::string> images(const GltfObject& asset) {
     std::vector<std::string> images;
     if (!asset.has("extras") || !asset.object("extras").has("images")) return images;
@@ -136,7 +136,7 @@ Json json_of(const Tile& tile) {
 }  // namespace
 
 Tileset read_tileset(const std::string& path, const SceneOptions& options) {
-  const MadeOfJson tiles{"\"boundingVolume\"", kTileBytes};  // each has one
+  const MadeOfJson tiles{"\"boundingVolume\"", kTileBytes};  // each tile has one
   const CountedJson counted = read_json(open_scene_file(path, temp_dir_of(options)), options, 0, tiles);
   return Reader(counted.json, path).run();
 }

@@ -31,9 +31,9 @@ bool is_inside(const std::string& name) {
   return !name.empty() && name.find("..") == std::string::npos && name[0] != '/';
 }
 
-/// Whether the provenance in a tileset or a GLB says that bplod made it.
+/// Returns whether the provenance in a tileset or a GLB tells that bplod made it.
 bool was_made_here(const std::string& path) {
-  constexpr std::size_t kHead = 65536;  // the asset comes first in all files of ours
+  constexpr std::size_t kHead = 65536;  // the asset comes first in all files of this suite
   try {
     const InputFile file(path, NamedBy::file);
     std::string head(kHead, '\0');
@@ -59,7 +59,7 @@ std::vector<std::string> contents_of(const std::string& tileset) {
   return uris;
 }
 
-/// Names, each with a zero after it: a name may hold anything else.
+/// Reads names, each followed by a zero: a name may hold any other character.
 std::vector<std::string> names_from(const std::string& path) {
   std::vector<std::string> names;
   if (!fs::exists(path)) return names;
@@ -77,7 +77,7 @@ bool holds(const std::string& path, const std::string& bytes) {
   if (fs::file_size(path, missing) != bytes.size() || missing) return false;
   try {
     return read_text(path, bytes.size(), NamedBy::file) == bytes;
-  } catch (const Error&) {  // not to be read: then it is written
+  } catch (const Error&) {  // the existing file cannot be read: it is written anew
     return false;
   }
 }
@@ -112,7 +112,8 @@ void TilesetFolder::lock() {
   if (holds_kept(partial_))
     fail(ErrorCode::bad_argument, "{}: an input lies in it, and would be lost; move it, or name another folder",
          partial_);
-  folder_ = PartialOutput(partial_, PartialOutput::Kind::folder);  // before it is there: a signal may come at once
+  // Set before the folder exists: a signal may come at once.
+  folder_ = PartialOutput(partial_, PartialOutput::Kind::folder);
   make_folder(partial_);
   lock_ = ::open(partial_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (lock_ >= 0 && ::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
@@ -123,7 +124,7 @@ void TilesetFolder::lock() {
 }
 
 void TilesetFolder::begin(const std::vector<std::string>& names) {
-  // Without tileset.json there was no tileset before, and what is there of the interrupted one is worth nothing.
+  // Without tileset.json there was no tileset before, and the files of the interrupted one are worthless.
   if (!fs::exists(path_ + "/" + kTileset)) moved_ = names_from(partial_ + kMoving);
   refuse_if_there(kTileset);
   for (const std::string& name : names) refuse_if_there(name);
@@ -132,7 +133,7 @@ void TilesetFolder::begin(const std::vector<std::string>& names) {
   make_folder(files_);
 }
 
-/// What holds something yet stays: the note of a commit that was interrupted.
+/// Removes the folder OUT/.partial, unless it still holds the note of an interrupted commit.
 void TilesetFolder::leave() {
   std::error_code ignored;
   fs::remove_all(files_, ignored);
@@ -140,7 +141,7 @@ void TilesetFolder::leave() {
   if (lock_ >= 0) ::close(lock_);
 }
 
-/// Of a commit that was interrupted: nobody else's.
+/// Returns whether a file may be replaced: with --overwrite, or if an interrupted commit has placed it.
 bool TilesetFolder::may_replace(const std::string& name) const {
   return overwrite_ || std::binary_search(moved_.begin(), moved_.end(), name);
 }
@@ -161,7 +162,7 @@ void TilesetFolder::write(const std::string& name, const std::string& bytes) {
     make_folder(folder_of(files_ + "/" + name));
     OutputFile file(files_ + "/" + name, true);
     file.write(bytes);
-    file.commit(OutputFile::Sync::content);  // it has another name to come
+    file.commit(OutputFile::Sync::content);  // it gets another name later
   }
   const std::lock_guard lock(mutex_);
   bytes_ += bytes.size();
@@ -169,8 +170,8 @@ void TilesetFolder::write(const std::string& name, const std::string& bytes) {
   if (!same) written_.push_back(name);
 }
 
-/// What is there of earlier tilesets. What another program's tileset names is not ours to remove, nor is any file that
-/// ours names and that we did not make.
+/// Returns the files of earlier tilesets. Files of another program's tileset are not removed, nor files that a tileset
+/// of this suite names and this suite did not make.
 std::vector<std::string> TilesetFolder::names_before() {
   std::vector<std::string> names = names_from(partial_ + kMoving);
   const std::string tileset = path_ + "/" + kTileset;
@@ -180,7 +181,7 @@ std::vector<std::string> TilesetFolder::names_before() {
     if (!was_made_here(tileset)) return names;
     std::copy_if(contents.begin(), contents.end(), std::back_inserter(names),
                  [&](const std::string& name) { return names_image(name) || was_made_here(path_ + "/" + name); });
-  } catch (const Error& e) {  // then nothing is known to be its
+  } catch (const Error& e) {  // nothing is known about the old tileset then
     complaint_ = e.what();
   }
   return names;
@@ -215,7 +216,8 @@ void TilesetFolder::move_file(const std::string& name) {
   if (!replace) new_.push_back(name);
 }
 
-/// The tileset appears when what it names is there for good, and then what it does not name may go.
+/// Moves the files. The tileset appears only when all files that it names are in place; then files that it does not
+/// name are removed.
 void TilesetFolder::move_files() {
   std::set<std::string> folders{path_};
   for (const std::string& name : written_) {
@@ -230,14 +232,14 @@ void TilesetFolder::move_files() {
   sync_folder(path_);
 }
 
-/// After a name was found taken. What the note says is ours to replace must be as before, or the next run would replace
-/// what is another's.
+/// Takes moved files back after a name was found taken. The note must again list only what may be replaced, or the next
+/// run would replace files of others.
 void TilesetFolder::take_back(const std::vector<std::string>& moved_before) {
   std::error_code ignored;
   for (const std::string& name : new_) {
     (void)remove_file(path_ + "/" + name);
     const fs::path folder = fs::path(name).parent_path();
-    if (!folder.empty()) fs::remove(path_ / folder, ignored);  // if it is empty now
+    if (!folder.empty()) fs::remove(path_ / folder, ignored);  // removed only if empty
   }
   if (!moved_before.empty()) return note_moves(moved_before, {});
   fs::remove(partial_ + kMoving, ignored);
@@ -249,7 +251,7 @@ void TilesetFolder::remove_others(const std::vector<std::string>& before) const 
     (void)remove_file(path_ + "/" + name);
     std::error_code ignored;
     const fs::path folder = fs::path(name).parent_path();
-    if (!folder.empty()) fs::remove(path_ / folder, ignored);  // if it is empty now
+    if (!folder.empty()) fs::remove(path_ / folder, ignored);  // removed only if empty
   }
 }
 

@@ -9,32 +9,32 @@
 
 namespace bp {
 
-/// A folder with a tileset in it. Files are written to OUT/.partial, in the same file system, and move to their places
-/// when all are there, tileset.json last. A file that is there already, with the same bytes, is left alone.
-/// OUT/.partial/moving names what moves, and what was there before: a commit that is interrupted is known by it, and
-/// whoever writes OUT next goes on with it and takes away what is left over.
+/// A folder with a tileset. Files are written to OUT/.partial, in the same file system, and move to their places when
+/// all are complete, tileset.json last. An existing file with the same bytes is left alone. OUT/.partial/moving names
+/// the files that move, and those that were there before: it marks an interrupted commit, which the next process that
+/// writes OUT continues, and whose leftovers it removes.
 class TilesetFolder {
  public:
-  /// Makes OUT if it is not there. Takes away the files that an interrupted run left in OUT/.partial. Throws
-  /// bad_argument if OUT has a tileset.json or one of `names`, `overwrite` is false, and they are not of a commit that
-  /// was interrupted; `failed` if another process is at work on OUT. Files that are kept (io/files/kept_files.h) are
-  /// neither replaced nor taken away: bad_argument if one of `names` is one, here or in write(), or if one lies in
+  /// Makes OUT if it does not exist. Removes the files that an interrupted run left in OUT/.partial. Throws
+  /// bad_argument if OUT has a tileset.json or one of `names`, `overwrite` is false, and they do not come from an
+  /// interrupted commit; `failed` if another process is at work on OUT. Kept files (io/files/kept_files.h) are neither
+  /// replaced nor removed: throws bad_argument if one of `names` is kept, here or in write(), or if a kept file lies in
   /// OUT/.partial.
-  ///   names  of files, or of folders with files, that will be written for certain: those that are there are not found
-  ///          out after the work only
+  ///   names  files, or folders with files, that will surely be written: existing ones are then reported before the
+  /// work
   TilesetFolder(const std::string& path, const std::vector<std::string>& names, bool overwrite);
-  /// Without commit() nothing stays behind, also after a signal.
+  /// Removes everything that was not committed, even after a signal.
   ~TilesetFolder();
   TilesetFolder(const TilesetFolder&) = delete;
   TilesetFolder& operator=(const TilesetFolder&) = delete;
 
-  /// `name` may hold one folder: "level/tile.glb". Throws bad_argument if OUT has another file of that name, and it is
-  /// not to be replaced. Thread-safe.
+  /// Writes a file. `name` may hold one folder: "level/tile.glb". Throws bad_argument if OUT has another file of that
+  /// name that may not be replaced. Thread-safe.
   void write(const std::string& name, const std::string& bytes);
-  /// The files appear; tiles of the tileset that was there before, and that are not among them, go. If a name is taken
-  /// meanwhile, what is new does not stay.
+  /// Moves the files into place, and removes tiles of the previous tileset that are not among them. If a name was taken
+  /// meanwhile, new files do not stay.
   void commit();
-  /// Why tiles of the tileset that was there before may still be there; empty: they are not.
+  /// Returns why tiles of the previous tileset may still exist; empty: none does.
   [[nodiscard]] const std::string& complaint() const { return complaint_; }
   [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
 
@@ -53,13 +53,13 @@ class TilesetFolder {
 
   std::string path_, partial_, files_;
   bool overwrite_;
-  MadeFolder made_;                 ///< OUT
-  PartialOutput work_, folder_;     ///< files_, and partial_: for signal handlers
-  int lock_ = -1;                   ///< of partial_; the system lets go of it however the process ends
-  std::vector<std::string> moved_;  ///< by a commit that was interrupted; sorted
+  MadeFolder made_;                 ///< made OUT
+  PartialOutput work_, folder_;     ///< entries of the partial files and of their folder, for signal handlers
+  int lock_ = -1;                   ///< lock on partial_; the system releases it however the process ends
+  std::vector<std::string> moved_;  ///< files that an interrupted commit has moved; sorted
   std::mutex mutex_;
-  std::vector<std::string> names_, written_;  ///< all files; those that are not there already
-  std::vector<std::string> new_;              ///< that were moved, and replaced nothing
+  std::vector<std::string> names_, written_;  ///< all files; those of them that were written
+  std::vector<std::string> new_;              ///< files that were moved and replaced nothing
   std::uint64_t bytes_ = 0;
   std::string complaint_;
 };

@@ -11,7 +11,7 @@ namespace bp {
 
 namespace {
 
-/// Without leaves, nor tiles that only lead to some.
+/// Returns the tile without leaves, and without tiles that lead only to leaves.
 Tile without_leaves(const Tile& tile) {
   Tile out = tile;
   out.children.clear();
@@ -24,7 +24,7 @@ Tile without_leaves(const Tile& tile) {
   return out;
 }
 
-/// Depths of the tree at which there are contents.
+/// Adds the depths of the tree at which there are contents.
 void add_depths(const Tile& tile, std::size_t depth, std::set<std::size_t>& depths) {
   if (!tile.uri.empty()) depths.insert(depth);
   for (const Tile& child : tile.children) add_depths(child, depth + 1, depths);
@@ -35,7 +35,7 @@ class LevelFinder {
   LevelFinder(std::string folder, std::size_t depth, TilesetLevel& out)
       : folder_(std::move(folder)), depth_(depth), out_(out) {}
 
-  /// adds: as the tile above is refined.
+  /// adds: the tile above is refined by adding.
   void find(const Tile& tile, std::size_t depth, const Transform& parent, bool adds) {
     const Transform transform = product(parent, tile.transform);
     if (!tile.refine.empty()) adds = bp::adds(tile.refine);

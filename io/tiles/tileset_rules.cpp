@@ -10,7 +10,7 @@
 namespace bp {
 
 void check_tile(const GltfObject& tile, int depth) {
-  constexpr int kMostDeep = 64;  // deeper ones are a mistake or an attack on the stack
+  constexpr int kMostDeep = 64;  // a deeper tree is a mistake or an attack on the stack
   if (depth > kMostDeep) tile.broken(fmt::format("lies below {} tiles", kMostDeep));
   if (tile.has("implicitTiling") || tile.has_extension("3DTILES_implicit_tiling"))
     tile.unfit("is tiled implicitly, which is not read");
@@ -72,7 +72,7 @@ Affine scene_place(const Transform& to_tileset, UpAxis up) {
 
 namespace {
 
-// What OGC 22-025r4 lists, and what older versions had under other names. Left out are keys that move, hide or cull:
+// Keys that OGC 22-025r4 lists, and their names in older versions. Keys that move, hide or cull are left out:
 // viewerRequestVolume, expire, region.
 constexpr std::array kRoot = {
     "asset",  "geometricError", "root",           "properties",        "schema", "schemaUri", "statistics",
@@ -88,7 +88,8 @@ bool is_among(std::span<const char* const> names, const std::string& name) {
   return std::any_of(names.begin(), names.end(), [&](const char* known) { return name == known; });
 }
 
-/// Metadata with such semantics take the place of what the tile says: TILE_BOUNDING_BOX, CONTENT_HORIZON_OCCLUSION ...
+/// Returns whether metadata replace properties of tiles by their semantics: TILE_BOUNDING_BOX,
+/// CONTENT_HORIZON_OCCLUSION ...
 bool has_semantics_of_tiles(const GltfJson& schema) {
   std::vector<const GltfJson*> open{&schema};  // no recursion: a file may be as deep as it is long
   while (!open.empty()) {
@@ -139,7 +140,7 @@ void UnreadKeys::look_at_root(const GltfObject& root) {
   const GltfObject asset = root.object("asset");
   look(asset, kAsset);
   if (!asset.has("gltfUpAxis")) return;
-  const std::string up = asset.text("gltfUpAxis");  // viewers differ where it is written small
+  const std::string up = asset.text("gltfUpAxis");  // viewers differ on lower case
   if (up != "X" && up != "Y" && up != "Z") note(asset, "gltfUpAxis \"" + up + "\"");
 }
 

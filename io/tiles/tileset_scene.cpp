@@ -6,15 +6,15 @@
 #include "io/tiles/tileset_contents.h"
 #include "lib/core/error.h"
 
-// A tileset of 3D Tiles (OGC 22-025r4) as a scene.
+// Opens a tileset of 3D Tiles (OGC 22-025r4) as a scene.
 
 namespace bp {
 
 namespace {
 
-constexpr std::uint64_t kMostUri = 64;  ///< bytes of a content's name, of nearly all tilesets
+constexpr std::uint64_t kMostUri = 64;  ///< bytes of a content's name in nearly all tilesets
 
-/// A file that need not be open: a tileset has thousands, and their images may be wanted at any time.
+/// A file that is open only while it is needed: a tileset has thousands, and their images may be needed at any time.
 class RestingFile final : public SceneFile {
  public:
   RestingFile(std::string path, std::string temp_dir)
@@ -27,7 +27,7 @@ class RestingFile final : public SceneFile {
   [[nodiscard]] std::string name() const override { return path_; }
   [[nodiscard]] std::string path() const override { return path_; }
 
-  /// From now on it is opened for each reading.
+  /// Closes the file; from now on it is opened for each reading.
   void rest() {
     const std::lock_guard lock(mutex_);
     file_.reset();
@@ -51,7 +51,7 @@ class TilesetSource final : public RawSource {
   TilesetSource(TilesetContents contents, const SceneOptions& options)
       : contents_(std::move(contents)), options_(options) {
     for (const ContentFile& file : contents_.files) list_bytes_ += sizeof(ContentFile) + file.path.size();
-    MemoryShare& left = options_.document;  // beside the list
+    MemoryShare& left = options_.document;  // without the list of contents
     if (left.bytes > 0) left.bytes = std::max<std::uint64_t>(1, left.bytes - std::min(left.bytes, list_bytes_));
   }
 
@@ -61,7 +61,7 @@ class TilesetSource final : public RawSource {
     out.swap(batch.triangles);
     return more;
   }
-  /// The batch is complete then: the content may be closed when its triangles are wanted.
+  /// Completes the batch: the content may be closed before its triangles are used.
   bool next(RawBatch& batch) override {
     for (; at_ < contents_.files.size(); leave()) {
       if (!content_) enter();
@@ -96,7 +96,8 @@ class TilesetSource final : public RawSource {
     has_colors_ = has_colors_ || content_->has_colors();
     has_textures_ = has_textures_ || content_->has_textures();
   }
-  /// Where one does not fit, those after it are asked, too: the limit that is named has room for each.
+  /// Opens a content. If one does not fit, those after it are asked, too, so that the limit in the error suffices for
+  /// each.
   [[nodiscard]] RawSourcePtr open_content() const {
     try {
       return open_tile_content(file_, options_, contents_.files[at_].place).triangles;
@@ -138,7 +139,7 @@ class TilesetSource final : public RawSource {
 
   const TilesetContents contents_;
   SceneOptions options_;
-  std::uint64_t list_bytes_ = 0;  // of contents_
+  std::uint64_t list_bytes_ = 0;  // bytes of contents_
   std::size_t at_ = 0;
   std::shared_ptr<RestingFile> file_;
   RawSourcePtr content_;
@@ -158,7 +159,7 @@ RawSourcePtr open_tileset(SceneFilePtr file, const SceneOptions& options) {
   const CountedJson tileset = read_json(file, options, 0, {}, contents);
   const GltfJson& json = tileset.json;
   if (!json.is_object() || !(json.contains("root") || json.contains("geometricError")))
-    return open_gltf(std::move(file), options);  // under another name
+    return open_gltf(std::move(file), options);  // opened under another name
   if (file->path().empty())
     fail(ErrorCode::bad_input, "{}: a tileset names files beside it, which a pipe does not have", file->name());
   return open_contents(contents_of(tileset, file->path(), options), options);

@@ -17,11 +17,11 @@ bool has_content(const Tile& tile) {
   return !tile.uri.empty() || std::any_of(tile.children.begin(), tile.children.end(), has_content);
 }
 
-/// Where a tile is.
+/// A tile and its place in the tileset.
 struct TilePlace {
   std::string path;
   Transform transform;          ///< to the tileset's space
-  const Tile* above = nullptr;  ///< the nearest tile above with content
+  const Tile* above = nullptr;  ///< the nearest tile above that has content
 
   [[nodiscard]] double error_of(const Tile& tile) const { return tile.geometric_error * largest_scale(transform); }
 };

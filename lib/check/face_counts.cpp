@@ -14,7 +14,7 @@ void FaceCounts::count(std::uint64_t triangles_of_face, int by) {
 
 void FaceCounts::add(std::span<const std::uint8_t> inner_edges, std::uint64_t plain) {
   cut += inner_edges.size() + plain;
-  // A face is counted by the triangles seen of it, and anew with each further one: no end needs to be awaited.
+  // A face is counted by its triangles so far, and anew with each further one, so that no end needs to be awaited.
   for (const std::uint8_t edges : inner_edges) {
     const bool goes_on = (edges & kSamePolygonBefore) != 0 && open_ > 0;
     if (goes_on) count(open_, -1);

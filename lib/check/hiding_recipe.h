@@ -6,21 +6,22 @@
 
 namespace bp {
 
-/// The voxels and the closing that say what is hidden (docs/bounding.md, "Occluders"). With G the voxels that the scene
-/// touches, E their closing:
-///   O       what the outside reaches through faces of voxels not in E
-///   O'      what it reaches through those not in G, nor behind the closing: not in the complement of E and O
-///   T       voxels of G beside O', and those of G beside these; over faces, edges and corners
-///   hidden  all others: not in O', not in T
+/// The voxels and the closing that define what is hidden (docs/bounding.md, "Occluders"). With G the voxels that the
+/// scene touches, E their closing:
+///   O       the voxels that the outside reaches through faces of voxels not in E
+///   O'      the voxels that it reaches through voxels neither in G nor behind the closing: not in the complement of E
+///           and O
+///   T       voxels of G next to O', and those of G next to these; across faces, edges and corners
+///   hidden  all others: neither in O' nor in T
 struct HidingRecipe {
   GridFrame frame;
   double scale_world = 0;
   StructuringElement element = StructuringElement::cube;
-  /// Gaps of the scene that are narrower may count as closed, scene units. Let a line keep a distance r from all
-  /// triangles, and let it pass a voxel p. A voxel of G holds a point of a triangle, so it is at least r - sqrt(3)
-  /// voxel away from p, centre to centre. If that is more than the element reaches, which is S for a ball and sqrt(3) S
-  /// for a cube, then p is not in E. So the line lies in O, and ends at nothing hidden. S is rounded up by a 16th of a
-  /// voxel.
+  /// Returns the width, scene units, below which gaps of the scene may count as closed. Let a line keep a distance r
+  /// from all triangles, and let it pass a voxel p. A voxel of G holds a point of a triangle, so it is at least r -
+  /// sqrt(3) voxel away from p, centre to centre. If that is more than the element reaches, which is S for a ball and
+  /// sqrt(3) S for a cube, then p is not in E. So the line lies in O, and ends at nothing hidden. S is rounded up by a
+  /// 16th of a voxel.
   [[nodiscard]] double closed_gap() const {
     const double diagonal = std::sqrt(3.0), scale = scale_world > 0 ? scale_world + frame.voxel / 16 : 0;
     return 2 * (diagonal * frame.voxel + (element == StructuringElement::cube ? diagonal : 1) * scale);

@@ -23,14 +23,14 @@ namespace bp {
 
 namespace {
 
-constexpr double kLeafRounding = 16;        // rounding_of(): what is computed of a leaf and the scene
+constexpr double kLeafRounding = 16;        // rounding of values computed from a leaf and the scene, for rounding_of()
 constexpr double kMostLeafError = 0x1p-18;  // of the longest edge of the scene's box
-constexpr double kFlat = 0x1p-22;           // the same: what float32 rounds away in a tile four times as long
+constexpr double kFlat = 0x1p-22;  // relative to the same edge: float32 rounds that much in a tile four times as long
 
-/// Of a triangle in the cell of a tile. The last two: where nothing is drawn, in the cell or an octant of it.
+/// Verdicts on a triangle in the cell of a tile. bare, uncovered: nothing is drawn, in the cell or in an octant of it.
 enum class Verdict { fine, thin, flat, touching, outside, undecided, rounded, missing, bare, uncovered, count };
 
-/// The content of a leaf, which is the scene itself.
+/// The content of a leaf, which must be the scene itself.
 struct LeafBody {
   LeafBody(const IndexedMesh& content, const Bounds3d& cell, double flat)
       : mesh(weld(content, 1, report)), surface(mesh), proof(surface.bvh(), cell, flat) {}
@@ -94,13 +94,13 @@ class CoverChecker {
   }
 
  private:
-  /// A tile and those below.
+  /// The tiles of a subtree that belong to this part of the check.
   struct Numbers {
-    std::size_t first = 0, last = 0;   ///< of this part: the least and the largest; none: the first is above the last
-    std::optional<double> leaf_error;  ///< the largest, if those below show nothing but leaves
+    std::size_t first = 0, last = 0;   ///< least and largest number of these; none: the first is above the last
+    std::optional<double> leaf_error;  ///< the largest error, if the tiles below are only leaves
   };
 
-  /// For each eighth of a tile's cell the child that it is the cell of, or 0.
+  /// For each eighth of a tile's cell: the child that has it as its cell, or 0.
   using Octants = std::array<std::uint32_t, 8>;
 
   [[nodiscard]] Octants children_in_octants(std::size_t i) const {
@@ -166,7 +166,7 @@ class CoverChecker {
   }
 
   static constexpr std::size_t kSame = 8, kNowhere = 9, kPlaces = 10;
-  /// The octant of a tile that a child has for its cell; kSame: all of it.
+  /// Returns the octant of a tile that a child has as its cell; kSame: the whole cell.
   [[nodiscard]] std::size_t place_in(std::size_t parent, std::size_t child) const {
     const auto &p = tiles_[parent].cell, &c = tiles_[child].cell;
     if (p == c) return kSame;
@@ -193,7 +193,7 @@ class CoverChecker {
     const Bounds3d box = grown(cell, growth_for(cell, t) / 2);
     return overlap(bounds, box) && !TrianglePart(t, box).empty();
   }
-  /// t meets the cell of tile i. What counts are the tiles of this share.
+  /// Tests t, which meets the cell of tile i, in the subtree. Only tiles of this share count.
   void visit(std::size_t i, const TriangleD& t, const Bounds3d& bounds, KnownInside& known) {
     if (below_[i].first >= end_ || below_[i].last < begin_) return;
     const CoverTile& tile = tiles_[i];
@@ -223,15 +223,16 @@ class CoverChecker {
     if (verdict != Verdict::fine) ++counts_[i].triangles[std::size_t(verdict)];
   }
 
-  /// Of a leaf.
+  /// Compares t with a leaf.
   [[nodiscard]] Verdict compare(std::size_t i, const TriangleD& t) {
     return compare(leaves_[i]->proof, *tiles_[i].cell, t, *tiles_[i].leaf_error);
   }
-  /// No leaf is made of what a neighbour's triangle has just beyond a face.
+  /// Returns the verdict for an octant without a child. No leaf is made for parts of a neighbour's triangle just beyond
+  /// a face.
   [[nodiscard]] Verdict without_child(std::size_t i, const Bounds3d& octant, const TriangleD& t) const {
     return below_[i].leaf_error ? compare_with_nothing(octant, t, *below_[i].leaf_error) : Verdict::missing;
   }
-  /// Of a tile without content and children: a leaf, or none.
+  /// Returns the verdict for a tile without content and children: a leaf, or none.
   [[nodiscard]] Verdict shown_by_nothing(std::size_t i, const TriangleD& t) const {
     const CoverTile& tile = tiles_[i];
     if (!tile.leaf_error || refused_[i]) return Verdict::bare;
@@ -243,7 +244,7 @@ class CoverChecker {
     LeafProof proof(nothing, box, kFlat * scene_edge_);
     return compare(proof, box, t, error);
   }
-  /// What has no area shows nothing: no leaf has it.
+  /// Compares t with a leaf. A triangle without area shows nothing, and no leaf has it.
   [[nodiscard]] static Verdict compare(LeafProof& proof, const Bounds3d& cell, const TriangleD& t, double error) {
     if (in_predicate_domain(t[0]) && in_predicate_domain(t[1]) && in_predicate_domain(t[2]) &&
         collinear(t[0], t[1], t[2]))
@@ -297,9 +298,9 @@ class CoverChecker {
     }
   }
 
-  /// How coordinates were rounded is known once all of them were read.
-  /// The file chose the errors of leaves and the cells. What rounding is, only the scene tells. Leaves with larger
-  /// errors are refused, and compared with nothing.
+  /// Judges the errors of leaves, once all coordinates were read and their rounding is known. The file chose the errors
+  /// of leaves and the cells, but only the scene tells what rounding is. Leaves with larger errors are refused, and
+  /// compared with nothing.
   void judge_errors(TriangleSource& scene) {
     const auto is_leaf = [](const CoverTile& tile) { return tile.leaf_error.has_value(); };
     const Bounds3d bounds = bounds_of(scene);
@@ -349,18 +350,19 @@ class CoverChecker {
   const std::vector<CoverTile>& tiles_;
   const CoverContents& content_of_;
   const std::vector<bool> mine_;
-  std::vector<std::unique_ptr<TileBody>> bodies_;  ///< of the tiles of this share; null: a leaf, or nothing
+  /// Per tile of this share: its content; null for a leaf, or without one.
+  std::vector<std::unique_ptr<TileBody>> bodies_;
   std::vector<std::unique_ptr<LeafBody>> leaves_;
   std::vector<std::uint8_t> unsound_;
   std::vector<Counts> counts_;
-  std::vector<Numbers> below_;    ///< of each tile, itself included
-  std::vector<Octants> octants_;  ///< of the cell of each tile
+  std::vector<Numbers> below_;    ///< per tile: its subtree, itself included
+  std::vector<Octants> octants_;  ///< per tile: the octants of its cell
   const std::vector<bool> held_;
-  std::size_t begin_ = 0, end_ = 0;  ///< tiles of this share
+  std::size_t begin_ = 0, end_ = 0;  ///< range of tiles of this share
   std::atomic<std::uint64_t> astray_{0};
-  double scene_edge_ = 0;      ///< the longest of the scene's box, where there are leaves
-  Rounding rounding_;          ///< of the scene
-  std::vector<bool> refused_;  ///< leaves with too large an error
+  double scene_edge_ = 0;      ///< longest edge of the scene's box, if there are leaves
+  Rounding rounding_;          ///< the scene's
+  std::vector<bool> refused_;  ///< per tile: a leaf with too large an error
   CoverReport report_;
   std::vector<TileFinding>& findings_ = report_.findings;
 };

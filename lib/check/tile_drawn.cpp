@@ -22,13 +22,13 @@ Bounds3d within(Bounds3d bounds, const std::optional<Bounds3d>& cell) {
   return bounds;
 }
 
-/// Whether drawing nothing is an error of `error` at most.
+/// Decides whether drawing nothing is an error of at most `error`.
 Answer is_within(double error, const Bounds3d& bounds) {
   if (bounds.empty() || error >= bounds.diagonal()) return Answer::proven;
   return error < bounds.longest_side() ? Answer::refuted : Answer::undecided;
 }
 
-/// For each tile whether all that a viewer may draw of it has a content.
+/// Returns for each tile whether all tiles that a viewer may draw in its place have a content.
 std::vector<bool> tiles_that_draw(const std::vector<CoverTile>& tiles) {
   std::vector<bool> draws(tiles.size());
   for (std::size_t i = tiles.size(); i-- > 0;) {

@@ -5,7 +5,7 @@
 
 namespace bp {
 
-/// What a check of a tileset found: a line.
+/// A line that a check of a tileset found.
 struct TileFinding {
   std::string text;
   Answer answer = Answer::refuted;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "lib/check/tile_cover.h"
+#include "lib/check/cover_tile.h"
 
 namespace bp {
 
@@ -18,7 +18,7 @@ std::vector<bool> tiles_of(TilePart part, const std::vector<CoverTile>& tiles) {
     return rank(a) < rank(b);
   });
   std::vector<bool> mine(tiles.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {  // to and fro: whoever is first in a round is last in the next
+  for (std::size_t i = 0; i < order.size(); ++i) {  // to and fro: the first part in one round is the last in the next
     const std::uint64_t turn = i % (2 * part.of);
     mine[order[i]] = std::min(turn, 2 * part.of - 1 - turn) == part.number;
   }

@@ -11,16 +11,17 @@
 #include "lib/exact/predicates.h"
 
 // A point p is in a box (centre c, half-axes a_i) if |(p - c) . n_i| <= |a_i . n_i| for each i, where n_i is the cross
-// product of the other two (Cramer's rule). Both sides are sums of products of the file's numbers, whose signs
-// expansions tell. A filter in doubles decides most points.
+// product of the other two (Cramer's rule). Both sides are sums of products of the file's numbers; expansions give
+// their exact signs. A filter in doubles decides most points.
 
 namespace bp {
 
 namespace {
 
-constexpr int kMostTerms = 28;     // of a transformed corner's coordinate, less that of a centre
-constexpr double kFilter = 1e-12;  // of the sum of magnitudes: more than all roundings of a sum of 700 products
-constexpr double kSafe = 1e-12;    // what a rounded length may lack
+constexpr int kMostTerms = 28;  // terms of a transformed corner's coordinate, less that of a centre
+// Relative to the sum of magnitudes: more than all roundings of a sum of 700 products.
+constexpr double kFilter = 1e-12;
+constexpr double kSafe = 1e-12;  // relative error of a rounded length, at most
 
 /// A number as a sum of doubles, exactly.
 class Terms {
@@ -101,7 +102,7 @@ Point minus(Point p, const Vec3d& centre) {
   return p;
 }
 
-/// m applied to the sum of some points, by columns.
+/// Returns m applied to the sum of some points; m is by columns.
 Point placed(const Transform& m, std::span<const Vec3d> sum) {
   Point out;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -113,7 +114,7 @@ Point placed(const Transform& m, std::span<const Vec3d> sum) {
   return out;
 }
 
-/// |a . n| <= b . m, where b . m is not negative.
+/// Returns |a . n| <= b . m, where b . m is not negative.
 bool at_most(const Point& a, const Point& n, const Point& b, const Point& m) {
   for (const double sign : {-1.0, 1.0}) {
     SignOfSum rest;
@@ -138,7 +139,8 @@ Point negated(const Point& p) {
   return out;
 }
 
-/// Without a thickness: a rectangle, a segment or a point, whose axes are orthogonal; no other holds anything.
+/// Returns whether a box without thickness holds the point: a rectangle, a segment or a point, whose axes are
+/// orthogonal; any other holds nothing.
 bool flat_holds(const TileBox& box, const Point& d) {
   std::vector<Vec3d> axes;
   for (const Vec3d& a : box.axes) {
@@ -198,7 +200,7 @@ bool box_holds(const BoxSides& sides, const Point& p) {
   return true;
 }
 
-/// Each of the sides is farther from the middle than the radius. `radius`: exact, or rounded up.
+/// Returns whether each side is farther from the centre than the radius. `radius`: exact, or rounded up.
 bool box_holds(const BoxSides& sides, const Point& centre, double radius) {
   if (radius == 0) return box_holds(sides, centre);
   if (sides.flat) return false;
@@ -206,7 +208,7 @@ bool box_holds(const BoxSides& sides, const Point& centre, double radius) {
   for (std::size_t i = 0; i < 3; ++i) {
     const Point& n = sides.normals[i];
     const Vec3d about{n[0].rounded(), n[1].rounded(), n[2].rounded()};
-    Point length;  // of the normal, in its first coordinate
+    Point length;  // length of the normal, in its first coordinate
     const auto axis = std::find_if(about.begin(), about.end(), [](double x) { return x != 0; });
     if (std::count(about.begin(), about.end(), 0.0) == 2) {
       const double sign = *axis < 0 ? -1 : 1;
@@ -225,7 +227,7 @@ bool box_holds(const BoxSides& sides, const Point& centre, double radius) {
   return true;
 }
 
-/// `inner`: of a ball that must be inside as a whole.
+/// Returns whether the ball holds p. `inner`: radius of a ball around p that must be inside as a whole.
 bool ball_holds(const TileSphere& ball, const Point& p, double inner) {
   Terms reach(ball.radius);
   reach.add(-inner);
@@ -237,7 +239,7 @@ bool ball_holds(const TileSphere& ball, const Point& p, double inner) {
   return rest.sign() >= 0;
 }
 
-/// The corner of a box, as a sum.
+/// Returns the corner of a box, as a sum.
 std::array<Vec3d, 4> corner_of(const TileBox& box, std::size_t i) {
   std::array<Vec3d, 4> sum{box.centre};
   for (std::size_t k = 0; k < 3; ++k) sum[k + 1] = ((i >> k & 1) != 0 ? 1.0 : -1.0) * box.axes[k];
@@ -256,7 +258,7 @@ class VolumeProof::Parts {
     return in_range_ && (!sides_ || box_holds(*sides_, p, radius)) &&
            (!volume_.sphere || ball_holds(*volume_.sphere, p, radius));
   }
-  /// In doubles, whose errors are counted. False: perhaps not.
+  /// Decides in doubles, with bounds on their errors. False: perhaps not.
   [[nodiscard]] bool surely_holds(const Vec3d& p) const {
     if (!in_range_ || !sides_ || sides_->flat || volume_.sphere) return false;
     const Vec3d d = p - sides_->box.centre;

@@ -3,9 +3,9 @@
 
 #include "lib/tileset/tileset.h"
 
-/// Does a volume by which viewers cull hold what is drawn? Exact for the numbers of the file: there is no tolerance.
-/// Only where a sphere is scaled or touches a slanted side is a length rounded, to the safe side. Nothing beyond 1e60
-/// is held, or with coordinates below 1e-60.
+/// Decides whether a volume by which viewers cull holds what is drawn. Exact for the numbers of the file: there is no
+/// tolerance. Only if a sphere is scaled or touches a slanted side is a length rounded, to the safe side. Nothing
+/// beyond 1e60, or with coordinates below 1e-60, is held.
 namespace bp {
 
 class VolumeProof {
@@ -16,9 +16,9 @@ class VolumeProof {
   VolumeProof(const VolumeProof&) = delete;
   VolumeProof& operator=(const VolumeProof&) = delete;
 
-  /// A point of the volume's own space.
+  /// Tests a point in the volume's own space.
   [[nodiscard]] bool holds(const Vec3d& p) const;
-  /// A volume of a space from which `m` leads here: whatever any of its parts holds.
+  /// Tests a volume of a space from which `m` leads here: true if each of its parts is held.
   [[nodiscard]] bool holds(const TileVolume& inner, const Transform& m) const;
 
  private:
@@ -26,7 +26,7 @@ class VolumeProof {
   std::unique_ptr<Parts> parts_;
 };
 
-/// About how far p lies outside, as a share of the volume's size; 0 inside. For messages.
+/// Returns about how far p lies outside, as a share of the volume's size; 0 inside. For messages.
 [[nodiscard]] double beyond(const TileVolume& volume, const Vec3d& p);
 
 }  // namespace bp

@@ -57,7 +57,7 @@ Json scene_json(const CheckReport& r) {
 }
 
 Json verdict_of(const CheckReport& r) {
-  // As docs/contracts.md has the word: r.sound() is of single triangles.
+  // "Sound" as in docs/contracts.md, whereas r.sound() is about single triangles.
   const bool sound = r.sound() && r.closed() && r.oriented() && r.manifold() && r.embedded();
   Json v = {{"readable", r.readable()},
             {"sound", sound},

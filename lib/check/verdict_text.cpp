@@ -14,7 +14,8 @@ namespace bp {
 
 namespace {
 
-/// What is around the scene has less volume only where the scene winds around a place twice, or where it has a hollow.
+/// Returns an explanation if the proxy has less volume than the scene that it encloses: the scene winds around a place
+/// twice, or has a hollow.
 std::string why_small(const CheckReport& r, double ratio) {
   if (ratio >= 1 || !r.encloses()) return "";
   return r.components > 1 ? ": the scene's parts overlap and count twice, or the proxy is hollow"
@@ -52,16 +53,16 @@ std::string row(const char* question, Answer answer, const std::string& why) {
   return fmt::format("  {:<28}not decided: {}\n", question, why);
 }
 
-/// What the proxy's file names, and what the answer rests on.
+/// Returns the recipe that the proxy's file names, on which the answer depends.
 std::string recipe_text(const HidingRecipe& recipe) {
   const std::string voxels = fmt::format("its file names voxels of {:.4g}", recipe.frame.voxel);
   return recipe.scale_world > 0 ? voxels + fmt::format(" and a closing scale of {:.4g}", recipe.scale_world) : voxels;
 }
 
-/// Inner walls may lie in what is hidden: then it is no failure.
+/// Returns the rows on parts outside. Inner walls may lie in the hidden space: then it is no failure.
 std::string inside_rows(const CheckReport& r) {
   std::string text;
-  const bool other = r.asks_hidden && r.hiddenness() == Answer::proven;  // then these decide nothing
+  const bool other = r.asks_hidden && r.hiddenness() == Answer::proven;  // then these findings decide nothing
   const auto add = [&](const char* question, Answer answer) {
     if (!other || answer == Answer::proven) text += row(question, answer, scene_doubt(r));
   };
@@ -73,7 +74,8 @@ std::string inside_rows(const CheckReport& r) {
                             r.recipe.closed_gap(), recipe_text(r.recipe));
 }
 
-/// Findings that are no failures: what the proxy is asked instead is decided, or what cannot be judged may hide it.
+/// Returns whether a finding is no failure: because the question asked instead is decided, or because triangles that
+/// cannot be judged may hide the part.
 bool is_aside(const CheckReport& r, const FindingText& t) {
   if (t.finding == &CheckReport::outside_parts && r.undecidable_scene.count > 0) return true;
   if (!r.asks_hidden || r.hiddenness() == Answer::undecided) return false;
@@ -108,7 +110,7 @@ std::string scene_lines(const CheckReport& r) {
   return text;
 }
 
-/// `what`: of the points that are measured from.
+/// Returns the line of a distance. `what`: the points from which it is measured.
 std::string distance_line(const char* name, const std::optional<SampledDistance>& d, const char* what) {
   if (!d) return "";
   const std::string bound = d->at_most ? fmt::format(" (at most {:.6g}), {:.6g} mean of", *d->at_most, d->mean)

@@ -74,7 +74,7 @@ std::span<const FindingText> finding_texts() {
   return kFindings;
 }
 
-/// The scene may face inwards: its sign does not matter.
+/// The sign is ignored, since the scene may face inwards.
 std::optional<double> volume_ratio(const CheckReport& r) {
   if (!r.volume || !r.scene_volume) return {};
   return *r.volume / std::abs(*r.scene_volume);
@@ -88,7 +88,7 @@ std::string counted(const Finding& f, const FindingText& t) {
   return fmt::format("{} {}{}", f.count, noun, text.substr(close + 1));
 }
 
-/// Of questions that were not asked, which no report mentions.
+/// Returns whether a finding belongs to a question that was not asked: no report mentions it.
 bool is_unasked(const CheckReport& r, const FindingText& t) {
   if (t.finding == &CheckReport::within_rounding) return !r.scene_counts.rounding.any() && r.proxy_off == 0;
   return r.margin == 0 && (t.finding == &CheckReport::too_near || t.finding == &CheckReport::perhaps_near);
@@ -102,7 +102,7 @@ double most_off(const CheckReport& r) {
 
 }  // namespace
 
-/// Why the question about the scene is not decided.
+/// Returns why the question about the scene is not decided.
 std::string scene_doubt(const CheckReport& r) {
   if (!r.place_unknown.empty()) return r.place_unknown;
   if (!r.sides_decided) return kNoOutside;
@@ -125,7 +125,7 @@ std::string hidden_doubt(const CheckReport& r) {
   return r.hidden_unknown.empty() || !r.place_unknown.empty() ? scene_doubt(r) : r.hidden_unknown;
 }
 
-/// Why the margin is not decided.
+/// Returns why the margin is not decided.
 std::string margin_doubt(const CheckReport& r) {
   if (r.undecidable_scene.count > 0 || r.is_partial() || !r.place_unknown.empty()) return scene_doubt(r);
   return most_off(r) > 0
@@ -134,7 +134,7 @@ std::string margin_doubt(const CheckReport& r) {
              : "the least distance is the margin, to the last digits";
 }
 
-/// Why not all that was asked is decided, though nothing is refuted.
+/// Returns why some question is not decided, though nothing is refuted.
 std::string doubt_of(const CheckReport& r) {
   if (r.undecidable_vertices.count > 0) return "the proxy has coordinates that are too large or too small";
   if (r.differing > 0) return "the proxy's file holds " + held_twice(r.differing);

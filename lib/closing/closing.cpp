@@ -152,6 +152,10 @@ void add_closing(const BitBox& solid, const ScaleLattice& scale, const Halo& hal
 
 }  // namespace
 
+std::size_t turned_cubes_bytes(std::int32_t reach) {
+  return detail::OrientedDilation::least_bytes(reach);
+}
+
 ClosingScratch::ClosingScratch() : parts_(std::make_unique<Parts>()) {}
 
 ClosingScratch::~ClosingScratch() = default;

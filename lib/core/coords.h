@@ -28,7 +28,9 @@ struct Coord3 {
     return {Int(a.x - b.x), Int(a.y - b.y), Int(a.z - b.z)};
   }
   friend BP_HD constexpr Coord3 operator*(Coord3 a, Int s) { return {Int(a.x * s), Int(a.y * s), Int(a.z * s)}; }
-  friend constexpr auto operator<=>(const Coord3&, const Coord3&) = default;  // lexicographic: x, y, z
+  /// Compares x, then y, then z.
+  // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 takes the 0 in a defaulted comparison for a null pointer
+  friend constexpr auto operator<=>(const Coord3&, const Coord3&) = default;
 };
 
 using VoxelCoord = Coord3<struct VoxelSpace, std::int32_t>;  ///< voxel of the grid; voxel p is the closed cube [p, p+1]

@@ -29,6 +29,9 @@ namespace bp {
   const double l = length(v);
   return l > 0 ? (1 / l) * v : otherwise;
 }
+[[nodiscard]] inline double area_of(const TriangleD& t) {
+  return length(cross(t[1] - t[0], t[2] - t[0])) / 2;
+}
 [[nodiscard]] inline bool is_finite(const Vec3d& p) {
   return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
 }

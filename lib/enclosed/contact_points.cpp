@@ -11,11 +11,12 @@ namespace bp {
 namespace {
 
 constexpr std::int64_t kFacesAtOnce = 64;
-constexpr std::size_t kPointsPerFace = 64;  // that are kept in any case
-constexpr std::size_t kBinsPerEdge = 12;    // of a face with more
-constexpr double kTilt = 1;                 // how far a face may turn, as a slope
+constexpr std::size_t kPointsPerFace = 64;  // points of a face that are kept in any case
+constexpr std::size_t kBinsPerEdge = 12;    // bins along an edge of a face with more points
+constexpr double kTilt = 1;                 // largest turn of a face that is considered, as a slope
 
-/// The points that a face meets first, wherever in it and however it turns. What lies under them guides nothing.
+/// The points that a face meets first, wherever on it they lie and however it turns. Points under them guide nothing,
+/// and are dropped.
 class Outermost {
  public:
   explicit Outermost(const std::array<Vec3d, 3>& face) : corner_(face[0]) {
@@ -55,12 +56,12 @@ class Outermost {
   static std::size_t bin_of(double share) {
     return std::size_t(std::clamp(share * double(kBinsPerEdge), 0.0, double(kBinsPerEdge) - 1));
   }
-  Vec3d corner_, to_b_{}, to_c_{};  // its share of the way to each of the others
+  Vec3d corner_, to_b_{}, to_c_{};  // times to_b_ (to_c_), a point gives its share of the way to corner b (c)
   std::array<Vec3d, 5> directions_{};
   std::array<Best, kBinsPerEdge * kBinsPerEdge * 5> best_{};
 };
 
-/// Of n targets; `first`: the one that is asked first; the nearer it is, the fewer others are.
+/// Returns the nearest of n targets to p. `first` is asked first: the nearer it is, the fewer others are asked.
 template <class TargetAt>
 std::size_t nearest_of(std::size_t n, const TargetAt& target_at, const Vec3d& p, std::size_t first) {
   std::size_t best = first;
@@ -81,7 +82,7 @@ std::size_t nearest_of(std::span<const FaceTarget> targets, const Vec3d& p, std:
       targets.size(), [&](std::size_t k) -> const FaceTarget& { return targets[k]; }, p, first);
 }
 
-/// The face and those that have a corner with it in common, each once.
+/// Gathers the face and all faces that share a corner with it, each once.
 void gather_around(const HalfEdgeMesh& mesh, FaceId f, std::vector<FaceId>& around) {
   around.assign(1, f);
   for (HalfEdgeId h = 3 * f; h < 3 * f + 3; ++h) {
@@ -105,11 +106,11 @@ ContactPoints::ContactPoints(const Enclosed& enclosed, const HalfEdgeMesh& mesh,
     if (mesh.alive(f)) edges += length(to_double(mesh.corner(f, 1) - mesh.corner(f, 0)));
   }
   const double reach = edges / double(mesh.face_count());
-  // What lies under faces along a cell's side may lie beyond it.
+  // Points under faces along a cell's side may lie beyond that side.
   points_ = enclosed.contact_points(origin_, mesh.cell().grown(std::int64_t(2 * reach) + 1));
   const std::vector<FaceId> nearest_to = nearest_faces(points_, origin_, mesh, tree, reach);
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    if (nearest_to[i] != kNoId) of_face_[nearest_to[i]].push_back(std::uint32_t(i));  // else deep inside
+    if (nearest_to[i] != kNoId) of_face_[nearest_to[i]].push_back(std::uint32_t(i));  // else the point lies deep inside
   }
   parallel_ranges(std::int64_t(of_face_.size()), kFacesAtOnce, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t f = begin; f < end; ++f) keep_outermost(FaceId(f));
@@ -171,8 +172,8 @@ void ContactPoints::set_targets() {
   });
 }
 
-/// All but those that it keeps. One that is nearer to it than to its edges stays, though a face that folds back over it
-/// may be nearer.
+/// Lists the points of the face `from` with the nearest faces around it. A point that is nearer to `from` than to the
+/// planes along its edges stays, even if a face that folds back over it is nearer.
 void ContactPoints::give_away(FaceId from, std::vector<FaceId>& around, std::vector<Move>& moves) {
   gather_around(mesh_, from, around);
   const FaceTarget& own = targets_[from];

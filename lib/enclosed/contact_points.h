@@ -6,9 +6,10 @@
 #include "lib/core/vec3.h"
 #include "lib/enclosed/enclosed.h"
 #include "lib/enclosed/face_target.h"
+#include "lib/mesh/face_tree.h"
 
-/// Points of what must stay inside, each listed with the face of the proxy that it is nearest to. They guide where
-/// vertices go; nothing is proved by them. Of many with one face, those are kept that it meets first: at most 720.
+/// Points of the enclosed set, each listed with the face of the proxy that is nearest to it. They guide where vertices
+/// go; they prove nothing. If a face has many, only the points that it meets first are kept: at most 720.
 namespace bp {
 
 class ContactPoints {
@@ -19,23 +20,24 @@ class ContactPoints {
   [[nodiscard]] const std::vector<std::uint32_t>& of(FaceId f) const { return of_face_[f]; }
   [[nodiscard]] const Vec3d& operator[](std::uint32_t i) const { return points_[i]; }  ///< relative to origin()
   [[nodiscard]] const LatticeCoord& origin() const { return origin_; }
-  [[nodiscard]] std::span<const Vec3d> points() const { return points_; }  ///< all that are listed, and no others
+  /// Exactly the points that are listed with a face.
+  [[nodiscard]] std::span<const Vec3d> points() const { return points_; }
 
-  /// What handing over needs meanwhile.
+  /// Buffers for hand_over().
   struct Scratch {
-    std::vector<std::pair<std::uint32_t, std::size_t>> moving;  // points, each with the face it had, as a target
+    std::vector<std::pair<std::uint32_t, std::size_t>> moving;  // points, each with its old face as a target
     std::vector<FaceTarget> targets;
   };
-  /// Lists the points of the faces `from` with the nearest of the faces `to`, which are as they are in the mesh now.
-  /// At the same time for different faces.
+  /// Lists the points of the faces `from` with the nearest of the faces `to`. Uses the mesh as it is now. Thread-safe
+  /// for different faces.
   void hand_over(std::span<const FaceId> from, std::span<const FaceId> to, Scratch& scratch);
 
-  /// Lists the points of `faces`, each once, with the nearest of the faces at their corners: after many changes around
-  /// them. Parallel; builds a target for each face of the mesh.
+  /// Lists the points of `faces`, each face once, with the nearest of the faces at their corners. For use after many
+  /// changes. Parallel; builds a target for each face of the mesh.
   void hand_over_around(std::span<const FaceId> faces);
 
-  /// More points, relative to origin() + `shift`, each for the nearest of the faces `near`; not those that are there
-  /// already, to a unit.
+  /// Adds points, given relative to origin() + `shift`, to the nearest of the faces `near`. Points that are there
+  /// already, to a lattice unit, are not added again.
   void add(std::span<const Vec3d> points, const Vec3d& shift, std::span<const FaceId> near);
 
  private:
@@ -55,7 +57,7 @@ class ContactPoints {
   std::vector<Vec3d> points_;
   std::vector<std::vector<std::uint32_t>> of_face_;
   Scratch scratch_;
-  std::vector<FaceTarget> targets_;  // of hand_over_around(), by face
+  std::vector<FaceTarget> targets_;  // per face: its target, for hand_over_around()
   std::set<LatticeCoord> added_;
 };
 

@@ -9,18 +9,18 @@
 
 namespace bp {
 
-/// Of a scene, what lies in a closed box, scene units; and voxels that stay inside, too.
+/// The part of a scene in a closed box (scene units), and voxels that stay inside in addition.
 struct ScenePart {
   Bounds3d box;
-  const BrickShelf* voxels = nullptr;  ///< may be empty
+  const BrickShelf* voxels = nullptr;  ///< may be null
 };
 
-/// The triangles of a scene: they stay inside, exactly. What is near is told by its voxels, which is quick and needs no
-/// more than a guess, or by few triangles.
+/// The triangles of a scene, which stay inside exactly. is_near() asks the scene's voxels, or `near` if there are few
+/// triangles: a guess is enough, and quick.
 class EnclosedScene final : public EnclosedTriangles {
  public:
-  /// `voxels`: of the scene, in the voxels of `frame`. `part`: of the scene, if not all of it stays inside. `near`:
-  /// tells what is near in place of the voxels; may be null.
+  /// `voxels`: the scene's voxels in `frame`. `part`: encloses only a part of the scene. `near`: answers is_near() in
+  /// place of the voxels; may be null.
   EnclosedScene(std::vector<TriangleD> triangles, const GridFrame& frame, const BrickShelf& voxels,
                 const std::optional<ScenePart>& part, std::unique_ptr<const NearTriangles> near)
       : EnclosedTriangles(std::move(triangles), frame, part ? std::optional(part->box) : std::nullopt),
@@ -49,7 +49,7 @@ class EnclosedScene final : public EnclosedTriangles {
 
  private:
   std::unique_ptr<const NearTriangles> near_;
-  std::optional<NearMasks> voxels_;  // where triangles do not tell what is near
+  std::optional<NearMasks> voxels_;  // none if `near` answers is_near()
   std::optional<EnclosedVoxels> held_;
 };
 

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::int64_t kTrianglesAtOnce = 4096;
 
-/// Lattice box that surely holds a triangle: to_voxels errs by less than 2^-20 voxel.
+/// Returns a lattice box that surely holds the triangle: to_voxels errs by less than 2^-20 voxel.
 LatticeBox box_around(const GridFrame& frame, const TriangleD& t) {
   LatticeBox box;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -36,7 +36,7 @@ LatticeBox box_around(const GridFrame& frame, const TriangleD& t) {
   return box;
 }
 
-/// The smallest lattice box that surely has a point strictly inside.
+/// Returns the smallest lattice box that surely has the point strictly inside.
 LatticeBox box_around(const GridFrame& frame, const Vec3d& p) {
   constexpr double kSlack = 0x1p-13;  // to_voxels errs by less than 2^-20 voxel
   const Vec3d at = frame.to_lattice(p);
@@ -59,8 +59,8 @@ LatticeBox box_around(std::span<const NewFace> star, std::span<const Tetrahedron
   return box;
 }
 
-/// Boxes that lie strictly on the inner side of a face neither meet it nor a tetrahedron that it closes towards the
-/// inside.
+/// Returns the plane of a face. A box strictly on the inner side meets neither the face nor a tetrahedron that the face
+/// closes towards the inside.
 BoxTree::Plane plane_of(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoord& c) {
   return {a, to_double(normal_of(a, b, c))};
 }
@@ -104,7 +104,7 @@ EnclosedTriangles::EnclosedTriangles(std::vector<TriangleD> triangles, const Gri
   samples_ = all_samples();
 }
 
-/// Keeps the triangles that have a part in the box; returns middles of the parts, lattice units.
+/// Keeps the triangles that have a part in the box; returns the middles of these parts, lattice units.
 std::vector<Vec3d> EnclosedTriangles::cut_to(const Bounds3d& within, std::vector<TriangleD>& triangles) const {
   std::vector<Vec3d> middles;
   std::erase_if(triangles, [&](const TriangleD& t) {
@@ -115,7 +115,7 @@ std::vector<Vec3d> EnclosedTriangles::cut_to(const Bounds3d& within, std::vector
   return middles;
 }
 
-/// The largest coordinate.
+/// Sets the rounded corners of triangle i; returns the largest coordinate.
 double EnclosedTriangles::set_corners(std::size_t i) {
   const Vec3d base = to_double(tree_.base());
   double farthest = 0;
@@ -132,7 +132,8 @@ double EnclosedTriangles::set_corners(std::size_t i) {
   return farthest;
 }
 
-/// What a change sweeps: a new face, or a tetrahedron, or both, the face closing the tetrahedron towards the inside.
+/// The space that a change sweeps: a new face, or a tetrahedron, or a tetrahedron that the face closes towards the
+/// inside.
 class EnclosedTriangles::Swept {
  public:
   Swept(const EnclosedTriangles& all, const NewFace* face, const std::optional<Solid>& solid)
@@ -154,7 +155,7 @@ class EnclosedTriangles::Swept {
   }
   [[nodiscard]] BoxTree::Plane plane() const { return plane_of(corners_[0], corners_[1], corners_[2]); }
 
-  /// Bits of the triangles that are surely clear, among those asked for.
+  /// Returns the bits of those triangles, among `asked`, that are surely clear of the swept space.
   [[nodiscard]] std::uint32_t clear(const EightTriangles& eight, std::uint32_t asked) {
     std::uint32_t clear = inwards_.holds(eight, 2);
     if ((asked & ~clear) == 0) return clear;
@@ -167,7 +168,7 @@ class EnclosedTriangles::Swept {
     return clear | (of_face & of_solid);
   }
 
-  /// Exact, or of a part on the safe side.
+  /// Tests triangle i. Exact; for a part of a triangle it may return true for one that is clear.
   [[nodiscard]] bool meets(std::size_t i) {
     const TriangleD& t = all_.triangles_[i];
     const bool cut = has_face_ && (all_.has_area(i) ? triangles_intersect(t.data(), world_.data(), plane_of_face())
@@ -179,7 +180,7 @@ class EnclosedTriangles::Swept {
  private:
   [[nodiscard]] Vec3d normal() const { return cross(body_[1] - body_[0], body_[2] - body_[0]); }
 
-  /// Upright on the face, along edge k.
+  /// Returns the half-space beyond edge k, upright on the face.
   [[nodiscard]] const ClearSpace& beside_face(std::size_t k) {
     if (k == face_sides_) {
       const Vec3d &a = body_[k], &b = body_[(k + 1) % 3];
@@ -187,7 +188,7 @@ class EnclosedTriangles::Swept {
     }
     return beside_face_[k];
   }
-  /// Another face of the tetrahedron, at edge k.
+  /// Returns the half-space beyond the tetrahedron's other face at edge k.
   [[nodiscard]] const ClearSpace& beside_solid(std::size_t k) {
     if (k == solid_sides_) {
       const Vec3d &a = body_[k], &b = body_[(k + 1) % 3], &c = body_[(k + 2) % 3], &d = body_[3];
@@ -206,9 +207,9 @@ class EnclosedTriangles::Swept {
   bool has_face_;
   std::array<LatticeCoord, 3> corners_;  // of the face
   std::array<Vec3d, 3> world_;
-  std::array<Vec3d, 4> body_;  // corners of the face, then the tetrahedron's other one; relative to the tree's base
+  std::array<Vec3d, 4> body_;  // corners of the face, then the tetrahedron's fourth corner; relative to the tree's base
   ClearSpace inwards_;
-  // Made when they are asked for first:
+  // Half-spaces, made when they are first needed.
   std::array<ClearSpace, 3> beside_face_, beside_solid_;
   std::size_t face_sides_ = 0, solid_sides_ = 0;
   std::optional<PlaneOf<Vec3d>> plane_;
@@ -264,7 +265,7 @@ void EnclosedTriangles::add_samples_of(std::size_t i, std::vector<Vec3d>& points
     add_samples({corners[0], corners[k - 1], corners[k]}, frame_.voxel, points);
 }
 
-/// Of a part, three of its corners.
+/// Reports triangle i as the blocker; for a part of a triangle, three of the part's corners.
 void EnclosedTriangles::report(std::size_t i, Blocker& blocker) const {
   TriangleD triangle = triangles_[i];
   if (within_) {
@@ -276,7 +277,7 @@ void EnclosedTriangles::report(std::size_t i, Blocker& blocker) const {
 }
 
 void EnclosedTriangles::outer_boxes(const UseBoxes& use) const {
-  constexpr std::size_t kAtOnce = 512;  // triangles
+  constexpr std::size_t kAtOnce = 512;  // triangles per work item
   if (within_ || triangles_.empty()) return;
   std::vector<LatticeBox> boxes;
   const std::size_t step = triangles_.size() / kFirstBoxes + 1;
@@ -295,7 +296,7 @@ std::uint64_t EnclosedTriangles::bytes() const {
   return triangles_.size() * kBytesEach;
 }
 
-/// In lattice units, each once.
+/// Returns the samples of all triangles in lattice units, each once.
 std::vector<Vec3d> EnclosedTriangles::all_samples() const {
   std::vector<std::vector<Vec3d>> parts(triangles_.size() / kTrianglesAtOnce + 1);
   parallel_ranges(std::int64_t(triangles_.size()), kTrianglesAtOnce, [&](std::int64_t begin, std::int64_t end) {

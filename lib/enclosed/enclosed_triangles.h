@@ -4,21 +4,16 @@
 
 #include "lib/core/box.h"
 #include "lib/core/grid_frame.h"
+#include "lib/enclosed/eight_triangles.h"
 #include "lib/enclosed/enclosed.h"
 
 namespace bp {
 
-/// The corners of eight triangles side by side, rounded: to leave out those that are surely clear of a change.
-struct EightTriangles {
-  FourFloats corners[3][3][2];  ///< of corner and axis, lattice units
-};
-
-/// The triangles of a scene, in scene units and exactly as read: the proxy must not even touch them. All in memory: 108
-/// bytes each and about 40 for the tree, and contact points. `frame` is the proxy's; its vertices are exact doubles, so
-/// the predicates on doubles are exact too.
-///
-/// `within`, scene units: only what the triangles have in this closed box must stay inside; elsewhere a face may cut
-/// them. Whether a part is met is then decided on the safe side (triangle_part.h).
+/// The triangles of a scene, in scene units and exactly as read: the proxy must not even touch them. All are in memory:
+/// 108 bytes each, about 40 for the tree, and the contact points. `frame`: the proxy's frame; its vertices are exact
+/// doubles, so the predicates on doubles are exact, too. If `within` (scene units) is given, only the triangles' parts
+/// in this closed box must stay inside; elsewhere a face may cut them. A part that is nearly met then counts as met
+/// (triangle_part.h).
 class EnclosedTriangles : public Enclosed {
  public:
   EnclosedTriangles(std::vector<TriangleD> triangles, const GridFrame& frame,
@@ -29,7 +24,7 @@ class EnclosedTriangles : public Enclosed {
   [[nodiscard]] bool is_exact() const override { return true; }
   void outer_boxes(const UseBoxes& use) const override;
   [[nodiscard]] std::uint64_t bytes() const override;
-  /// The triangle, its corners in floats, about 40 for the tree and a bit for its area, and a contact point.
+  /// The triangle, its corners in floats, about 40 bytes for the tree, a bit for its area, and a contact point.
   static constexpr std::uint64_t kBytesEach =
       sizeof(TriangleD) + sizeof(EightTriangles) / 8 + 40 + kBytesPerContactPoint;
 
@@ -46,13 +41,13 @@ class EnclosedTriangles : public Enclosed {
   std::vector<TriangleD> triangles_;  // in the order of the tree
   GridFrame frame_;
   std::optional<Bounds3d> within_;
-  std::vector<Vec3d> middles_;  // with within_: of each triangle's part, about; lattice units
+  std::vector<Vec3d> middles_;  // with within_: per triangle the middle of its part, about; lattice units
   BoxTree tree_;
   LatticeBox bounds_;
   std::vector<EightTriangles> eights_;  // relative to the tree's base
-  std::vector<std::uint8_t> no_area_;   // a bit each: a segment or a point
+  std::vector<std::uint8_t> no_area_;   // one bit per triangle: it is a segment or a point
   double reach_ = 0;                    // largest coordinate in eights_
-  std::vector<Vec3d> samples_;          // by their first coordinate
+  std::vector<Vec3d> samples_;          // sorted by their first coordinate
 };
 
 }  // namespace bp

@@ -13,8 +13,9 @@
 #include "lib/enclosed/detail/resting_points.h"
 #include "lib/enclosed/detail/separator.h"
 
-// Tetrahedra are told from cubes by detail/separator.h, first from bricks, then from blocks of 8^3 voxels, then from
-// voxels; detail/cell_window.h has those of them that a box meets. What a proxy rests on: detail/resting_points.h.
+// Tetrahedra are separated from cubes by detail/separator.h: first from bricks, then from blocks of 8^3 voxels, then
+// from voxels. detail/cell_window.h finds the bricks, blocks and voxels that a box meets. detail/resting_points.h finds
+// the points that a proxy rests on.
 
 namespace bp {
 
@@ -22,9 +23,9 @@ using namespace detail;
 
 namespace {
 
-constexpr std::size_t kCubeCorners = 8;  // of a blocker that is a voxel
+constexpr std::size_t kCubeCorners = 8;  // corners of a blocker that is a voxel
 
-/// Occupied voxels of a brick with an empty one across one of their 6 faces.
+/// Returns the occupied voxels of a brick with an empty one across one of their 6 faces.
 BrickBits boundary_of(const BrickShelf& shelf, BrickCoord coord) {
   const VoxelCoord first = first_voxel(coord);
   BitBox bits({{first.x - 64, first.y - 1, first.z - 1}, {first.x + 128, first.y + 65, first.z + 65}});
@@ -44,7 +45,7 @@ BrickBits boundary_of(const BrickShelf& shelf, BrickCoord coord) {
   return out;
 }
 
-/// Block b = 64 z + 8 y + x of a brick: word z, bit 8 y + x.
+/// Returns block b = 64 z + 8 y + x of a brick: bit 8 y + x of word z for each voxel.
 std::array<std::uint64_t, 8> block_of(const BrickBits& bits, std::size_t b) {
   const std::size_t bx = b % 8, by = b / 8 % 8, bz = b / 64;
   std::array<std::uint64_t, 8> block{};
@@ -55,7 +56,7 @@ std::array<std::uint64_t, 8> block_of(const BrickBits& bits, std::size_t b) {
   return block;
 }
 
-/// Of the eight blocks b to b + 7, which follow each other along x, the bits of all of their rows.
+/// Returns all rows' bits, combined by OR, of the blocks b to b + 7, which follow each other along x.
 std::uint64_t columns_of(const BrickBits& bits, std::size_t b) {
   std::uint64_t any = 0;
   for (std::size_t z = 0; z < 8; ++z) {
@@ -76,7 +77,7 @@ Blocker cube(const LatticeCoord& low, std::int64_t edge) {
   return b;
 }
 
-/// Whether they are disjoint, for an open voxel and an open tetrahedron. `low`: the voxel's low corner.
+/// Returns whether an open voxel and an open tetrahedron are disjoint. `low`: the voxel's low corner.
 bool is_clear_of(const LatticeCoord& low, const Tetrahedron& t) {
   Separator separator(t);
   for (int i = 0; i < 3; ++i) {
@@ -133,7 +134,7 @@ bool EnclosedVoxels::allows(std::span<const NewFace>, std::span<const Tetrahedro
 }
 
 std::uint64_t EnclosedVoxels::bytes() const {
-  constexpr std::uint64_t kBytesPerBrick = sizeof(BoundaryBrick) + 48;  // of a hash table
+  constexpr std::uint64_t kBytesPerBrick = sizeof(BoundaryBrick) + 48;  // with 48 bytes of a hash table
   return blocks_.capacity() * sizeof(Block) + bricks_.size() * kBytesPerBrick +
          points_.capacity() * sizeof(VoxelCoord) + points_of_.capacity() * sizeof(PointsOf) +
          points_.size() * kBytesPerContactPoint;

@@ -16,7 +16,7 @@ namespace bp {
 /// the box around the tetrahedron meets; of contact_points(), the points of all bricks that `within` meets.
 class EnclosedVoxels : public Enclosed {
  public:
-  explicit EnclosedVoxels(const BrickShelf& shelf);  ///< which must outlive it
+  explicit EnclosedVoxels(const BrickShelf& shelf);  ///< the shelf must outlive this
   [[nodiscard]] bool allows(std::span<const NewFace> star, std::span<const Tetrahedron> swept,
                             Blocker* blocker) const override;
   [[nodiscard]] std::vector<Vec3d> contact_points(const LatticeCoord& origin, const LatticeBox& within) const override;
@@ -25,13 +25,13 @@ class EnclosedVoxels : public Enclosed {
   [[nodiscard]] std::uint64_t bytes() const override;
 
  private:
-  /// Occupied voxels with an empty one across one of their 6 faces: word z, bit 8 y + x.
+  /// The boundary voxels of a block: occupied, with an empty one across one of their 6 faces. Word z, bit 8 y + x.
   using Block = std::array<std::uint64_t, 8>;
   struct BoundaryBrick {
-    std::array<std::uint64_t, 8> blocks;  ///< those with any voxel: word z, bit 8 y + x
-    std::array<std::uint32_t, 8> first;   ///< in blocks_: the first one of each word
+    std::array<std::uint64_t, 8> blocks;  ///< the blocks with any such voxel: word z, bit 8 y + x
+    std::array<std::uint32_t, 8> first;   ///< per word: its first block in blocks_
   };
-  /// use(first voxel, block) for the blocks of a brick.
+  /// Calls use(first voxel, block) for each block of a brick.
   template <class Use>
   void for_each_block(BrickCoord coord, const Use& use) const;
   [[nodiscard]] bool clear(const Tetrahedron& t, Blocker* blocker) const;
@@ -47,14 +47,14 @@ class EnclosedVoxels : public Enclosed {
   NearMasks near_;
   std::unordered_map<BrickCoord, BoundaryBrick, Hash> bricks_;
   std::vector<Block> blocks_;
-  /// Corners with one occupied voxel around them, and of straight edges and flat sides those 8 voxels apart; some on
+  /// Corners with one occupied voxel around them, and corners 8 voxels apart on straight edges and flat sides; some on
   /// brick borders are left out.
   std::vector<VoxelCoord> points_;
   struct PointsOf {
     BrickCoord coord;
     std::size_t first;  // in points_
   };
-  std::vector<PointsOf> points_of_;  // of bricks that have any
+  std::vector<PointsOf> points_of_;  // the bricks that have any
 };
 
 }  // namespace bp

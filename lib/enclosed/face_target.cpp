@@ -2,7 +2,7 @@
 
 namespace bp {
 
-// Regions of the plane around the triangle, one corner or edge after the other ([Eri04] 5.1.5).
+// Tests the regions of the plane around the triangle, one corner or edge after the other ([Eri04] 5.1.5).
 double squared_distance(const Vec3d& p, const std::array<Vec3d, 3>& t) {
   const Vec3d ab = t[1] - t[0], ac = t[2] - t[0], ap = p - t[0];
   const auto from = [&](const Vec3d& q) {

@@ -6,10 +6,10 @@
 
 namespace bp {
 
-/// What must stay inside, with fewer contact points than it has: those that the faces of a proxy around it meet first,
-/// as ContactPoints lists them. They guide all coarser proxies that follow from this one, at a fraction of the cost:
-/// what lies under other points of a small face mostly lies under them for a larger one, too. Where it does not,
-/// allows(), which asks all that must stay inside, refuses a move that the points would have led to.
+/// An enclosed set with fewer contact points than the whole: those that the faces of a proxy around it meet first, as
+/// ContactPoints lists them. They guide all coarser proxies made from this proxy, at a fraction of the cost: a point
+/// that lies under others for a small face mostly does for a larger face, too. Where it does not, allows(), which asks
+/// the whole set, refuses the move that the points led to.
 class FewContacts final : public Enclosed {
  public:
   /// Keeps a reference to `all`.

@@ -15,12 +15,13 @@ namespace bp {
 
 namespace {
 
-constexpr double kLeastReach = 8;               // of a mask with larger voxels, in these
-constexpr std::size_t kMostBricks = 512;        // of a mask, about: 16 MiB
-constexpr std::uint64_t kWorkBytes = 64 << 20;  // while a mask is made
-constexpr std::int64_t kMostRows = 256;  // rows of voxels that are looked at for a piece; others are halved first
+constexpr double kLeastReach = 8;         // shortest distance, in voxels of the mask, of a mask with larger voxels
+constexpr std::size_t kMostBricks = 512;  // bricks of a mask, about: 16 MiB
+constexpr std::uint64_t kWorkBytes = 64 << 20;  // memory while a mask is made, bytes
+// Rows of voxels that are looked at for one piece of a face; a piece with more is halved.
+constexpr std::int64_t kMostRows = 256;
 
-/// Bricks in memory, each once.
+/// A shelf of bricks in memory, each once.
 class Bricks final : public BrickShelf {
  public:
   void put(BrickCoord coord, BrickFill fill, const BrickBits& bits) override {
@@ -56,7 +57,7 @@ class Bricks final : public BrickShelf {
     for (const auto& [coord, bits] : bricks_) sum += bits ? sizeof(BrickBits) : 0;
     return sum;
   }
-  /// Null: full. False: empty.
+  /// Finds a brick; returns false if it is empty, and null bits if it is full.
   [[nodiscard]] bool find(BrickCoord coord, const BrickBits*& bits) const {
     const auto it = bricks_.find(coord);
     if (it == bricks_.end()) return false;
@@ -73,7 +74,7 @@ class Bricks final : public BrickShelf {
 
 struct NearMasks::Mask {
   double distance = 0;
-  std::int64_t edge = kLatticePerVoxel;  // of its voxels, lattice units
+  std::int64_t edge = kLatticePerVoxel;  // edge of its voxels, lattice units
   Bricks bricks;
   const Mask* next = nullptr;
 
@@ -82,7 +83,7 @@ struct NearMasks::Mask {
     for (std::size_t count = voxels.coords().size(); count > kMostBricks || distance / double(2 * edge) >= kLeastReach;
          count /= 4) {
       auto doubled = std::make_unique<Bricks>();
-      reduce(larger ? *larger : voxels, GridFrame{}, *doubled);  // its origin stays: voxel p lies in p / 2
+      reduce(larger ? *larger : voxels, GridFrame{}, *doubled);  // the origin stays: voxel p lies in p / 2
       larger = std::move(doubled);
       edge *= 2;
     }
@@ -94,7 +95,7 @@ struct NearMasks::Mask {
     return {std::int32_t(floor_div(p.x, edge)), std::int32_t(floor_div(p.y, edge)), std::int32_t(floor_div(p.z, edge))};
   }
 
-  /// Whether all voxels from `low` to `high` are set.
+  /// Returns whether all voxels from `low` to `high` are set.
   [[nodiscard]] bool holds(const VoxelCoord& low, const VoxelCoord& high) const {
     const auto brick_of = [](std::int32_t v) { return floor_div(v, kBrickEdge); };
     for (std::int32_t bz = brick_of(low.z); bz <= brick_of(high.z); ++bz) {
@@ -169,7 +170,7 @@ bool NearMasks::is_near(std::span<const NewFace> faces, double distance) const {
     const VoxelCoord at = mask.voxel_of(p);
     return mask.holds(at, at);
   };
-  return std::all_of(faces.begin(), faces.end(), [&](const NewFace& f) {  // far corners tell most
+  return std::all_of(faces.begin(), faces.end(), [&](const NewFace& f) {  // far corners refuse most
     return std::all_of(f.corners.begin(), f.corners.end(), is_set) && mask.holds(f.corners);
   });
 }

@@ -10,9 +10,9 @@
 
 namespace bp {
 
-/// Tells what is near a set of voxels by masks: the voxels grown by a distance (lib/volume/dilate_ball.h). A mask is
-/// made when its distance is asked for first, and serves all questions after that. For long distances, and where
-/// there are many voxels, its own are larger: some 16 MiB are enough for each. Thread-safe.
+/// Answers what is near a set of voxels by masks: the voxels grown by a distance (lib/volume/dilate_ball.h). A mask is
+/// made when its distance is first asked for, and serves all later questions. Masks for long distances or many voxels
+/// have larger voxels, so that each takes some 16 MiB. Thread-safe.
 class NearMasks {
  public:
   /// `voxels` must outlive it.
@@ -21,11 +21,12 @@ class NearMasks {
   NearMasks(const NearMasks&) = delete;
   NearMasks& operator=(const NearMasks&) = delete;
 
-  /// Whether all points of the faces are within `distance`, lattice units, of the voxels. Up to the diagonal of two of
-  /// the mask's voxels the answer may be wrong to either side. Cost: a look at the mask's voxels around each piece of a
-  /// face, which is quartered until all voxels around a piece are set, or one of a piece of their size is not.
+  /// Returns whether all points of the faces are within `distance`, lattice units, of the voxels. The answer may be
+  /// wrong, to either side, by the diagonal of two of the mask's voxels. Cost: the mask's voxels around each piece of a
+  /// face. Pieces are quartered until all voxels around a piece are set, or one around a piece of a voxel's size is
+  /// not.
   [[nodiscard]] bool is_near(std::span<const NewFace> faces, double distance) const;
-  [[nodiscard]] std::uint64_t bytes() const;  ///< of the masks that were made
+  [[nodiscard]] std::uint64_t bytes() const;  ///< bytes of all masks so far
 
  private:
   struct Mask;
@@ -33,7 +34,7 @@ class NearMasks {
 
   const BrickShelf& voxels_;
   mutable std::mutex making_;
-  mutable std::atomic<const Mask*> masks_{nullptr};  // a list; the last one made comes first
+  mutable std::atomic<const Mask*> masks_{nullptr};  // a linked list, the last one made first
 };
 
 }  // namespace bp

@@ -9,7 +9,7 @@ namespace bp {
 
 namespace {
 
-constexpr double kBesideVoxels = 0.87 * kLatticePerVoxel;  // half of a diagonal of a voxel
+constexpr double kBesideVoxels = 0.87 * kLatticePerVoxel;  // half the diagonal of a voxel
 
 std::vector<TriangleD> in_lattice(std::vector<TriangleD> triangles, const GridFrame& frame) {
   for (TriangleD& t : triangles) {
@@ -38,9 +38,10 @@ bool NearTriangles::is_near(std::span<const NewFace> faces, double distance) con
   });
 }
 
-/// Distances from a triangle, which is convex, are largest at corners. `guess`: a triangle not far from here.
+/// Tests the corners: the distance from a triangle, which is convex, is largest at a corner. `guess`: a triangle near
+/// the face.
 bool NearTriangles::is_near(const TriangleD& face, double distance, std::uint32_t& guess) const {
-  constexpr double kUnsure = 0.3;  // of the distance: what has shorter edges is not halved
+  constexpr double kUnsure = 0.3;  // a face with edges shorter than this share of the distance is not halved
   const auto reaches = [&](std::uint32_t item) {
     return std::all_of(face.begin(), face.end(), [&](const Vec3d& p) {
       return distance_squared(p, tree_.item(item).corners) <= distance * distance;

@@ -9,16 +9,16 @@
 
 namespace bp {
 
-/// Tells what is near a scene of few triangles. One of them may be near all of a large face, where voxels would be
-/// looked up for each piece of it.
+/// Answers what is near a scene of few triangles. A single triangle may be near all of a large face, whereas masks are
+/// looked up for each piece of the face.
 class NearTriangles {
  public:
-  /// In scene units; one or more. Copied, and kept in the lattice units of the frame.
+  /// `triangles`: scene units, at least one. Copied, and kept in the lattice units of the frame.
   NearTriangles(const std::vector<TriangleD>& triangles, const GridFrame& frame);
 
-  /// As Enclosed::is_near(), with half of a voxel's diagonal more: voxels that hold a point of a wall reach as far
-  /// beyond it. May be true up to kUpTo times the distance. Cost: a search for each piece that no single triangle is
-  /// near.
+  /// As Enclosed::is_near(), plus half of a voxel's diagonal, since voxels that hold a point of a wall reach as far
+  /// beyond it. May return true up to kUpTo times the distance. Cost: a search for each piece that no single triangle
+  /// is near.
   [[nodiscard]] bool is_near(std::span<const NewFace> faces, double distance) const;
   static constexpr double kUpTo = 1.35;
   [[nodiscard]] std::uint64_t bytes() const { return tree_.bytes(); }

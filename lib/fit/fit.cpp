@@ -16,11 +16,11 @@ namespace {
 
 constexpr std::uint64_t kFineFactor = 10, kFineFaces = 20000;
 constexpr std::uint64_t kPointsPerFace = 30, kLeastPoints = 30000;
-constexpr double kLongest = 2.5;  // edges, times the square root of a face's share of the area
+constexpr double kLongest = 2.5;  // longest edge, over the square root of a face's share of the area
 constexpr int kSweeps = 4, kRounds = 7;
 
-/// Middles of faces, which are all of the same size: about the given share of them, chosen by a hash of where they are,
-/// because regular choices beat with the steps of the surface.
+/// Returns the middles of about `share` of the faces, all of which have the same size. A hash of the place chooses
+/// them, because a regular choice would beat with the steps of the voxel surface.
 std::vector<FitPlace> spread_points(const SurfaceSource& dense, double share) {
   constexpr std::uint64_t kMix = 0x9E3779B97F4A7C15;  // 2^64 over the golden ratio
   const std::vector<BrickCoord> bricks = dense.bricks();
@@ -39,7 +39,7 @@ std::vector<FitPlace> spread_points(const SurfaceSource& dense, double share) {
   return points;
 }
 
-/// A surface's normals, smoothed: between those of its vertices.
+/// Smoothed normals of a surface, interpolated between its vertices.
 class SmoothNormals {
  public:
   explicit SmoothNormals(const HalfEdgeMesh& mesh) {
@@ -52,7 +52,7 @@ class SmoothNormals {
     tree_ = std::make_unique<TriangleBvh>(triangles_);
   }
 
-  /// At the point nearest to `p`; `guess` as for TriangleBvh::nearest().
+  /// Returns the normal at the surface point nearest to `p`. `guess`: as for TriangleBvh::nearest().
   [[nodiscard]] Vec3d at(const Vec3d& p, std::uint32_t& guess) const {
     guess = tree_->nearest(p, guess).item;
     const TriangleBvh::Item& item = tree_->item(guess);
@@ -78,7 +78,8 @@ void move_to_targets(std::vector<FitPlace>& points, const HalfEdgeMesh& surface,
   });
 }
 
-/// Where faces jam by their reach, collapses go on with a longer one, which is in `params` then.
+/// Collapses edges down to params.faces. If params.reach stops it before, it goes on with a longer reach, and leaves
+/// that in `params`.
 LatticeMesh collapsed(const FineFit& fine, SimplifyParams& params, SimplifyCounts& counts) {
   const double first = params.reach;
   LatticeMesh level = simplify(fine.surface, fine.quadrics, params, counts);
@@ -98,7 +99,7 @@ std::uint64_t draw_to_targets(HalfEdgeMesh& mesh, const FitTarget& target, const
   shape.edge_limit = edge_limit;
   VertexMover mover(mesh, shape, nullptr);
   std::vector<LatticeCoord> targets(mesh.vertex_capacity());
-  for (VertexId v = 0; v < mesh.vertex_capacity(); ++v) {  // all from where the surface is now: no drift
+  for (VertexId v = 0; v < mesh.vertex_capacity(); ++v) {  // all targets are computed before a vertex moves: no drift
     if (mesh.vertex_alive(v)) targets[v] = rounded(target(to_double(mesh.position(v)), vertex_normal(mesh, v)).at);
   }
   std::uint64_t moves = 0;
@@ -118,7 +119,8 @@ FineFit fine_fit(const SurfaceSource& dense, std::uint64_t faces, const FitTarge
   params.memory = memory;
   const auto dense_faces = double(count_faces(dense));
   constexpr double kAreaOfFace = kLatticePerVoxel * kLatticePerVoxel / 2.0;
-  // Flat steps of a curved surface must keep vertices inside, to be drawn onto it.
+  // The flat steps of a voxelized curved surface keep some inner vertices, since these are moved onto the curved
+  // surface later.
   const EdgeLimit keep = edges_up_to(
       std::max(2.0 * kLatticePerVoxel, kLongest * std::sqrt(kAreaOfFace * dense_faces / double(params.faces))));
   params.edge_limit = [&](const LatticeCoord& a, const LatticeCoord& b) {
@@ -144,7 +146,7 @@ LatticeMesh fit_level(const FineFit& fine, const SimplifyParams& params, Simplif
   const LatticeMesh level = collapsed(fine, free, counts);
   HalfEdgeMesh mesh(level);
   settle(mesh, fine.points, free, kRounds);
-  erase_inner_shells(mesh);  // what has moved over what it does not touch
+  erase_inner_shells(mesh);  // shells that other parts have moved over without touching them
   counts.faces_out = mesh.face_count();
   LatticeMesh out = mesh.compact(level.frame);
   out.provenance = level.provenance;

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "lib/core/vec3.h"
-
 namespace bp {
 
 double length_squared(const Vec3d& a, const Vec3d& b) {
@@ -22,11 +20,6 @@ double radius_squared(const TriangleD& t, const Vec3d& c) {
   double radius = 0;
   for (const Vec3d& p : t) radius = std::max(radius, length_squared(p, c));
   return radius;
-}
-
-double area_of(const TriangleD& t) {
-  const Vec3d n = cross(t[1] - t[0], t[2] - t[0]);
-  return std::sqrt(dot(n, n)) / 2;
 }
 
 std::size_t apex_of(const TriangleD& t) {

@@ -1,5 +1,5 @@
 #pragma once
-#include "lib/core/coords.h"
+#include "lib/core/vec3.h"
 
 /// Parts of triangles, in floating point, which searches for distances cut triangles into.
 namespace bp {
@@ -8,7 +8,6 @@ namespace bp {
 [[nodiscard]] Vec3d centre_of(const TriangleD& t);
 /// Returns the square of the largest distance from `c` to a corner.
 [[nodiscard]] double radius_squared(const TriangleD& t, const Vec3d& c);
-[[nodiscard]] double area_of(const TriangleD& t);
 /// Returns the corner opposite the longest edge.
 [[nodiscard]] std::size_t apex_of(const TriangleD& t);
 /// Cuts a triangle into halves, across its longest edge.

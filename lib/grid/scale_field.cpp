@@ -20,7 +20,6 @@
 
 #include "lib/core/error.h"
 #include "lib/core/vec3.h"
-#include "lib/grid/scale_part.h"
 
 namespace bp {
 

@@ -149,4 +149,18 @@ struct RuleContext {
 [[nodiscard]] std::string to_json(const ScaleField& field);  ///< canonical: same field, same text
 [[nodiscard]] std::string to_json(const ScalePlan& plan);    ///< shapes as in files, with lengths as numbers
 
+/// The part of a field that matters near a place. A field may have thousands of rules, and few of them are near.
+struct ScalePart {
+  std::vector<std::uint32_t> rules;  ///< numbers of the rules that may change S in the ball, rising
+  ScaleField::Range range;           ///< of S in the ball
+};
+
+/// Returns the part of a field in a ball, scene units. `around`: the part of a ball that holds this one; null: all
+/// rules are visited.
+[[nodiscard]] ScalePart part_near(const ScaleField& field, const Vec3d& centre, double radius,
+                                  const ScalePart* around = nullptr);
+
+/// Returns ScaleField::evaluate(), to the last bit, in the ball of `part`.
+[[nodiscard]] double evaluate(const ScaleField& field, const ScalePart& part, const Vec3d& p);
+
 }  // namespace bp

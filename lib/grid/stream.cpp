@@ -3,8 +3,6 @@
 #include <cstring>
 #include <tuple>
 
-#include "lib/grid/clip.h"
-
 namespace bp {
 
 namespace {
@@ -34,7 +32,7 @@ bool slab_order(int slab_axis, const Brick& a, const Brick& b) {
 
 void load_voxels(const BrickShelf& shelf, BitBox& box) {
   BrickBits bits;
-  for_each_brick(box.box(), [&](BrickCoord c) {
+  for_each(bricks_of(box.box()), [&](BrickCoord c) {
     if (shelf.fill(c) == BrickFill::empty || shelf.get(c, bits) == BrickFill::empty) return;
     const VoxelCoord first = first_voxel(c);
     const VoxelBox both = intersect({first, first_voxel({c.x + 1, c.y + 1, c.z + 1})}, box.box());
@@ -49,7 +47,7 @@ void load_voxels(const BrickShelf& shelf, BitBox& box) {
 
 void store_voxels(const BitBox& box, BrickShelf& shelf) {
   BrickBits bits;
-  for_each_brick(box.box(), [&](BrickCoord c) {
+  for_each(bricks_of(box.box()), [&](BrickCoord c) {
     const VoxelCoord first = first_voxel(c);
     for (std::int32_t z = 0; z < kBrickEdge; ++z) {
       for (std::int32_t y = 0; y < kBrickEdge; ++y) {

@@ -8,6 +8,7 @@
 #include "lib/grid/bit_box.h"
 #include "lib/grid/brick.h"
 #include "lib/grid/orientation_field.h"
+#include "lib/grid/provenance.h"
 #include "lib/grid/scale_field.h"
 
 /// Streams and shelves of bricks, as the passes see them. io/ implements them with zstd, checksums and scratch files.
@@ -19,14 +20,6 @@ enum class StructuringElement : std::uint8_t { ball = 0, cube = 1 };
 /// The voxels of the solid layer in addition to those that triangles touch. inside: the flood's inside *without* the
 /// touched voxels, the ground of proxies that lie strictly inside the scene.
 enum class FillMode : std::uint8_t { flood = 0, winding = 1, none = 2, inside = 3 };
-
-/// One step of the chain that made a stream or a mesh. It has no paths and no time of day.
-struct Provenance {
-  std::string tool, version;
-  std::string options;  ///< canonical text of the options that change the result, defaults included, in a fixed order
-  std::string input_hash;  ///< XXH3-128 of the step's input, hex; empty if unknown
-  friend bool operator==(const Provenance&, const Provenance&) = default;
-};
 
 /// The files that a stream was made from: enough to read the same triangles again, and to know that they are the same.
 struct SceneFiles {

@@ -2,7 +2,8 @@
 #include <cmath>
 #include <optional>
 
-#include "lib/image/render.h"
+#include "lib/core/vec3.h"
+#include "lib/image/render_options.h"
 
 namespace bp {
 

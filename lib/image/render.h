@@ -10,7 +10,7 @@
 #include "lib/image/color_bar.h"
 #include "lib/image/image.h"
 #include "lib/image/image_cache.h"
-#include "lib/image/typeface.h"
+#include "lib/image/render_options.h"
 
 /// A small software rasteriser: it draws meshes side by side, each with its label below. It needs no display. The bytes
 /// are the same on every run and for any number of threads.
@@ -36,19 +36,6 @@ struct View {
 };
 
 constexpr int kLeastPanelSide = 16, kMostImageSide = 16384;  ///< pixels; the latter for all panels together
-
-struct RenderOptions {
-  int panel_width = 720, panel_height = 720;  ///< pixels; axes and labels come below
-  double azimuth = 35;  ///< degrees that the viewer stands to the right of the front (-y of a z-up scene, +z of a y-up)
-  double elevation = 22;  ///< degrees above the horizon
-  UpAxis up = UpAxis::y;
-  Bounds3d bounds;  ///< the part to show, scene units; empty: everything that is drawn, as large as it fits
-  double zoom = 1;  ///< factor on the size at which everything fits
-  std::optional<Vec3d> look_at{};  ///< point in the middle of every panel; none: the middle of the part to show
-  Typeface* typeface = nullptr;    ///< for labels; null: none are drawn
-  bool marks = false;  ///< draw axes and a ruler, in panels that are not too small, and lines between panels
-  Color background{255, 255, 255}, ink{40, 44, 52};
-};
 
 /// Renders panels. The view is orthographic. All panels without bounds of their own have one scale and one centre, so
 /// that they can be compared. A z-buffer, flat shading from both sides under two lights, and 2 x 2 samples a pixel are

@@ -11,12 +11,6 @@
 /// "Simplification").
 namespace bp {
 
-/// A face that would replace old ones.
-struct NewFace {
-  std::array<VertexId, 3> ids;  ///< counter-clockwise; ids[0] is the apex of a star
-  std::array<LatticeCoord, 3> corners;
-};
-
 class FaceProbe;
 
 class Guard {

@@ -17,6 +17,12 @@ using FaceId = std::uint32_t;
 using HalfEdgeId = std::uint32_t;
 constexpr std::uint32_t kNoId = ~std::uint32_t(0);
 
+/// A face that would replace old ones.
+struct NewFace {
+  std::array<VertexId, 3> ids;  ///< counter-clockwise; ids[0] is the apex of a star
+  std::array<LatticeCoord, 3> corners;
+};
+
 using Triangle = std::array<VertexId, 3>;
 
 /// The cell of a whole mesh. No lattice point lies on its boundary.
@@ -40,7 +46,7 @@ class HalfEdgeMesh {
   [[nodiscard]] std::size_t vertex_capacity() const { return position_.size(); }
   [[nodiscard]] std::size_t face_capacity() const { return from_.size() / 3; }
   [[nodiscard]] std::size_t face_count() const { return face_count_; }
-  [[nodiscard]] bool alive(FaceId f) const { return from_[3 * f] != kNoId; }
+  [[nodiscard]] bool alive(FaceId f) const { return from_[HalfEdgeId(3 * f)] != kNoId; }
   [[nodiscard]] bool vertex_alive(VertexId v) const { return out_[v] != kNoId; }
 
   [[nodiscard]] static HalfEdgeId next(HalfEdgeId h) { return h % 3 == 2 ? h - 2 : h + 1; }
@@ -136,7 +142,8 @@ std::vector<Triangle> HalfEdgeMesh::live_faces(Visit&& visit) const {
   std::vector<Triangle> triangles;
   triangles.reserve(face_count_);
   for (FaceId f = 0; f < face_capacity(); ++f) {
-    if (alive(f)) triangles.push_back({id[from_[3 * f]], id[from_[3 * f + 1]], id[from_[3 * f + 2]]});
+    const HalfEdgeId h = 3 * f;
+    if (alive(f)) triangles.push_back({id[from_[h]], id[from_[h + 1]], id[from_[h + 2]]});
   }
   return triangles;
 }

@@ -8,7 +8,7 @@
 #include "lib/core/color.h"
 #include "lib/core/grid_frame.h"
 #include "lib/exact/predicates.h"
-#include "lib/grid/stream.h"
+#include "lib/grid/provenance.h"
 
 /// A triangle mesh with integer vertices, which bpmesh works on and writes. Vertices are lattice points (1/64 voxel) of
 /// `frame`; frame.world() gives their exact scene coordinates as doubles. Triangles are counter-clockwise seen from
@@ -46,7 +46,7 @@ struct LatticeMesh {
 };
 
 /// Six times the volume of a voxel, lattice units cubed.
-constexpr std::int64_t kVolume6OfVoxel = 6 * kLatticePerVoxel * kLatticePerVoxel * kLatticePerVoxel;
+constexpr std::int64_t kVolume6OfVoxel = std::int64_t(6) * kLatticePerVoxel * kLatticePerVoxel * kLatticePerVoxel;
 /// Returns six times the volume that a closed surface encloses, lattice units cubed; exact.
 [[nodiscard]] int128 volume6_of(std::span<const LatticeCoord> vertices,
                                 std::span<const std::array<std::uint32_t, 3>> triangles);

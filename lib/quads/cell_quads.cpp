@@ -14,7 +14,7 @@ namespace bp {
 namespace {
 
 constexpr std::int32_t kUnitsAlong = 128;
-constexpr std::int32_t kCubesAlong = 40;  // before planes are taken away
+constexpr std::int32_t kCubesAlong = 40;  // planes along the longest side before merging
 
 template <class Visit>
 void for_each_voxel(const BrickShelf& shelf, const Visit& visit) {
@@ -37,7 +37,7 @@ VoxelBox box_of_voxels(const BrickShelf& shelf) {
   return box;
 }
 
-/// Units of so many voxels, counted from `origin`; those at the surface.
+/// The grid of units (cubes of some voxels, counted from `origin`), and those units that the surface touches.
 struct Units {
   VoxelCoord origin;
   std::int32_t edge = 1;
@@ -68,7 +68,7 @@ Units units_of(const BrickShelf& shelf, const std::optional<MirrorPlane>& plane)
   return units;
 }
 
-/// Cubes that hold units of the surface, and what is inside of them.
+/// Makes the grid of cubes: solid where a cube holds a unit of the surface, or lies inside.
 BoxGrid cubes_of(const Units& units, std::int32_t edge, const std::optional<MirrorPlane>& plane) {
   BoxGrid cells;
   VoxelCoord first;
@@ -90,7 +90,8 @@ BoxGrid cubes_of(const Units& units, std::int32_t edge, const std::optional<Mirr
   return cells;
 }
 
-/// Without the plane between the boxes i and i + 1 of an axis: what is solid in either is solid.
+/// Returns the grid without the plane between boxes i and i + 1 of an axis. A merged box is solid if either of the two
+/// was.
 BoxGrid without_plane(const BoxGrid& cells, int axis, std::int32_t i) {
   BoxGrid out;
   out.planes = cells.planes;
@@ -106,8 +107,8 @@ BoxGrid without_plane(const BoxGrid& cells, int axis, std::int32_t i) {
   return out;
 }
 
-/// Volume between solid boxes that would be filled without the plane between the boxes i and i + 1: limbs grow
-/// together there. `middle`: box i - 1 is the mirror image of i.
+/// Returns the volume of gaps between solid boxes that removing the plane between boxes i and i + 1 would fill: there
+/// limbs grow together. `middle`: box i - 1 is the mirror image of box i.
 double gaps_filled(const BoxGrid& cells, int axis, std::int32_t i, bool middle) {
   double volume = 0;
   VoxelBox layer = cells.box();
@@ -128,8 +129,8 @@ double gaps_filled(const BoxGrid& cells, int axis, std::int32_t i, bool middle) 
   return volume;
 }
 
-/// Takes planes away, one after the other: that which adds the least volume for the faces that it saves. Boxes beyond
-/// the edge that so many squares would have come last.
+/// Removes planes one after the other: each time the plane that adds the least volume for the faces that it saves.
+/// Planes beyond the edge of the solid go last.
 class Merger {
  public:
   Merger(BoxGrid cells, std::uint64_t faces, const std::optional<MirrorPlane>& plane)
@@ -183,7 +184,7 @@ class Merger {
   double edge_ = 0;
 };
 
-/// The faces between cells and what is not, as pairs of triangles.
+/// Makes pairs of triangles from the faces between solid and empty cells.
 class QuadMesher {
  public:
   QuadMesher(const BoxGrid& cells, const Units& units, const std::optional<MirrorPlane>& plane)

@@ -1,5 +1,6 @@
-// [XLG09] takes the boundary of voxels, too, and smooths it. Here it shrinks like a skin: each vertex goes to the mean
-// of its neighbours along quads, and inwards, as far as it may; at last to where it encloses least.
+// [XLG09] also takes the boundary of voxels and smooths it. Here the boundary shrinks like a skin: each vertex moves to
+// the mean of its neighbours along quads, and inwards, as far as the enclosed set allows; at last to where the solid is
+// smallest.
 #include "lib/quads/quad_cage.h"
 
 #include <algorithm>
@@ -19,8 +20,8 @@ namespace {
 constexpr int kSweeps = 40;
 constexpr int kHalvings = 4;
 constexpr int kFits = 4, kAvoidRounds = 4;
-constexpr double kReach = 0.5;     // of the mean spoke: how far one fit goes at most
-constexpr double kInwards = 0.15;  // of the mean edge, each sweep
+constexpr double kReach = 0.5;     // times the mean spoke: the farthest step of fit()
+constexpr double kInwards = 0.15;  // times the mean edge: the step inwards in each sweep
 
 class Skin {
  public:
@@ -34,7 +35,7 @@ class Skin {
     }
   }
 
-  /// Even, and inwards.
+  /// Evens the vertices out and moves them inwards.
   void relax() {
     for_each([&](VertexId v) {
       relax(v);
@@ -42,7 +43,7 @@ class Skin {
     });
   }
 
-  /// Tight.
+  /// Moves each vertex to where the solid is smallest.
   void fit() {
     for_each([&](VertexId v) { fit(v); });
   }
@@ -89,7 +90,7 @@ class Skin {
     go(v, (-kInwards * edge) * normal(v));
   }
 
-  /// To where the faces around it enclose least.
+  /// Moves v to where the faces around it enclose the least volume.
   void fit(VertexId v) {
     const LatticeCoord p = mesh_.position(v);
     const Vec3d shift = to_double(p - editor_.contacts().origin());
@@ -106,7 +107,7 @@ class Skin {
     }
   }
 
-  /// The fan around v; its mean spoke.
+  /// Gathers the fan around v and its contact points, less `shift`; returns the mean length of the spokes.
   double gather(VertexId v, const Vec3d& shift) {
     fit_.clear();
     double edges = 0;
@@ -122,7 +123,7 @@ class Skin {
     return edges / sector;
   }
 
-  /// As far as it may.
+  /// Moves v by `by`, or by the largest of its halves, quarters ... that is allowed.
   bool go(VertexId v, Vec3d by) {
     for (int i = 0; i < kHalvings; ++i, by = 0.5 * by) {
       if (length(by) < 1) return false;
@@ -149,11 +150,11 @@ class Skin {
   HalfEdgeMesh& mesh_;
   ProxyEditor& editor_;
   const std::optional<MirrorPlane>& plane_;
-  std::vector<std::set<VertexId>> near_;  // along edges of quads
+  std::vector<std::set<VertexId>> near_;  // per vertex: its neighbours along edges of quads
   FanFit fit_;
 };
 
-/// The mesh without the faces that were erased.
+/// Returns the mesh without erased faces. `number`: the new number of each face.
 LatticeMesh left_of(const CellQuads& cage, const HalfEdgeMesh& mesh, std::vector<FaceId>& number) {
   LatticeMesh out;
   out.frame = cage.mesh.frame;
@@ -168,7 +169,8 @@ LatticeMesh left_of(const CellQuads& cage, const HalfEdgeMesh& mesh, std::vector
   return out;
 }
 
-/// Of each pair: it may stay joined, and so may its mirror image. The second half of the pairs mirrors the first.
+/// Returns the pairs of triangles that may stay joined, together with their mirror images. The second half of the pairs
+/// mirrors the first.
 std::vector<std::array<std::uint32_t, 2>> pairs_left(const CellQuads& cage, const LatticeMesh& mesh,
                                                      const std::vector<FaceId>& number, const Enclosed& enclosed) {
   std::vector<std::array<std::uint32_t, 2>> pairs;

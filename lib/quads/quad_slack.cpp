@@ -1,4 +1,4 @@
-// [TPC*10] repairs a pairing by flips and moves on the surface; here both are bound to keep something inside, under
+// [TPC*10] repairs a pairing by flips and moves on the surface. Here both also must keep the enclosed set inside, under
 // either diagonal.
 #include "lib/quads/quad_slack.h"
 
@@ -18,16 +18,16 @@ namespace bp {
 
 namespace {
 
-constexpr double kLift = 0.5;  // of the mean spoke: how far a vertex is lifted at most
+constexpr double kLift = 0.5;  // times the mean spoke: the farthest that a vertex is lifted
 constexpr int kLiftRounds = 4;
-constexpr int kRounds = 2;  // the second finds some pairs more on the way back in, and costs next to no volume
+constexpr int kRounds = 2;  // the second round finds some more pairs, at next to no volume
 
-/// Draws pairs over the diagonal nearer to what is enclosed.
+/// Joins pairs and gives each the diagonal that is nearer to the enclosed set.
 class Lifter {
  public:
   Lifter(ProxyEditor& editor, EnclosedByPairs& kept) : editor_(editor), mesh_(editor.mesh()), kept_(kept) {}
 
-  /// Makes either diagonal safe, if that can be.
+  /// Joins two faces, and lifts a vertex where that makes the other diagonal safe.
   void join(FaceId f, FaceId g) {
     HalfEdgeId h = 3 * f;
     while (HalfEdgeMesh::face(mesh_.twin(h)) != g) ++h;
@@ -43,12 +43,12 @@ class Lifter {
   }
 
   struct Lift {
-    HalfEdgeId edge;  // the vertex is its opposite corner
+    HalfEdgeId edge;  // the vertex is the corner opposite of this edge
     Vec3d offset;
     double volume;
   };
 
-  /// Lifts one end of the other diagonal, the cheaper one.
+  /// Lifts one end of the other diagonal: the end that costs less volume.
   bool lift(HalfEdgeId h) {
     const std::optional<Lift> one = solve(h), other = solve(mesh_.twin(h));
     if (!one && !other) return false;
@@ -87,7 +87,7 @@ class Lifter {
     return false;
   }
 
-  /// The fan around the corner opposite of h, as if h were flipped; its mean spoke.
+  /// Gathers the fan around the corner opposite of h, as if h were flipped; returns the mean length of its spokes.
   double gather(HalfEdgeId h) {
     const VertexId v = mesh_.opposite(h);
     const LatticeCoord p = mesh_.position(v);
@@ -121,7 +121,7 @@ class Lifter {
   FanFit fit_;
 };
 
-/// Pairs are joined; what they grew by is taken back.
+/// Joins pairs, then moves vertices back in as far as the pairs allow.
 LatticeMesh one_round(const LatticeMesh& mesh, const Enclosed& enclosed, const SimplifyParams& params) {
   HalfEdgeMesh edited(mesh);
   EnclosedByPairs kept(edited, enclosed);

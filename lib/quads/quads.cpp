@@ -1,19 +1,20 @@
-// [TPC*10] pairs triangles greedily by the squareness of the quad and repairs the rest by flips and moves; we keep the
-// surface as it is and look for a better matching instead.
+// [TPC*10] pairs triangles greedily by the squareness of the quad, and repairs the rest by flips and moves. Here the
+// surface stays as it is, and a better matching is searched for.
 #include "lib/quads/quads.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "lib/exact/triangle_intersection.h"
+#include "lib/mesh/guard.h"
 
 namespace bp {
 
 namespace {
 
-constexpr double kCountWeight = 0.6;  // what one more quad is worth, in quality
-constexpr double kLongAspect = 4;     // sides beyond it lower the quality
-constexpr double kRoomWeight = 0.5;   // of mean room, against quality
+constexpr double kCountWeight = 0.6;  // value of one more quad, in units of quality
+constexpr double kLongAspect = 4;     // a quad whose sides differ more has a lower quality
+constexpr double kRoomWeight = 0.5;   // weight of needed room, over the mean of all candidates, against quality
 constexpr int kImprovements = 16;     // passes; they end when one finds nothing
 constexpr std::uint32_t kNone = ~std::uint32_t(0);
 
@@ -34,8 +35,8 @@ double angle_at(const LatticeCoord& p, const LatticeCoord& q, const LatticeCoord
 struct Candidate {
   std::array<std::uint32_t, 2> faces;
   double weight;
-  std::array<Triangle, 2> across;  // the triangles of the other diagonal
-  double room;                     // volume that its corners must be moved outwards by, roughly; mostly none
+  std::array<Triangle, 2> across;  // the triangles on both sides of the other diagonal
+  double room;                     // volume that moving its corners outwards would add, roughly; mostly 0
 };
 
 class Pairing {
@@ -51,7 +52,7 @@ class Pairing {
     return pairs_without_conflicts();
   }
 
-  /// Of these alone.
+  /// Chooses among the pairs `wanted` only.
   std::vector<std::array<std::uint32_t, 2>> run(std::vector<std::array<std::uint32_t, 2>> wanted) {
     std::sort(wanted.begin(), wanted.end());
     find_candidates();
@@ -106,7 +107,7 @@ class Pairing {
     for (const FaceId f : faces) edges_[f].push_back(id);
   }
 
-  /// For the diagonal across to reach the other one: what lifting both its ends adds.
+  /// Returns the volume that lifting both ends of one diagonal up to the other one adds.
   [[nodiscard]] double room_between(HalfEdgeId h) const {
     const VertexId a = mesh_.opposite(h), b = mesh_.opposite(mesh_.twin(h));
     const LatticeCoord &u = mesh_.position(mesh_.from(h)), &w = mesh_.position(mesh_.to(h));
@@ -124,7 +125,7 @@ class Pairing {
     return sum;
   }
 
-  /// Room counts against a pair as its share of what pairs that need room need on average.
+  /// Lowers the weight of each pair that needs room, by its room over the mean room of such pairs.
   void charge_room() {
     double sum = 0;
     int n = 0;
@@ -135,7 +136,7 @@ class Pairing {
     for (Candidate& c : candidates_) c.weight -= c.room > 0 ? kRoomWeight * c.room / (sum / n) : 0;
   }
 
-  /// Best first.
+  /// Returns the candidates, best first.
   [[nodiscard]] std::vector<std::uint32_t> by_weight() const {
     std::vector<std::uint32_t> order(candidates_.size());
     for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -160,7 +161,7 @@ class Pairing {
     }
   }
 
-  /// Gives up one pair for two others, or for one better, where that gains.
+  /// Exchanges one pair for two others, or for a better one, where that gains.
   void improve() {
     for (int pass = 0; pass < kImprovements; ++pass) {
       bool changed = false;
@@ -190,7 +191,7 @@ class Pairing {
     return true;
   }
 
-  /// Of two quads whose other diagonals cannot be drawn at once, the better one stays.
+  /// Drops the worse of two quads whose other diagonals cannot be drawn at once.
   void drop_conflicts() {
     std::vector<LatticeBox> boxes(candidates_.size());
     std::vector<std::uint32_t> chosen;
@@ -229,8 +230,8 @@ class Pairing {
   const QuadKeeps keeps_;
   const Enclosed* enclosed_;
   std::vector<Candidate> candidates_;
-  std::vector<std::vector<std::uint32_t>> edges_;  // candidates of each face
-  std::vector<std::uint32_t> match_;               // candidate of each face, or kNone
+  std::vector<std::vector<std::uint32_t>> edges_;  // per face: its candidates
+  std::vector<std::uint32_t> match_;               // per face: its candidate, or kNone
 };
 
 }  // namespace

@@ -2,16 +2,16 @@
 #include "lib/enclosed/enclosed.h"
 #include "lib/mesh/lattice_mesh.h"
 
-/// Quad-dominant meshes: triangles joined in pairs ([TPC*10]). A quad is not flat in general, so what it means depends
-/// on the diagonal that a reader draws. Here any choice is safe: see pair_triangles().
+/// Quad-dominant meshes: triangles joined in pairs ([TPC*10]). A quad is not flat in general, so its surface depends on
+/// the diagonal that a program draws. Here either diagonal is safe: see pair_triangles().
 namespace bp {
 
-/// Corners of a quad, counter-clockwise; 0 and 2 end the diagonal that the mesh has.
+/// Corners of a quad, counter-clockwise. The mesh has the diagonal from corner 0 to corner 2.
 using Quad = std::array<std::uint32_t, 4>;
 
 enum class QuadKeeps {
-  enclosed,  ///< what is in `enclosed` stays inside, whichever diagonals are drawn
-  slack,     ///< the same once quads have been given room: pairs that need some count for less, the more they need
+  enclosed,  ///< `enclosed` stays inside, whichever diagonals are drawn
+  slack,     ///< as `enclosed`; in addition, pairs that need room are chosen less often, the more room they need
   nothing    ///< the surface stays embedded; nothing needs to stay inside (fits)
 };
 
@@ -21,9 +21,9 @@ enum class QuadKeeps {
 constexpr double kLeastQuadQuality = 0.2;  ///< no quad has less: angles of 18 to 162 degrees, an aspect of at most 20
 constexpr double kMostQuadBend = 0.2;      ///< quad_bend()
 
-/// How far a quad is from flat: the distance between the lines of its diagonals, in mean lengths of the two.
+/// Returns how far a quad is from flat: the distance between its diagonals' lines, over the mean length of the two.
 [[nodiscard]] double quad_bend(const std::array<LatticeCoord, 4>& corners);
-/// Longest side over shortest.
+/// Returns the longest side over the shortest.
 [[nodiscard]] double quad_aspect(const std::array<LatticeCoord, 4>& corners);
 
 /// Pairs of triangles of `mesh` (by number, lower first) to be joined, such that for *each* choice of the diagonals of
@@ -37,22 +37,24 @@ constexpr double kMostQuadBend = 0.2;      ///< quad_bend()
 [[nodiscard]] std::vector<std::array<std::uint32_t, 2>> pair_triangles(const LatticeMesh& mesh, QuadKeeps keeps,
                                                                        const Enclosed* enclosed);
 
-/// Those of `pairs` that pair_triangles() might return together: of two that exclude each other, the better one.
+/// Returns the pairs among `pairs` that pair_triangles() may return together. If two pairs exclude each other, the
+/// better one stays.
 [[nodiscard]] std::vector<std::array<std::uint32_t, 2>> safe_pairs(
     const LatticeMesh& mesh, const std::vector<std::array<std::uint32_t, 2>>& pairs, QuadKeeps keeps,
     const Enclosed* enclosed);
 
-/// The quad of two triangles with a common edge.
+/// Returns the quad of two triangles with a common edge.
 [[nodiscard]] Quad quad_of(const std::array<std::uint32_t, 3>& a, const std::array<std::uint32_t, 3>& b);
 
-/// The two triangles across a quad, over its other diagonal.
+/// Returns the two triangles of a quad on both sides of its other diagonal.
 [[nodiscard]] std::array<std::array<std::uint32_t, 3>, 2> across(const Quad& quad);
 
-/// The triangles of `mesh`, and those across each of its quads: all that a program which reads it may draw.
+/// Returns the triangles of `mesh`, and the two other ones of each of its quads: every triangle that a program may
+/// draw.
 [[nodiscard]] std::vector<std::array<std::uint32_t, 3>> drawable_triangles(const LatticeMesh& mesh);
 
-/// `mesh` over those diagonals that leave the smallest solid, without quads. Its solid lies in that of every other
-/// choice (docs/bounding.md, "Quads").
+/// Returns `mesh` with the diagonals that leave the smallest solid, as triangles. Every other choice of diagonals holds
+/// this solid (docs/bounding.md, "Quads").
 [[nodiscard]] LatticeMesh innermost_choice(const LatticeMesh& mesh);
 
 /// The faces of `mesh` as a file should hold them: the quads of its pairs, and the triangles that are left.

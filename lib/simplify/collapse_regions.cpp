@@ -13,16 +13,18 @@ namespace bp {
 
 namespace {
 
-// The cells' sides have their turn before the faces wanted are reached: half of the way, nearly all of it, the rest.
-constexpr double kNearly = 1.1;  // of the faces wanted
+// Faces along the cells' sides have their turn before the wanted number of faces is reached: turns end halfway, at
+// nearly all of the way, and at its end.
+constexpr double kNearly = 1.1;  // times the wanted faces
 constexpr int kTurns = 5;        // at most
-constexpr int kSets = 3;         // of cells: after so many turns all vertices have been free, or nearly
-constexpr double kJam = 1e-3;    // of the faces: a turn that takes less is the last
-// Regions with few faces are mostly sides, which stay fine while the middles are collapsed to spikes: with so many
-// times the faces of one, the rest is for the whole.
+constexpr int kSets = 3;  // sets of cells with different sides: after so many turns nearly all vertices have been free
+constexpr double kJam = 1e-3;  // share of the faces: a turn that takes less is the last
+// A surface with fewer than this many times the faces of a region is not cut. Regions with few faces consist mostly of
+// sides, which stay fine while their middles are collapsed to spikes.
 constexpr std::uint64_t kLeast = 2;
-// The bulk has some regions for every thread, of at most so many times the faces of one of the strict order, and in
-// each at least a share of these is left. What lies along sides stays fine until its turn: many faces have three turns.
+// The bulk has some regions for every thread, each with at most kBulkMost times the faces of a region of the strict
+// order; a turn leaves at least 1 / kBulkLeft of a strict region's faces in each. Faces along sides stay fine until
+// their turn, so large surfaces have three turns.
 constexpr std::uint64_t kBulkRegions = 32, kBulkMost = 32, kBulkLeft = 4;
 constexpr int kBulkTurns = 2, kBulkTurnsOfMany = 3;
 constexpr std::uint64_t kMany = 128;  // times the faces of a region of the strict order
@@ -32,7 +34,7 @@ void count_left(const StrictOrder& order, SimplifyCounts& counts) {
 }
 void count_left(const BulkOrder&, SimplifyCounts&) {}
 
-/// A region at work.
+/// A region at work, with its order.
 template <class Order>
 struct Part {
   Part(const Piece& whole, const Region& r, std::vector<Quadric> quadrics, const SimplifyParams& p)
@@ -56,12 +58,12 @@ struct Part {
   Order order;
 };
 
-/// The quadrics of a whole that is cut into regions: none is held twice.
+/// The quadrics of a whole surface, given to regions and taken back, so that none is held twice.
 class QuadricsApart {
  public:
-  /// Takes them from the whole.
+  /// Takes the quadrics from the whole.
   QuadricsApart(Piece& whole, std::span<const Region> regions) : of_region_(regions.size()) {
-    std::vector<char> free(whole.vertices.size(), 0);  // each in one region at most
+    std::vector<char> free(whole.vertices.size(), 0);  // each vertex is free in one region at most
     parallel_for(std::int64_t(regions.size()), [&](std::int64_t k) {
       const Region& region = regions[std::size_t(k)];
       for (std::size_t i = 0; i < region.free.size(); ++i) {
@@ -75,7 +77,7 @@ class QuadricsApart {
     }
     std::vector<Quadric>().swap(whole.quadrics);
   }
-  /// Per vertex of the region; nothing for those that are not free.
+  /// Returns the quadrics per vertex of the region; those of vertices that are not free are zero.
   [[nodiscard]] std::vector<Quadric> give(std::size_t number, const Region& region) {
     std::vector<Quadric> quadrics(region.vertices.size());
     for (const auto& [v, q] : of_region_[number]) quadrics[v] = q;
@@ -103,7 +105,8 @@ class QuadricsApart {
   std::vector<List> of_region_;
 };
 
-/// Regions of so many faces, each with its order; work(orders) on all of them, then all are put back.
+/// Does one turn: cuts the surface into regions of `per_region` faces, makes an order for each, calls work(orders) on
+/// all of them, and puts the regions back.
 template <class Order, class Work>
 void turn(Piece& whole, std::uint64_t per_region, int number, const SimplifyParams& params, SimplifyCounts& counts,
           const Work& work) {
@@ -127,7 +130,7 @@ void turn(Piece& whole, std::uint64_t per_region, int number, const SimplifyPara
     told[i] = parts[i]->counts;
     parts[i].reset();
   });
-  counts.refused = {};  // of the turn before
+  counts.refused = {};  // these were counts of the turn before
   for (const SimplifyCounts& some : told) counts.add_beside(some);
   quadrics.put_back(whole);
   drop_removed(whole);
@@ -140,7 +143,7 @@ SimplifyParams params_of_regions(Piece& whole, const SimplifyParams& params) {
   return own;
 }
 
-/// Faces of a region of the bulk, which has so many now.
+/// Returns the faces per region for the bulk of a surface that has `faces` now.
 std::uint64_t bulk_per_region(std::uint64_t faces, const BulkEnd& end, std::uint64_t per_region) {
   const double left = double(per_region) / kBulkLeft, share = double(end.faces) / double(faces);
   const auto least = std::max(per_region, std::uint64_t(left / share));
@@ -164,7 +167,7 @@ void collapse_bulk_in_regions(Piece& whole, const BulkEnd& end, const SimplifyPa
     const std::uint64_t excess = whole.triangles.size() - wanted;
     turn<BulkOrder>(whole, bulk_per_region(whole.triangles.size(), end, params.faces_per_region), number, own, counts,
                     [&](std::span<BulkOrder* const> orders) {
-                      std::uint64_t faces = 0;  // along sides several regions know the same
+                      std::uint64_t faces = 0;  // sum over regions; several regions know the faces along sides
                       for (const BulkOrder* order : orders) faces += order->face_count();
                       collapse_bulk(orders, {kFirstBound, end.cost}, faces - std::min(faces, excess));
                     });

@@ -1,22 +1,22 @@
 #pragma once
-#include "lib/simplify/simplify.h"
-#include "lib/simplify/surface_tree.h"
+#include "lib/simplify/simplify_params.h"
+#include "lib/surface/piece.h"
 
 namespace bp {
 
-/// A surface of so many faces is worth working on by regions.
+/// Returns whether a surface of `faces` faces is large enough for regions.
 [[nodiscard]] bool has_regions(std::uint64_t faces, const SimplifyParams& params);
 
-/// The strict order (collapse_order.h) on the regions of a closed surface (regions.h), at the same time, down to
-/// params.faces, or as far as it goes. Shells that turn are erased. `whole` has quadrics or not. The result depends
-/// neither on threads nor on memory.
+/// Takes collapses in strict order (collapse_order.h) on the regions of a closed surface (regions.h), at the same time,
+/// down to params.faces or as far as possible. Shells that turn inside out are erased. `whole` may have quadrics or
+/// not. The result depends neither on threads nor on memory.
 void collapse_in_regions(Piece& whole, const SimplifyParams& params, SimplifyCounts& counts);
 
-/// A surface of so many faces has regions for its bulk, too.
+/// Returns whether a surface of `faces` faces is large enough for regions in its bulk, too.
 [[nodiscard]] bool has_bulk_regions(std::uint64_t faces, const BulkEnd& end, const SimplifyParams& params);
 
-/// The bulk (bulk_order.h) on the regions of a closed surface, at the same time, down to end.faces or a bit less, or as
-/// far as it goes. Otherwise as above.
+/// Sweeps the bulk (bulk_order.h) on the regions of a closed surface, at the same time, down to end.faces or a few
+/// less, or as far as possible. Otherwise as collapse_in_regions().
 void collapse_bulk_in_regions(Piece& whole, const BulkEnd& end, const SimplifyParams& params, SimplifyCounts& counts);
 
 }  // namespace bp

@@ -9,8 +9,8 @@ namespace bp {
 
 namespace {
 
-constexpr std::size_t kFirst = 16;  // steps of the cost begin where one in so many costs less
-constexpr double kStep = 1.25;      // from one to the next
+constexpr std::size_t kFirst = 16;  // the first bound exceeds one in so many costs
+constexpr double kStep = 1.25;      // ratio of a bound to the one before
 constexpr int kSteps = 200;
 
 std::uint64_t faces_of(std::span<CostOrder* const> parts) {
@@ -19,9 +19,9 @@ std::uint64_t faces_of(std::span<CostOrder* const> parts) {
   return n;
 }
 
-/// What one collapse may cost, rising; at last, anything.
+/// Returns rising bounds for the cost of one collapse; the last is infinite.
 std::vector<double> steps_for(std::span<CostOrder* const> parts) {
-  std::vector<std::vector<double>> of_part(parts.size());  // one in kFirst, by rank
+  std::vector<std::vector<double>> of_part(parts.size());  // every kFirst-th cost of each part, sorted
   parallel_for(std::int64_t(parts.size()), [&](std::int64_t k) {
     const auto i = std::size_t(k);
     std::vector<double> all;
@@ -46,7 +46,7 @@ std::vector<double> steps_for(std::span<CostOrder* const> parts) {
 void take_cheapest(std::span<CostOrder* const> parts, std::uint64_t excess) {
   const std::uint64_t faces = faces_of(parts), enough = faces - std::min(faces, excess);
   for (const double most : steps_for(parts)) {
-    std::vector<CostOrder*> waiting(parts.begin(), parts.end());  // that may have something for so little
+    std::vector<CostOrder*> waiting(parts.begin(), parts.end());  // parts that may have a collapse within the bound
     while (!waiting.empty()) {
       const std::uint64_t left = faces_of(parts);
       if (left <= enough) return;

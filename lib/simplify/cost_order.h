@@ -5,25 +5,27 @@
 #include <span>
 #include <vector>
 
-/// Collapses in the order of what they cost, on one mesh or on parts of it side by side.
+/// Takes collapses in the order of their costs, on one mesh or on parts of it side by side.
 namespace bp {
 
 class CostOrder {
  public:
   virtual ~CostOrder() = default;
   [[nodiscard]] virtual std::uint64_t face_count() const = 0;
-  /// Appends the costs, or lower bounds of them, of what waits.
+  /// Appends the costs of waiting collapses, or lower bounds of these.
   virtual void add_costs(std::vector<double>& costs) const = 0;
-  /// Takes what costs least until `enough` faces are left; false if before that nothing is left for `most` or less.
+  /// Takes the cheapest collapses until `enough` faces are left; returns false if no collapse for `most` or less is
+  /// left before.
   virtual bool run(double most, std::uint64_t enough) = 0;
 };
 
-/// Takes what costs least in all parts together, until `excess` faces fewer are left or nothing can be taken; in
-/// parallel. Costs rise by steps: within one, parts take turns at shares of the excess by their faces. The result does
-/// not depend on the number of threads.
+/// Takes the cheapest collapses of all parts together, until `excess` faces are gone or nothing can be taken; in
+/// parallel. Costs rise by steps: within a step, each part may take a share of the excess in proportion to its faces.
+/// The result does not depend on the number of threads.
 void take_cheapest(std::span<CostOrder* const> parts, std::uint64_t excess);
 
-/// What each of some parts of a surface is to lose, for all to lose `excess` faces: by its faces, in whole collapses.
+/// Returns how many faces each part of a surface must lose for all to lose `excess` faces: in proportion to its faces,
+/// in whole collapses.
 template <class Part>
 [[nodiscard]] std::vector<std::uint64_t> shares_by_faces(std::uint64_t excess, std::span<Part* const> parts) {
   std::uint64_t all = 0, faces = 0, given = 0;
@@ -39,7 +41,7 @@ template <class Part>
   return shares;
 }
 
-/// An edge that waits for its turn, by its half-edge; `serial` tells its valid entry from those out of date.
+/// An edge that waits for its turn, by its half-edge. `serial` tells the valid entry of an edge from outdated ones.
 struct CostEntry {
   double cost;
   std::uint32_t edge;

@@ -6,21 +6,21 @@
 
 namespace bp {
 
-/// Edges for a wave of collapses: of a small share of all, those that cost least, such as leave each other alone.
-/// Without waves, the cheapest edge.
+/// Chooses edges for a wave of collapses: among the cheapest few percent, edges that leave each other alone. Without
+/// waves it chooses the cheapest edge.
 class CostWave {
  public:
   explicit CostWave(const HalfEdgeMesh& mesh) : mesh_(mesh), claims_(mesh) {}
 
-  /// The members of the next wave. They are not in the queue any more.
+  /// Returns the members of the chosen wave. They have left the queue.
   [[nodiscard]] const std::vector<CostEntry>& members() const { return members_; }
 
-  /// Chooses them: one or more, if any valid entry costs `most` or less; no more than lead to `enough` faces.
-  /// is_valid(entry): not out of date; others are dropped. Returns what the cheapest entry costs that was not looked
-  /// at, valid or not; infinity if there is none.
+  /// Chooses a wave: at least one edge if any valid entry costs `most` or less, and no more than lead to `enough`
+  /// faces. is_valid(entry) tells whether an entry is up to date; others are dropped. Returns the cost of the cheapest
+  /// entry that was not looked at, valid or not; infinity if there is none.
   template <class IsValid>
   double choose(CostQueue& queue, bool waves, double most, std::uint64_t enough, const IsValid& is_valid) {
-    constexpr double kShare = 0.05;  // of all edges
+    constexpr double kShare = 0.05;  // share of all edges that may be looked at
     const std::size_t room = waves ? (mesh_.face_count() - enough + 1) / 2 : 1;
     std::size_t looks = waves ? std::size_t(kShare * 1.5 * double(mesh_.face_count())) : 1;
     members_.clear();

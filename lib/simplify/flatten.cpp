@@ -10,7 +10,7 @@ namespace bp {
 
 namespace {
 
-/// Direction of an axis-aligned normal: 0..5 for +x -x +y -y +z -z.
+/// Returns the direction of an axis-aligned normal: 0..5 for +x -x +y -y +z -z.
 std::uint8_t direction_of(const LatticeCoord& n) {
   for (int axis = 0; axis < 2; ++axis) {
     if (n[axis] != 0) return std::uint8_t(2 * axis + (n[axis] < 0));
@@ -18,7 +18,7 @@ std::uint8_t direction_of(const LatticeCoord& n) {
   return std::uint8_t(4 + (n.z < 0));
 }
 
-/// Component of (a x b) along a direction, and so twice the area of the triangle 0 a b if it faces that way.
+/// Returns the component of a x b along a direction: twice the area of the triangle 0 a b if it faces that way.
 std::int64_t area_along(std::uint8_t direction, const LatticeCoord& a, const LatticeCoord& b) {
   const int axis = direction / 2, u = (axis + 1) % 3, w = (axis + 2) % 3;
   const std::int64_t area = a[u] * b[w] - a[w] * b[u];
@@ -57,11 +57,11 @@ class Flattener {
   }
 
  private:
-  /// A half-edge that leaves the vertex in question.
+  /// A half-edge that leaves the vertex that is tested.
   struct Spoke {
     HalfEdgeId edge;
     VertexId to;
-    std::uint8_t direction;  // of the face to its left
+    std::uint8_t direction;  // direction of the face to its left
     LatticeCoord end;        // relative to the vertex
   };
 
@@ -76,7 +76,7 @@ class Flattener {
 
   bool try_vertex(VertexId v) {
     gather(v);
-    // Spokes along which the direction changes: none inside a flat region, two on a crease.
+    // The spokes along which the direction changes: none inside a flat region, two on a crease.
     std::size_t creases[2] = {};
     int count = 0;
     for (std::size_t i = 0, before = fan_.size() - 1; i < fan_.size(); before = i++) {
@@ -102,13 +102,14 @@ class Flattener {
       consider(creases[1]);
     }
     if (best == fan_.size() || too_long(v, fan_[best])) return false;
-    mesh_.collapse(mesh_.twin(fan_[best].edge), mesh_.position(fan_[best].to));  // into the end, which stays
+    // The vertex merges into the end, which stays.
+    mesh_.collapse(mesh_.twin(fan_[best].edge), mesh_.position(fan_[best].to));
     for (const Spoke& s : fan_) enqueue(s.to);
     return true;
   }
 
-  /// Least quality of the faces around the vertex if it moved to the end of spoke `to`; 0 if that is not above `enough`
-  /// or one would flip or vanish.
+  /// Returns the least quality of the faces around the vertex if it moved to the end of spoke `to`; 0 if that is not
+  /// above `enough`, or if a face would flip or vanish.
   [[nodiscard]] double quality_after(std::size_t to, double enough) const {
     const LatticeCoord& p = fan_[to].end;
     double least = 1;
@@ -142,7 +143,7 @@ class Flattener {
   std::vector<std::uint8_t> direction_;  // per face; merging keeps it
   std::vector<VertexId> queue_, later_;
   std::vector<char> queued_;
-  std::vector<Spoke> fan_;  // of the vertex tried last
+  std::vector<Spoke> fan_;  // spokes of the vertex that was tested last
 };
 
 }  // namespace

@@ -5,14 +5,14 @@
 
 /// Merges the flat regions of a voxel surface without changing its shape: a vertex inside a flat region, or on a
 /// straight crease between two, is collapsed into a neighbour in the same plane (on the same crease). The surface as a
-/// set of points stays the same, so neither a guard nor the link condition is needed: an edge that the link condition
-/// would find in its way would lie in the interior of the merged faces already. Linear in the faces.
+/// set of points stays the same, so neither a guard nor the link condition is needed: an edge that would violate the
+/// link condition would already lie in the interior of the merged faces. Linear in the faces.
 namespace bp {
 
-/// Needs axis-aligned faces. Locked vertices stay. Returns the number of collapses.
+/// Merges flat regions. The faces must be axis-aligned. Locked vertices stay. Returns the number of collapses.
 std::uint64_t merge_flat_regions(HalfEdgeMesh& mesh, const EdgeLimit& edge_limit = {});
 
-/// The same of a piece without quadrics, with what lies along its cell's sides locked.
+/// Merges the flat regions of a piece without quadrics. Vertices on its cell's sides are locked.
 void merge_flat_regions(Piece& piece, const EdgeLimit& edge_limit);
 
 }  // namespace bp

@@ -3,18 +3,18 @@
 #include <cstddef>
 #include <cstdint>
 
-/// Why a change of a mesh was refused, and how often.
+/// Reasons why a change of a mesh was refused, and counts of them.
 namespace bp {
 
 /// The test that failed, in the order of the tests.
 enum class Refusal : std::uint8_t { none, link, constraints, shape, growth, length, enclosed, guard, limits, error };
 constexpr std::size_t kRefusalCount = std::size_t(Refusal::error) + 1;
 
-/// As reports call them.
+/// The names in reports.
 constexpr std::array<const char*, kRefusalCount> kRefusalNames{"none",   "link",     "constraints", "shape",  "growth",
                                                                "length", "enclosed", "guard",       "limits", "error"};
 
-/// A count for each of them.
+/// A count for each reason.
 class Refusals {
  public:
   [[nodiscard]] std::uint64_t operator[](Refusal why) const { return counts_[std::size_t(why)]; }
@@ -27,7 +27,7 @@ class Refusals {
     for (std::size_t i = 0; i < kRefusalCount; ++i) counts_[i] -= fewer.counts_[i];
     return *this;
   }
-  /// `act(why, name, count)` for each but `none`.
+  /// Calls act(why, name, count) for each reason but `none`.
   template <typename Act>
   void for_each(Act&& act) const {
     for (std::size_t i = 1; i < kRefusalCount; ++i) act(Refusal(i), kRefusalNames[i], counts_[i]);

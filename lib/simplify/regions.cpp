@@ -10,8 +10,8 @@ namespace bp {
 
 namespace {
 
-constexpr std::array<double, 3> kShares = {0.5, 0.35, 0.65};  // of the faces on the lower side, by turn
-constexpr std::size_t kSample = 1024;                         // faces that tell along which axis to cut
+constexpr std::array<double, 3> kShares = {0.5, 0.35, 0.65};  // share of the faces on the lower side of a cut, by turn
+constexpr std::size_t kSample = 1024;                         // faces that are sampled to choose the axis of a cut
 constexpr std::int64_t kFacesAtOnce = 1 << 14;
 
 class Splitter {
@@ -27,7 +27,7 @@ class Splitter {
       }
     });
     nodes_.push_back({0, faces_.size(), kEverywhere});
-    for (std::size_t done = 0; done < nodes_.size();) {  // a level of the tree at a time
+    for (std::size_t done = 0; done < nodes_.size();) {  // one level of the tree at a time
       const std::size_t level = done;
       done = nodes_.size();
       parallel_for(std::int64_t(done - level), [&](std::int64_t i) { cut(nodes_[level + std::size_t(i)]); });
@@ -52,18 +52,18 @@ class Splitter {
   }
 
  private:
-  /// Of faces_[begin, end). Inner: `axis` and `plane` divide its cell; below[0] has what is not beyond the plane, up to
-  /// `middle`. Leaf: axis is -1.
+  /// A node for faces_[begin, end). Inner node: `axis` and `plane` divide its cell; below[0] has the faces that are not
+  /// beyond the plane, up to `middle`. Leaf: axis is -1.
   struct Node {
     std::size_t begin, end;
     LatticeBox cell;
     int axis = -1;
     std::int64_t plane = 0;
     std::size_t middle = 0;
-    std::array<std::size_t, 2> below{};  // nodes; of a leaf the first one is its number
+    std::array<std::size_t, 2> below{};  // the two nodes below; for a leaf the first is its number
   };
 
-  /// A mesh spans at most twice kMaxSpan (HalfEdgeMesh::room()), so three times the way from its centre fits.
+  /// A mesh spans at most twice kMaxSpan (HalfEdgeMesh::room()), so three times the distance from its centre fits.
   void set_middle(FaceId f) {
     static_assert(HalfEdgeMesh::kMaxSpan <= std::int64_t(1) << 29);
     const auto& [a, b, c] = whole_.triangles[f];
@@ -74,7 +74,7 @@ class Splitter {
     return 3 * base_[axis] + middles_[f][std::size_t(axis)];
   }
 
-  /// Decides where, and sorts its faces.
+  /// Decides where to cut the node, and sorts its faces.
   void cut(Node& node) {
     if (node.end - node.begin <= most_) return;
     for (const int axis : axes(node.begin, node.end)) {
@@ -101,7 +101,7 @@ class Splitter {
     nodes_.push_back({node.middle, node.end, high});
   }
 
-  /// Those below a node, the lower ones first.
+  /// Adds the leaves below a node, the lower one first.
   void add_leaves(std::size_t number) {
     if (nodes_[number].axis >= 0) {
       for (const std::size_t below : nodes_[number].below) add_leaves(below);
@@ -111,8 +111,8 @@ class Splitter {
     leaves_.push_back({nodes_[number].cell, {}, {}, {}, 0, {}});
   }
 
-  /// Those along which the middle half of a sample spreads most first: a rod on a wall is no reason to cut the wall's
-  /// sides apart.
+  /// Returns the axes, the one along which the middle half of a sample spreads most first. The middle half decides, so
+  /// that a rod on a wall does not cause a cut between the wall's two sides.
   [[nodiscard]] std::vector<int> axes(std::size_t begin, std::size_t end) const {
     const std::size_t step = std::max<std::size_t>((end - begin) / kSample, 1);
     std::array<std::int64_t, 3> spread{};
@@ -128,8 +128,8 @@ class Splitter {
     return order;
   }
 
-  /// With the wanted share of the faces on its lower side, or beside: voxels have vertices without number in planes
-  /// between them, and these would be locked.
+  /// Returns a plane with about the wanted share of the faces on its lower side. It avoids planes between voxels, where
+  /// very many vertices lie that would be locked.
   [[nodiscard]] std::int64_t plane_across(int axis, std::size_t begin, std::size_t end) const {
     std::vector<std::int64_t> at;
     for (std::size_t i = begin; i < end; ++i) at.push_back(thrice_middle(faces_[i], axis));
@@ -139,7 +139,7 @@ class Splitter {
     return plane % kLatticePerVoxel == 0 ? plane + kLatticePerVoxel / 2 : plane;
   }
 
-  /// The face is noted wherever its box meets a closed cell.
+  /// Notes the face for each closed cell that its box meets.
   void reach_into(std::size_t number, FaceId f, const LatticeBox& box,
                   std::vector<std::pair<std::size_t, FaceId>>& found) const {
     const Node& node = nodes_[number];
@@ -161,11 +161,11 @@ class Splitter {
   std::vector<Region> leaves_;
 };
 
-/// Numbers of some vertices of the whole: a table of hashes.
+/// Numbers some vertices of the whole: a hash table.
 class Numbers {
  public:
   explicit Numbers(std::size_t most) : slots_(std::bit_ceil(most + 1), {kNoId, 0}) {}
-  /// Of v; `fresh` if it is new.
+  /// Returns the number of v, which is `fresh` if v is new.
   std::uint32_t& of(VertexId v, std::uint32_t fresh) {
     std::size_t i = v * std::size_t(0x9e3779b1u);
     for (;; ++i) {
@@ -181,7 +181,7 @@ class Numbers {
   std::vector<std::pair<VertexId, std::uint32_t>> slots_;
 };
 
-/// Given its cell and faces: its vertices, which of them are free, and so which faces stay.
+/// Completes a region whose cell and faces are known: its vertices, which of them are free, and so which faces stay.
 void settle(const Piece& whole, Region& region) {
   Numbers numbers(3 * region.faces.size());
   for (const FaceId f : region.faces) {
@@ -235,7 +235,7 @@ void put_back(const HalfEdgeMesh& mesh, const Region& region, Piece& whole) {
     if (region.free[v]) whole.vertices[region.vertices[v]] = mesh.position(v);
   }
   for (FaceId f = 0; f < region.faces.size(); ++f) {
-    if (f < region.fixed && mesh.alive(f)) continue;  // others may know it, too
+    if (f < region.fixed && mesh.alive(f)) continue;  // other regions may know the face, too
     Triangle& t = whole.triangles[region.faces[f]];
     t.fill(kNoId);
     for (HalfEdgeId h = 3 * f; h < 3 * f + 3 && mesh.alive(f); ++h) t[h % 3] = region.vertices[mesh.from(h)];

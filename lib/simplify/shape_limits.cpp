@@ -9,7 +9,7 @@ double loosened(double reach, double first) {
 }
 
 LatticeBox room_around(const LatticeBox& surface, std::uint64_t faces) {
-  constexpr double kBeyond = 0.02, kBeyondOfFaces = 5;  // in extents
+  constexpr double kBeyond = 0.02, kBeyondOfFaces = 5;  // times the extents
   if (faces < kLeastFacesWithRoom) return kEverywhere;
   const double share = kBeyond + kBeyondOfFaces / double(faces);
   LatticeBox room;

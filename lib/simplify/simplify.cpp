@@ -14,49 +14,10 @@
 
 namespace bp {
 
-std::string to_string(StopReason reason) {
-  switch (reason) {
-    case StopReason::faces:
-      return "faces";
-    case StopReason::error:
-      return "error";
-    case StopReason::limits:
-      return "limits";
-    case StopReason::edge_length:
-      return "edge-length";
-    case StopReason::least_volume:
-      return "least-volume";
-    case StopReason::nothing_left:
-      return "no collapse left that keeps the guarantee";
-  }
-  return "";
-}
-
-void SimplifyCounts::add(const SimplifyCounts& next) {
-  const SimplifyCounts before = *this;
-  *this = next;
-  faces_in = before.faces_in;
-  faces_flat = before.faces_flat;
-  collapses += before.collapses;
-  solved += before.solved;
-}
-
-void SimplifyCounts::add_beside(const SimplifyCounts& part) {
-  collapses += part.collapses;
-  solved += part.solved;
-  refused += part.refused;
-}
-
-StopReason SimplifyCounts::reason_left() const {
-  return refused[Refusal::error] > 0    ? StopReason::error
-         : refused[Refusal::limits] > 0 ? StopReason::limits
-         : refused[Refusal::length] > 0 ? StopReason::edge_length
-                                        : StopReason::nothing_left;
-}
-
 namespace {
 
-/// Without a wanted number of faces, sweeps take what is the allowed distance off over a square of that edge.
+/// Without a wanted number of faces, sweeps take collapses up to the cost of the allowed distance over a square of that
+/// edge.
 BulkEnd end_of_bulk(const SimplifyParams& params) {
   if (params.faces == 0) return {0, params.limits != nullptr ? std::pow(params.limits->error_lattice(), 4) : 0};
   return {params.strict_from > 0 ? std::max(params.strict_from, params.faces) : kBulkFactor * params.faces, kLastBound};
@@ -77,7 +38,7 @@ void collapse_strict(Collapser& collapser, SimplifyCounts& counts) {
   if (counts.stop == StopReason::limits) counts.limit = collapser.params().limits->last_refusal();
 }
 
-/// The rest of it: what regions leave is tried as a whole.
+/// Simplifies the rest: collapses that regions left are tried on the whole.
 LatticeMesh simplify_regions(Piece whole, const GridFrame& frame, const SimplifyParams& params,
                              SimplifyCounts& counts) {
   const bool inwards = volume6_of(whole.vertices, whole.triangles) < 0;
@@ -99,7 +60,8 @@ Piece piece_of(const Collapser& collapser) {
   return piece;
 }
 
-/// A surface with quadrics or not, to the end; or, where that is worth regions, until they begin: what is left then.
+/// Simplifies a surface, with quadrics or not, to the end; or, if it is large enough, until regions begin, and returns
+/// what is left then.
 std::variant<LatticeMesh, Piece> simplify_mesh(Piece whole, const GridFrame& frame, const SimplifyParams& params,
                                                SimplifyCounts& counts) {
   HalfEdgeMesh mesh(std::move(whole.vertices), whole.triangles, kEverywhere);
@@ -120,12 +82,12 @@ std::variant<LatticeMesh, Piece> simplify_mesh(Piece whole, const GridFrame& fra
   return finished(mesh, frame, inwards, collapser.sense(), counts);
 }
 
-/// All of the surface, with quadrics or not, to the end.
+/// Simplifies a whole surface, with quadrics or not, to the end.
 LatticeMesh simplify_whole(Piece whole, const GridFrame& frame, const SimplifyParams& params, SimplifyCounts& counts) {
   const auto has_bulk = [&] {
     return params.dense && has_bulk_regions(whole.triangles.size(), end_of_bulk(params), params);
   };
-  // Bricks have merged theirs each for itself; this goes on across their sides.
+  // Bricks have merged their flat regions; this merges regions across their sides.
   if (whole.quadrics.empty() && has_bulk()) merge_flat_regions(whole, params.edge_limit);
   if (has_bulk()) {
     if (counts.faces_flat == 0) counts.faces_flat = whole.triangles.size();
@@ -142,7 +104,9 @@ LatticeMesh simplify_whole(Piece whole, const GridFrame& frame, const SimplifyPa
 
 LatticeMesh simplify(const SurfaceSource& dense, const SimplifyParams& params, SimplifyCounts& counts) {
   constexpr std::uint64_t kFew = std::uint64_t(1)
-                                 << 18;  // as a whole at once: no vertex along a brick's side is locked
+                                 // Faces of a surface that is simplified as a whole at once, without locked vertices
+                                 // along sides of bricks.
+                                 << 18;
   counts = {};
   const std::uint64_t faces = params.limits != nullptr ? count_faces(dense) : 0;
   if (faces > 0 && faces <= kFew) {

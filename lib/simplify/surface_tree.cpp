@@ -16,18 +16,19 @@ namespace bp {
 
 namespace {
 
-// Cells stop where the next round might pass the wanted number of faces: at kMargin times as many, or, where so many
-// are better not held at once, at fewer. At kFew they stop for regions (collapse_regions.h): the last rounds have fewer
-// cells than there are threads, and regions are as large as each other.
+// Cells stop where the next round might pass the wanted number of faces: at kMargin times as many, or at kMarginOfMany
+// for surfaces that are better not held at once. At kFew faces they stop for regions (collapse_regions.h): the last
+// rounds have fewer cells than there are threads, whereas regions have equal sizes.
 constexpr std::uint64_t kMargin = 3, kMarginOfMany = 2, kManyFaces = std::uint64_t(1) << 20, kFew = 100000;
-constexpr std::uint64_t kFewCells = 32, kMarginOfFew = 5;  // so few cells leave threads without one: they stop earlier
-constexpr double kNearlyAll = 0.95;                        // and join only after a round that left so many of the faces
-constexpr double kBoundPerLevel = 16;                      // of the last bound: a round leaves about 40 % of the faces
+constexpr std::uint64_t kFewCells = 32, kMarginOfFew = 5;  // with so few cells threads would be idle: they stop earlier
+constexpr double kNearlyAll = 0.95;  // cells are joined only after a round that left this share of the faces
+// Factor of the last bound for each level: a round leaves about 40 % of the faces.
+constexpr double kBoundPerLevel = 16;
 constexpr std::int64_t kBrickLattice = std::int64_t(kBrickEdge) * kLatticePerVoxel;
 constexpr std::uint64_t kLargeCell = std::uint64_t(1) << 17;  // faces: few cells grow beyond that
 constexpr std::uint64_t kWorkPerFace = 256;  // bytes: the piece, its half-edges, quadrics, boxes and their tree
 
-/// body(i) for i in [0, n), with at most `in_flight` of them begun and not ended.
+/// Calls body(i) for i in [0, n), with at most `in_flight` calls begun and not ended.
 template <class Body>
 void parallel_few(std::size_t n, std::size_t in_flight, const Body& body) {
   std::atomic<std::size_t> next = 0;
@@ -37,8 +38,8 @@ void parallel_few(std::size_t n, std::size_t in_flight, const Body& body) {
 }
 
 struct Node {
-  BrickCoord coord;                 // of the cell, in cells of its level, from the lowest brick on
-  std::vector<WaitingPiece> parts;  // one, or those of the cells that it is made of, not yet welded
+  BrickCoord coord;                 // coordinates of the cell, in cells of its level, from the lowest brick on
+  std::vector<WaitingPiece> parts;  // one piece, or those of the cells below it, not yet welded
   SimplifyCounts counts;
 
   [[nodiscard]] std::uint64_t face_count() const {
@@ -53,7 +54,8 @@ class SurfaceTree {
   SurfaceTree(const SurfaceSource& surface, const SimplifyParams& params)
       : surface_(surface), params_(params), store_(params.memory) {}
 
-  /// The cells of the first level: bricks, with their flat regions merged. Returns the faces there were.
+  /// Makes the cells of the first level: bricks, with their flat regions merged. Returns the number of faces before
+  /// merging.
   std::uint64_t begin() {
     const std::vector<BrickCoord> bricks = surface_.bricks();
     for (const BrickCoord& b : bricks) {
@@ -74,7 +76,7 @@ class SurfaceTree {
     return faces;
   }
 
-  /// The largest first: else one of them may be begun when all others are done.
+  /// Collapses edges in all cells, the largest cell first: else it might begin when all others are done.
   void collapse(BulkRange range) {
     const std::size_t in_flight = nodes_in_hand();
     std::vector<std::pair<std::uint64_t, Node*>> order;
@@ -101,7 +103,7 @@ class SurfaceTree {
     });
   }
 
-  /// One level up: the cells of twice the edge. Their parts weld when they are needed.
+  /// Goes one level up, to cells of twice the edge. Their parts are welded when they are needed.
   void join_cells() {
     edge_ *= 2;
     const auto parent = [](BrickCoord c) { return BrickCoord{c.x / 2, c.y / 2, c.z / 2}; };
@@ -142,7 +144,7 @@ class SurfaceTree {
   }
 
  private:
-  /// How many nodes may be in work, each as large as the largest.
+  /// Returns how many nodes may be at work, if each is as large as the largest.
   [[nodiscard]] std::size_t nodes_in_hand() const {
     std::uint64_t largest = 1;
     for (const Node& node : nodes_) largest = std::max(largest, node.face_count());
@@ -173,7 +175,7 @@ class SurfaceTree {
     return box;
   }
 
-  /// The piece of a node, which is left without.
+  /// Returns the piece of a node, and empties the node.
   [[nodiscard]] Piece welded(Node& node) {
     std::vector<Piece> pieces;
     for (WaitingPiece& part : node.parts) pieces.push_back(store_.take(std::move(part)));

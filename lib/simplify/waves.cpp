@@ -4,7 +4,8 @@
 
 namespace bp {
 
-// The vertices asked about come first: of an edge at a vertex of thousands of faces, next to nothing else is read.
+// The vertices of the edge are tested first: for an edge at a vertex of thousands of faces, hardly anything else is
+// read.
 
 bool WaveClaims::star_is_free(VertexId v) {
   if (!is_free(v)) return false;

@@ -46,7 +46,7 @@ class Welder {
  private:
   Piece out_;
   std::unordered_map<LatticeCoord, std::uint32_t, LatticeHash> rim_;
-  std::vector<std::uint32_t> ids_;  // of the vertices of the piece added last
+  std::vector<std::uint32_t> ids_;  // numbers of the vertices of the piece that was added last
 };
 
 }  // namespace

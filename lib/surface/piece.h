@@ -13,12 +13,12 @@ struct Piece {
   LatticeBox cell;  ///< closed; vertices on its boundary (the rim) may belong to other pieces too
   std::vector<LatticeCoord> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<Quadric> quadrics;  ///< per vertex and about it: of this piece's share of its faces; or none yet
+  std::vector<Quadric> quadrics;  ///< per vertex, relative to it: the quadric of its faces in this piece; or empty
 };
 
-/// One piece of several in different cells, which it empties. Its cell is left for the caller to set. Vertices and
-/// triangles keep their order. Either all have quadrics or none: those of equal vertices add up. Linear.
-/// Throws out_of_resource if they have more triangles than a mesh can index.
+/// Welds pieces of different cells to one and empties them. The caller sets the cell of the result. Vertices and
+/// triangles keep their order. Either all pieces have quadrics or none; quadrics of equal vertices add up. Linear.
+/// Throws out_of_resource if there are more triangles than a mesh can index.
 [[nodiscard]] Piece weld(std::span<Piece> pieces);
 
 }  // namespace bp

@@ -8,9 +8,9 @@ namespace bp {
 
 namespace {
 
-constexpr std::size_t kChunkBytes = std::size_t(1) << 20;
+constexpr std::size_t kPutBytes = std::size_t(1) << 20;
 
-/// From the low corner of the piece's cell: a cell is less than 2^31 lattice units wide.
+/// A vertex relative to the low corner of its cell: a cell is less than 2^31 lattice units wide.
 using Offset = std::array<std::uint32_t, 3>;
 
 template <class T>
@@ -55,7 +55,7 @@ void decode(std::span<const std::byte> bytes, Piece& piece) {
 
 }  // namespace
 
-// What else takes its part comes off what may wait first: as long as nothing may, all growth is for work.
+// If missing bytes are for the work, and nothing may wait in memory, all growth of the limit goes to the work.
 std::uint64_t PieceMemory::limit_with(std::uint64_t missing, bool for_work) const {
   return limit.with(missing, work_share + (for_work && waiting_bytes > 0 ? 0 : waiting_share));
 }
@@ -92,8 +92,8 @@ WaitingPiece PieceStore::put(Piece&& piece) {
   waiting.piece_.cell = piece.cell;
   const std::vector<std::byte> all = encoded(piece);
   piece = {};
-  for (std::size_t i = 0; i < all.size(); i += kChunkBytes) {
-    waiting.in_store_.push_back(store().put(std::span(all).subspan(i, std::min(kChunkBytes, all.size() - i))));
+  for (std::size_t i = 0; i < all.size(); i += kPutBytes) {
+    waiting.in_store_.push_back(store().put(std::span(all).subspan(i, std::min(kPutBytes, all.size() - i))));
   }
   return waiting;
 }

@@ -6,27 +6,28 @@
 #include "lib/store/scratch.h"
 #include "lib/surface/piece.h"
 
-/// Where the pieces of a surface wait until the cell around them is made.
+/// A store for the pieces of a surface that wait until the cell around them is made.
 namespace bp {
 
-/// What a surface that is simplified by cells may take of memory.
+/// Memory that a surface which is simplified by cells may take.
 struct PieceMemory {
   std::uint64_t waiting_bytes = UINT64_MAX / 2;  ///< pieces that wait as they are
-  std::uint64_t work_bytes = UINT64_MAX / 2;     ///< those in hand, and all that simplification needs beside them
-  ScratchFactory make_scratch;                   ///< for further ones that wait; without it, all wait as they are
-  [[nodiscard]] std::uint64_t bytes() const { return waiting_bytes + work_bytes; }  ///< for the whole, at the end
-  MemoryLimit limit{};                                                              ///< that both are shares of
+  std::uint64_t work_bytes = UINT64_MAX / 2;  ///< pieces at work, and all that their simplification needs in addition
+  ScratchFactory make_scratch;                ///< for pieces beyond waiting_bytes; without it they wait in memory
+  /// The sum of both, which the whole surface may take at the end.
+  [[nodiscard]] std::uint64_t bytes() const { return waiting_bytes + work_bytes; }
+  MemoryLimit limit{};  ///< the limit (--memory) that both numbers are shares of
   double waiting_share = 0, work_share = 0;
 
-  /// The limit at which `missing` bytes more of this are there; 0: not known.
+  /// Returns the limit at which `missing` more bytes would be available; 0 if it is not known.
   [[nodiscard]] std::uint64_t limit_with(std::uint64_t missing, bool for_work = false) const;
-  /// What is left beside something else that takes so much.
+  /// Returns the memory that is left when something else takes `bytes`.
   [[nodiscard]] PieceMemory without(std::uint64_t bytes) const;
-  /// For one of n at work.
+  /// Returns the share for each of n surfaces at work.
   [[nodiscard]] PieceMemory split(std::uint64_t n) const;
 };
 
-/// A piece that waits. Movable; to be taken exactly once.
+/// A piece that waits. Movable. It must be taken exactly once.
 class WaitingPiece {
  public:
   [[nodiscard]] std::uint64_t face_count() const { return faces_; }
@@ -34,11 +35,11 @@ class WaitingPiece {
  private:
   friend class PieceStore;
   Piece piece_;                            // as it is, or empty
-  std::vector<Scratch::Handle> in_store_;  // the same in chunks
+  std::vector<Scratch::Handle> in_store_;  // the same piece in the store, in chunks
   std::uint64_t faces_ = 0, bytes_ = 0;
 };
 
-/// Thread-safe for distinct pieces. What comes out is what went in, bit for bit.
+/// Keeps pieces and returns them bit for bit. Thread-safe for distinct pieces.
 class PieceStore {
  public:
   explicit PieceStore(const PieceMemory& memory) : memory_(memory) {}

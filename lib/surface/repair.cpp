@@ -12,7 +12,7 @@ namespace bp {
 
 namespace {
 
-/// Number of face-connected parts of a set of cells of a 2x2x2 block.
+/// Returns the number of face-connected parts of a set of cells of a 2x2x2 block.
 int parts_of(unsigned cells) {
   int parts = 0;
   while (cells != 0) {
@@ -30,7 +30,7 @@ int parts_of(unsigned cells) {
   return parts;
 }
 
-/// The four cells of a 2x2 square: perpendicular to `axis`, on its low or high side.
+/// Returns the four cells of the 2x2 square that is perpendicular to `axis`, on its low or high side.
 unsigned square_of(int axis, int side) {
   unsigned cells = 0;
   for (unsigned i = 0; i < 8; ++i) {
@@ -90,7 +90,7 @@ std::uint64_t next_voxel(const std::uint64_t* r, int word) {
   return (r[word] >> 1) | (word + 1 < kRow ? r[word + 1] << 63 : 0);
 }
 
-/// Voxels to add to a brick; few bricks have many.
+/// Voxels that repair adds to a brick, as words. Few bricks get many.
 struct Addition {
   BrickCoord brick;
   std::vector<std::pair<std::uint16_t, std::uint64_t>> words;  // index, bits
@@ -108,7 +108,7 @@ std::vector<std::pair<std::uint16_t, std::uint64_t>> words_of(const BrickBits& b
 /// 64 blocks of eight voxels: bit x of word i is voxel i of block x.
 using Blocks = std::array<std::uint64_t, 8>;
 
-/// Those around the low corners of the voxels of `word`, between the rows y and y + 1, z and z + 1.
+/// Returns the blocks around the low corners of the voxels of `word`, between rows y and y + 1, z and z + 1.
 Blocks blocks_at(const BitBox& bits, std::int32_t y, std::int32_t z, int word) {
   Blocks v;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -143,7 +143,8 @@ std::uint64_t not_manifold(const Blocks& v) {
   return bad;
 }
 
-/// Adds the voxels of `fill`, of the block with low corner (x, y, z), that lie in the brick. False if there are none.
+/// Adds the voxels of `fill` that lie in the brick; (x, y, z) is the low corner of their block. Returns false if none
+/// does.
 bool add_fill(Corner fill, std::int32_t x, std::int32_t y, std::int32_t z, BrickBits& add) {
   bool any = false;
   for (int i = 0; i < 8; ++i) {
@@ -155,8 +156,8 @@ bool add_fill(Corner fill, std::int32_t x, std::int32_t y, std::int32_t z, Brick
   return any;
 }
 
-/// The voxels that blocks add to the brick. False if there are none.
-/// Finds blocks that are not manifold 64 at a time; those few then use the table.
+/// Finds the voxels that blocks add to the brick; returns false if there are none. Blocks that are not manifold are
+/// found 64 at a time; only for these the table is used.
 bool additions(const Neighbourhood& n, const std::array<Corner, 256>& table, BrickBits& add) {
   const VoxelCoord first = first_voxel(n.brick);
   bool any = false;
@@ -178,7 +179,8 @@ bool additions(const Neighbourhood& n, const std::array<Corner, 256>& table, Bri
   return any;
 }
 
-/// Whether a brick has voxels at its low side along x, y and z (even), and at its high side (odd).
+/// Returns whether a brick has voxels at its low sides along x, y and z (even numbers), and at its high sides (odd
+/// numbers).
 std::array<bool, 6> sides_of(const BrickShelf& shelf, BrickCoord coord) {
   BrickBits bits;
   shelf.get(coord, bits);
@@ -196,7 +198,7 @@ std::array<bool, 6> sides_of(const BrickShelf& shelf, BrickCoord coord) {
   return {(any & 1) != 0, any >> 63 != 0, low_y != 0, high_y != 0, low_z != 0, high_z != 0};
 }
 
-/// The bricks and those neighbours that their voxels may touch, sorted.
+/// Returns the bricks and the neighbours that their voxels may touch, sorted.
 std::vector<BrickCoord> with_neighbours(const BrickShelf& shelf, const std::vector<BrickCoord>& bricks) {
   std::vector<std::array<bool, 6>> sides(bricks.size());
   parallel_for(std::int64_t(bricks.size()),
@@ -236,7 +238,7 @@ std::uint64_t repair_contacts(BrickShelf& shelf) {
       found.push_back(std::move(addition));
     });
     changed.clear();
-    for (const auto& [coord, words] : found) {  // all blocks looked at the same solid: only now it grows
+    for (const auto& [coord, words] : found) {  // the solid grows only now: all blocks saw the same voxels
       BrickBits bits;
       shelf.get(coord, bits);
       for (const auto& [i, add] : words) {

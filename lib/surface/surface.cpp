@@ -38,7 +38,7 @@ class PieceBuilder {
     return std::exchange(piece_, {});
   }
 
-  /// Of a corner, from (0, 0, 0) to (64, 64, 64).
+  /// Returns the number of the vertex at a corner from (0, 0, 0) to (64, 64, 64); adds it if it is new.
   std::uint32_t vertex(VoxelCoord c) {
     const auto slot = std::size_t((c.z * kCorners + c.y) * kCorners + c.x);
     if (index_[slot] == kNone) {
@@ -62,12 +62,12 @@ class PieceBuilder {
   }
 
   VoxelCoord first_;
-  std::vector<std::uint32_t> index_;  // of the vertex at each corner
-  std::vector<std::size_t> used_;     // corners that have one
+  std::vector<std::uint32_t> index_;  // the vertex at each corner
+  std::vector<std::size_t> used_;     // corners that have a vertex
   Piece piece_;
 };
 
-/// The faces of a brick from its voxels and those around them.
+/// Finds the faces of a brick from its voxels and the voxels around it.
 class FaceFinder {
  public:
   Piece run(const BrickShelf& shelf, BrickCoord brick) {
@@ -89,7 +89,8 @@ class FaceFinder {
     return bits_.row(first_.y + y, first_.z + z);
   }
 
-  /// The high sides of the voxels before the brick's first ones lie in this brick, in the order of the bricks.
+  /// Adds the high sides of the voxels just before the brick's first ones: a face belongs to the brick of its least
+  /// corner.
   void faces_of_neighbours() {
     for (std::int32_t y = 0; y < kBrickEdge; ++y) faces(row(y, -1)[1] & ~row(y, 0)[1], y, -1, 2, true);
     for (std::int32_t z = 0; z < kBrickEdge; ++z) faces(row(-1, z)[1] & ~row(0, z)[1], -1, z, 1, true);
@@ -100,7 +101,7 @@ class FaceFinder {
     }
   }
 
-  /// Faces of the 64 voxels (0..63, y, z), but for high sides in the brick's own.
+  /// Adds the faces of the voxels (0 .. 63, y, z), except for high sides that belong to the next brick.
   void faces_of_row(std::int32_t y, std::int32_t z) {
     const std::uint64_t* r = row(y, z);
     const std::uint64_t in = r[1];

@@ -15,18 +15,18 @@ class SurfaceSource {
   explicit SurfaceSource(const GridFrame& frame) : frame_(frame) {}
   virtual ~SurfaceSource() = default;
   [[nodiscard]] const GridFrame& frame() const { return frame_; }
-  /// Those that may have faces, by z, y, x.
+  /// Returns the bricks that may have faces, in the order z, y, x.
   [[nodiscard]] virtual std::vector<BrickCoord> bricks() const = 0;
-  /// Around its vertices; of no meaning if there are none.
+  /// Returns a box around the vertices; it has no meaning if there are none.
   [[nodiscard]] virtual LatticeBox box() const = 0;
-  /// Faces of a brick; its cell is the brick, closed. Thread-safe.
+  /// Returns the faces of a brick. The piece's cell is the closed brick. Thread-safe.
   [[nodiscard]] virtual Piece piece(BrickCoord brick) const = 0;
 
  private:
   GridFrame frame_;
 };
 
-/// Of the voxels on a shelf, which must not change meanwhile.
+/// The surface of the voxels on a shelf. The shelf must not change while this exists.
 class ShelfSurface final : public SurfaceSource {
  public:
   ShelfSurface(const BrickShelf& shelf, const GridFrame& frame) : SurfaceSource(frame), shelf_(shelf) {}
@@ -38,7 +38,7 @@ class ShelfSurface final : public SurfaceSource {
   const BrickShelf& shelf_;
 };
 
-/// Of a dense surface in memory: vertices are corners of voxels, and faces lie in the sides of voxels.
+/// A dense surface in memory: its vertices are corners of voxels, and its faces lie in sides of voxels.
 class MeshSurface final : public SurfaceSource {
  public:
   explicit MeshSurface(const LatticeMesh& dense);  ///< keeps a reference; 4 bytes a face
@@ -49,18 +49,18 @@ class MeshSurface final : public SurfaceSource {
  private:
   const LatticeMesh& dense_;
   std::vector<BrickCoord> bricks_;
-  std::vector<std::uint32_t> begin_;  // per brick: in faces_; one more at the end
-  std::vector<std::uint32_t> faces_;  // by brick
+  std::vector<std::uint32_t> begin_;  // per brick: its first place in faces_; one more at the end
+  std::vector<std::uint32_t> faces_;  // face numbers, brick by brick
 };
 
-/// Triangles of all bricks. Cost: that of making them.
+/// Returns the number of triangles of all bricks. Cost: making all of them.
 [[nodiscard]] std::uint64_t count_faces(const SurfaceSource& surface);
 
-/// All bricks in one piece.
+/// Returns all bricks as one piece.
 [[nodiscard]] Piece whole_piece(const SurfaceSource& surface);
 
-/// All bricks in one mesh. The result does not depend on threads. 2 triangles per face, 12 bytes each, 24 bytes per
-/// vertex.
+/// Returns all bricks as one mesh. The result does not depend on threads. Memory: 2 triangles for each voxel face, 12
+/// bytes each, and 24 bytes for each vertex.
 [[nodiscard]] LatticeMesh dense_surface(const BrickShelf& shelf, const GridFrame& frame);
 
 }  // namespace bp

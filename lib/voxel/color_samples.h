@@ -5,10 +5,7 @@
 
 namespace bp {
 
-[[nodiscard]] inline double area_of(const TriangleD& t) {
-  return length(cross(t[1] - t[0], t[2] - t[0])) / 2;
-}
-/// The point with these weights of the corners.
+/// Returns the point of a triangle with these weights of its corners.
 [[nodiscard]] inline Vec3d point_of(const TriangleD& t, const std::array<double, 3>& w) {
   return w[0] * t[0] + w[1] * t[1] + w[2] * t[2];
 }
@@ -26,8 +23,9 @@ void for_each_sample(const TriangleD& t, double spacing, int least_rows, const B
   const double base = edges[a];
   const double height = base > 0 ? 2 * area_of(t) / base : 0;
   const double rows = std::max(double(least_rows), std::ceil(height / spacing));
-  // Of the strips from 0 to t: half the area, and its first moment. A row lies at the centroid of its strip, so that
-  // one sample is the triangle's, and linear functions are summed up exactly.
+  // A row stands for a strip of the unit triangle, and lies at the centroid of that strip: one sample is the triangle's
+  // centroid, and linear functions are summed up exactly. `area_to`, `moment_to`: area and first moment of the part
+  // from 0 to t.
   const auto area_to = [](double x) { return x - x * x / 2; };
   const auto moment_to = [](double x) { return x * x / 2 - x * x * x / 3; };
   for (double j = 0; j < rows; ++j) {

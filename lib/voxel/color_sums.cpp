@@ -6,7 +6,7 @@ namespace bp {
 
 namespace {
 
-constexpr double kUnitArea = 1 << 20;  // of ColorSum::weight
+constexpr double kUnitArea = 1 << 20;  // ColorSum::weight of one side of a cell
 constexpr double kSpacing = 0.5;       // cells
 
 std::uint64_t channel(const TriangleColors& c, std::uint16_t LinearColor::*of, const std::array<double, 3>& w) {
@@ -22,7 +22,7 @@ std::uint16_t color_side_of(const Vec3d& normal) {
     const auto& [x, y, z] = kColorSides[side];
     const double along = x * normal[0] + y * normal[1] + z * normal[2];
     const double squared = along * along / (x * x + y * y + z * z);
-    if (!(squared > most)) continue;  // of equals the first
+    if (!(squared > most)) continue;  // the first of equals stays
     most = squared;
     best = side;
   }
@@ -45,7 +45,7 @@ void add_colors(const TriangleD& triangle_vox, const TriangleColors& colors, std
                        weight * channel(colors, &LinearColor::g, w), weight * channel(colors, &LinearColor::b, w)};
     const auto layer = std::uint16_t(side < kColorAxes ? (p[side] - cell[side]) * kColorCellVox : 0);
     if (out.size() > first && out.back().cell == cell &&
-        out.back().layer == layer) {  // of a row, most follow one of the same cell
+        out.back().layer == layer) {  // neighbouring samples mostly lie in one cell
       out.back().sum.add(sum);
     } else {
       out.push_back({cell, side, layer, sum});

@@ -5,15 +5,15 @@
 #include "lib/core/color.h"
 #include "lib/core/coords.h"
 
-/// What colour the surface has in each part of a grid, for each direction it looks to: means by area, kept as sums of
-/// integers, so that neither the order of the triangles nor who added them matters.
+/// Mean colours of a surface in each cell of a grid, for each direction that the surface looks to. Means are weighted
+/// by area and kept as sums of integers, so that neither the order of triangles nor threads change them.
 namespace bp {
 
 constexpr int kColorCellVox = 4;  ///< voxels along a side of a cell: about half an edge of a level's triangles
 
 using ColorCell = Coord3<struct ColorCellSpace, std::int32_t>;  ///< voxels [4 c, 4 c + 4) of its level
 
-/// Directions that a surface may look to, both ways: along axes, between two of them, between three.
+/// Directions that a surface may look to: along an axis, between two axes, between three. Each stands for both ways.
 constexpr std::array<std::array<int, 3>, 13> kColorSides{{{1, 0, 0},
                                                           {0, 1, 0},
                                                           {0, 0, 1},
@@ -28,8 +28,8 @@ constexpr std::array<std::array<int, 3>, 13> kColorSides{{{1, 0, 0},
                                                           {1, -1, 1},
                                                           {1, 1, -1}}};
 constexpr std::uint16_t kColorAxes = 3;  ///< the first of kColorSides
-/// The one of kColorSides that is nearest to a normal of any length; 0 if it has none. Broken scenes have inverted
-/// triangles, so both sides of a thin wall look to one direction.
+/// Returns the entry of kColorSides that is nearest to a normal of any length; 0 if the normal is zero. Both sides of a
+/// thin wall look to the same entry, because broken scenes have inverted triangles.
 [[nodiscard]] std::uint16_t color_side_of(const Vec3d& normal);
 
 struct ColorSum {
@@ -45,17 +45,17 @@ struct ColorSum {
 
 struct ColorCellSum {
   ColorCell cell;
-  std::uint16_t side = 0;   ///< of kColorSides
-  std::uint16_t layer = 0;  ///< of the cell's voxels along an axis, if the side is one of kColorAxes
+  std::uint16_t side = 0;   ///< index in kColorSides
+  std::uint16_t layer = 0;  ///< layer of the cell's voxels along an axis, if `side` is below kColorAxes
   ColorSum sum;
 };
 
-/// What looks to one side in a cell.
+/// The colour in a cell of the surfaces that look to one side.
 struct CellColor {
   ColorCell cell;
   LinearColor color;
-  std::uint16_t side = 0;    ///< of kColorSides
-  std::uint32_t weight = 0;  ///< area, as in ColorSum; at most what fits
+  std::uint16_t side = 0;    ///< index in kColorSides
+  std::uint32_t weight = 0;  ///< area as in ColorSum, clamped to 32 bits
   friend bool operator==(const CellColor&, const CellColor&) = default;
 };
 

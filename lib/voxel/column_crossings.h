@@ -1,6 +1,7 @@
 #pragma once
+#include "lib/grid/bit_box.h"
+#include "lib/voxel/crossing.h"
 #include "lib/voxel/overlap.h"
-#include "lib/voxel/winding.h"
 
 /// Where the columns of a tile cross one triangle: the inner step of find_crossings, for host and device.
 ///
@@ -19,16 +20,17 @@ constexpr std::int64_t kFixedHalf = kFixedOne / 2;
   return (high - kFixedHalf) >> kFixedBits;
 }
 
-/// Every `step`-th from `first` on: how several threads share a triangle's rows, or the columns of a row.
+/// A share of the rows of a triangle, or of the columns of a row, for one of several threads: every `step`-th from
+/// `first` on.
 struct Share {
   std::int32_t first = 0, step = 1;
 };
 
-/// The crossings of one triangle with the columns of a tile, one after the other.
+/// Iterates over the crossings of one triangle with the columns of a tile.
 template <class EdgeInt, class PlaneInt>
 class ColumnCrossings {
  public:
-  /// Of all columns, or of a share of the rows and of the columns in each row.
+  /// Begins with all columns, or with a share of the rows and of the columns in each row.
   BP_HD ColumnCrossings(const Corners& t, const VoxelBox& tile, Share rows = {}, Share columns = {})
       : tile_(tile), row_step_(rows.step), columns_(columns) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -51,7 +53,7 @@ class ColumnCrossings {
     for (int e = 0; e < 3; ++e) edges_[e] = edge(t, e, clockwise);
   }
 
-  /// The next one that lies in the tile; false if there is none left.
+  /// Finds the next crossing that lies in the tile; returns false if there is none left.
   BP_HD bool next(Crossing& out) {
     for (;;) {
       while (column_ > last_) {
@@ -66,12 +68,12 @@ class ColumnCrossings {
   }
 
  private:
-  /// Columns on the inner side of edge e of the projection along z, counted from (x0_, y0_).
+  /// Returns the columns on the inner side of edge e of the projection along z, counted from (x0_, y0_).
   BP_HD HalfSpace<EdgeInt> edge(const Corners& t, int e, bool clockwise) const {
     const std::int64_t* from = t.p[clockwise ? (e + 1) % 3 : e];
     const std::int64_t* to = t.p[clockwise ? e : (e + 1) % 3];
     const EdgeInt dx = to[0] - from[0], dy = to[1] - from[1];
-    // (e, e^2) adds dx e^2 - dy e: that decides where the column stands on the edge's line.
+    // The shift by (e, e^2) adds dx e^2 - dy e, which decides for a column that lies on the edge's line.
     const bool on_line_is_inside = dy < 0 || (dy == 0 && dx > 0);
     HalfSpace<EdgeInt> h;
     h.at = dx * (y0_ * kFixedOne + kFixedHalf - from[1]) - dy * (x0_ * kFixedOne + kFixedHalf - from[0]) -

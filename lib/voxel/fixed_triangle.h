@@ -55,7 +55,7 @@ class FixedFrame {
   double voxel_;
 };
 
-/// The same for a few points.
+/// Converts one point; FixedFrame is quicker for many.
 [[nodiscard]] inline FixedPoint to_fixed(const GridFrame& frame, const Vec3d& point) {
   return FixedFrame(frame)(point);
 }

@@ -39,7 +39,7 @@ template <class T>
   return a < b ? b : a;
 }
 
-/// at + step . cell >= 0, cells counted from the range's first.
+/// The cells with at + step . cell >= 0, counted from the first cell of the range.
 template <class Int>
 struct HalfSpace {
   Int at{};
@@ -74,7 +74,8 @@ struct Corners {
 [[nodiscard]] BP_HD inline CellRange voxel_range(const Corners& t) {
   CellRange r{};
   for (int axis = 0; axis < 3; ++axis) {
-    r.min[axis] = (t.low(axis) - kFixedSlack - 1) >> kFixedBits;  // least v with one (v + 1) + slack >= low
+    // Returns n . p, saturated to +-2^126, without overflow: |n| < 2^96, |p| < 2^49.
+    r.min[axis] = (t.low(axis) - kFixedSlack - 1) >> kFixedBits;
     r.max[axis] = ((t.high(axis) + kFixedSlack) >> kFixedBits) + 1;
   }
   return r;
@@ -98,12 +99,12 @@ struct Corners {
   return n[0] * p[0] + n[1] * p[1] + n[2] * p[2];
 }
 
-/// The corner of the range's first cell, grown, that lies farthest along a normal with this sign.
+/// Returns the corner, grown, of the range's first cell that lies farthest along a normal with this sign.
 [[nodiscard]] BP_HD inline std::int64_t far_corner(const CellRange& range, int axis, bool positive, std::int64_t edge) {
   return range.min[axis] * edge + (positive ? edge + kFixedSlack : -kFixedSlack);
 }
 
-/// Component w of the triangle's normal: twice the signed area of the projection along w.
+/// Returns component w of the triangle's normal: twice the signed area of the projection along w.
 template <class Int>
 [[nodiscard]] BP_HD inline Int normal_component(const Corners& t, int w) {
   const int u = (w + 1) % 3, v = (w + 2) % 3;

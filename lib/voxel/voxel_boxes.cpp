@@ -8,7 +8,7 @@ namespace bp {
 
 namespace {
 
-/// x, y, z, and what follows them in memory.
+/// x, y, z, and the number that follows in memory, which is not used.
 typedef double Four __attribute__((vector_size(32)));
 typedef std::int32_t FourInts __attribute__((vector_size(16)));
 
@@ -35,7 +35,7 @@ BP_INLINE void store_coord(const Four& fixed, VoxelCoord& out) {
   out = {ints[0], ints[1], ints[2]};
 }
 
-/// `corners`: nine coordinates, and one more that does not matter.
+/// `corners`: nine coordinates, and a tenth number that is read and not used.
 BP_INLINE void store_box(const double* corners, const Four& origin, double voxel, VoxelBox& out) {
   Four a, b, c;
   load_fixed(corners, origin, voxel, a);
@@ -61,7 +61,7 @@ void voxel_boxes(std::span<const TriangleD> triangles, const GridFrame& frame, V
   const Vec3d origin = frame.world_origin();
   const std::size_t n = triangles.size() - 1;
   store_boxes(triangles[0][0].data(), n, origin.data(), frame.voxel, out);
-  double last[10]{};  // nothing follows the last one
+  double last[10]{};  // the last triangle, since no number follows it in memory
   std::memcpy(last, &triangles[n], sizeof(TriangleD));
   store_boxes(last, 1, origin.data(), frame.voxel, out + n);
 }

@@ -22,12 +22,12 @@ CellRange intersect(const CellRange& a, const VoxelBox& b) {
   return r;
 }
 
-/// Where voxels are set: rows of a box, of which one thread has all.
+/// Rows of a box of voxels that belong to one thread.
 class BoxRows {
  public:
   explicit BoxRows(BitBox& bits) : bits_(bits) {}
   [[nodiscard]] const VoxelBox& box() const { return bits_.box(); }
-  /// Voxels [begin, end] along x.
+  /// Sets the voxels [begin, end] along x.
   void set(std::int64_t begin, std::int64_t end, std::int64_t y, std::int64_t z) {
     std::uint64_t* word = word_at(begin, y, z);
     std::uint64_t* const last = word_at(end, y, z);
@@ -39,7 +39,7 @@ class BoxRows {
     while (word != last) *word++ = ~std::uint64_t(0);
     *word |= bits_between(0, end);
   }
-  /// ORs the low bits of a word, from voxel x on.
+  /// Sets the voxels of a word's low bits, beginning with voxel x.
   void set_few(std::uint64_t few, std::int64_t x, std::int64_t y, std::int64_t z) {
     std::uint64_t* const word = word_at(x, y, z);
     word[0] |= few << (x & 63);
@@ -59,12 +59,12 @@ class BoxRows {
   BitBox& bits_;
 };
 
-/// emit(x0, x1, y, z) for each row of cells, first and last included, that the triangle meets.
+/// Calls emit(x0, x1, y, z), both ends included, for each row of cells that the triangle meets.
 template <class EdgeInt, class PlaneInt, class Emit>
 void for_each_row(const TriangleCells<EdgeInt, PlaneInt>& t, const Emit& emit) {
   const std::int32_t nx = std::int32_t(t.range.size(0)), ny = std::int32_t(t.range.size(1)),
                      nz = std::int32_t(t.range.size(2));
-  // In a slice, a half-space can only hold in rows where it holds at the better end: that bounds y.
+  // In a slice a half-space holds only in rows where it holds at the better end of the row: that bounds y.
   const auto clip_slice = [&](const auto& h, std::int32_t z, std::int32_t& y0, std::int32_t& y1) {
     const std::int32_t best = h.step[0] > 0 ? nx - 1 : 0;
     return clip(h.value(best, 0, z), h.step[1], y0, y1);
@@ -105,7 +105,7 @@ std::uint64_t row_bits(std::int64_t (&value)[kCount], const std::int64_t (&step)
   return bits;
 }
 
-/// Tests each voxel of a range of a few.
+/// Tests each voxel of a small range.
 template <class Rows>
 void voxelize_few(const Corners& corners, const CellRange& range, Rows& out) {
   const SmallTriangle t(corners, range, kFixedOne);
@@ -144,7 +144,7 @@ void voxelize_flat(const Corners& corners, const CellRange& range, int thin, Row
   }
 }
 
-/// In blocks, so that the plane's values stay within 128 bits.
+/// Works in blocks of kWideCells, so that the plane's values stay within 128 bits.
 template <class Rows>
 void voxelize_wide(const Corners& corners, const CellRange& range, Rows& out) {
   CellRange block;

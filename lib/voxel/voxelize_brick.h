@@ -8,7 +8,8 @@
 
 namespace bp {
 
-/// The bits from `begin` to `end` of a word, both included, of which the low six bits count.
+/// Returns a word whose bits from `begin` to `end`, both included, are set. Only the low six bits of both numbers
+/// count.
 [[nodiscard]] inline std::uint64_t bits_between(std::int64_t begin, std::int64_t end) {
   return ~std::uint64_t(0) << (begin & 63) & ~std::uint64_t(0) >> (63 - (end & 63));
 }
@@ -21,11 +22,11 @@ class SharedRows {
   SharedRows(BrickCoord brick, BrickBits& bits)
       : box_(voxels_of(BrickBox{brick, brick + BrickCoord{1, 1, 1}})), bits_(bits) {}
   [[nodiscard]] const VoxelBox& box() const { return box_; }
-  /// Voxels [begin, end] along x.
+  /// Sets the voxels [begin, end] along x.
   void set(std::int64_t begin, std::int64_t end, std::int64_t y, std::int64_t z) {
     add(bits_between(begin, end), y, z);
   }
-  /// Adds the low bits of a word, from voxel x on.
+  /// Adds a word's low bits, beginning with voxel x.
   void set_few(std::uint64_t few, std::int64_t x, std::int64_t y, std::int64_t z) { add(few << (x & 63), y, z); }
   [[nodiscard]] bool has(std::int64_t begin, std::int64_t end, std::int64_t y, std::int64_t z) const {
     const std::uint64_t bits = bits_between(begin, end);
@@ -45,10 +46,9 @@ class SharedRows {
   BrickBits& bits_;
 };
 
-/// True if the voxels that a triangle meets among those that its box touches are all there now: nearly all small
-/// triangles are settled so.
-///   thin     along two axes the triangle lies within one voxel: it is connected, so it meets each voxel of its box
-///   touched  those of the voxels of its box (voxel_boxes()) that lie in out.box()
+/// Returns true if every voxel that the triangle meets in out.box() is set already; most small triangles end here.
+///   thin     the triangle lies within one voxel along two axes: it is connected, so it meets each voxel of its box
+///   touched  the voxels of its box (voxel_boxes()) that lie in out.box()
 template <class Rows>
 [[nodiscard]] BP_INLINE bool settle_by_box(bool thin, const VoxelBox& touched, Rows& out) {
   for (std::int32_t z = touched.min.z; z < touched.max.z; ++z) {

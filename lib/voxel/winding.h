@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "lib/grid/bit_box.h"
+#include "lib/voxel/crossing.h"
 #include "lib/voxel/fixed_triangle.h"
 
 /// Winding numbers of voxel centres along the columns of the grid (columns run along z), exact in integers.
@@ -12,14 +13,6 @@
 /// an edge or a vertex, so that every column crosses a closed mesh as often upwards as downwards, and the crossings
 /// cancel exactly. The number at a voxel is the signed count of crossings below its centre, or at it.
 namespace bp {
-
-/// A column crosses a triangle in a tile. Tiles are at most 512 voxels a side.
-struct Crossing {
-  std::uint32_t x : 9;     ///< column, voxels from the tile's corner
-  std::uint32_t y : 9;     ///< column
-  std::uint32_t z : 10;    ///< first voxel whose centre is at or above the crossing; may be the tile's height: above it
-  std::uint32_t down : 1;  ///< the triangle faces down: entering a body with outward faces, +1; else -1
-};
 
 /// Longest side of a scene, in voxels, for which crossings are exact.
 constexpr std::int64_t kWindingVoxels = std::int64_t(1) << 24;

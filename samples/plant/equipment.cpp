@@ -2,7 +2,7 @@
 
 #include "samples/plant/parts.h"
 
-/// Parts that are put together from solids, sheets and tubes.
+/// Components of equipment, made of solids, sheets and tubes.
 namespace plant {
 
 void Parts::flange(Vec center, Vec axis, double radius) {

@@ -3,7 +3,7 @@
 
 #include "samples/plant/sink.h"
 
-/// What stands on one plot of the site. Plots are 60 x 60 m: a module on 60 x 50 m, a pipe rack on the rest.
+/// Builds the modules of a site. A plot is 60 x 60 m: a module on 60 x 50 m, and a pipe rack on the rest.
 namespace plant {
 
 constexpr double kPlot = 60, kModuleDepth = 50;

@@ -21,7 +21,7 @@ double cosine_sum(double x) {
   return sum;
 }
 
-/// Corners replaced by short curves that start `bend` before them and end `bend` after.
+/// Returns the line with its corners replaced by curves that begin and end `bend` from each corner.
 std::vector<Vec> rounded(const std::vector<Vec>& points, double bend, int steps) {
   if (bend <= 0 || points.size() < 3) return points;
   std::vector<Vec> out{points.front()};
@@ -72,7 +72,7 @@ int Parts::sides(int n) const {
   return std::max(5, int(std::lround(n * detail_)));
 }
 
-/// Bit i of a corner's number: at the far end of axis i.
+/// Bit i of a corner's number tells whether it lies at the high end of axis i.
 void Parts::box_faces() {
   static constexpr std::uint32_t kQuads[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
                                                  {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};

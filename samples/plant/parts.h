@@ -16,9 +16,9 @@ constexpr Vec kUp{0, 1, 0};
 struct Turn {
   double cosine, sine;
 };
-/// Cosine and sine of i/n of a full turn.
+/// Returns the cosine and sine of i/n of a full turn.
 [[nodiscard]] Turn turn(int i, int n);
-/// turn(0, n) ... turn(n - 1, n), kept from call to call; one thread generates.
+/// Returns turn(0, n) ... turn(n - 1, n). They are kept from call to call, as one thread generates.
 [[nodiscard]] const std::vector<Turn>& turns(int n);
 
 class Parts {

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <cstdint>
 
-/// Where the generated geometry goes. A scene is generated several times over (to count, for its vertices, for its
-/// faces), each time the same; so it never has to be held in memory.
+/// Receives the generated geometry. A scene is generated several times (to count, for its vertices, for its faces),
+/// each time the same, so that it never has to be in memory.
 namespace plant {
 
 struct Vec {
@@ -32,7 +32,7 @@ class Sink {
  public:
   enum Wants : unsigned { nothing = 0, vertices = 1, faces = 2 };
   virtual ~Sink() = default;
-  /// A connected component of this many vertices and triangles comes next; says which of the two to send.
+  /// Announces a connected component with these numbers of vertices and triangles. Returns which of the two to send.
   virtual Wants part(std::uint32_t vertex_count, std::uint32_t triangle_count) = 0;
   virtual void vertex(Vec) {}
   virtual void face(std::uint32_t, std::uint32_t, std::uint32_t) {}  ///< numbers count from the start of the part

@@ -17,7 +17,7 @@ std::uint64_t width_of(std::uint64_t plots) {
   return std::max<std::uint64_t>(w, 1);
 }
 
-/// Finer parts on larger sites, so that a site of 10^9 triangles still is a few kilometres wide.
+/// Larger sites have finer parts, so that a site of 10^9 triangles still is a few kilometres wide.
 double detail_for(std::uint64_t triangles) {
   double detail = 1;
   for (std::uint64_t n = 2000000; n < triangles && detail < 6; n *= 8) detail += 1;
@@ -98,7 +98,7 @@ void Site::for_each(const std::function<void(const Placement&)>& visit) const {
     visit({ground_, 1, 0, 0, 1, x, z});
     if (plot == plots_) visit({yard_, 1, 0, 0, 1, x, z});
     if (plot >= plots_) continue;
-    // Turned by half, mirrored, or as drawn.
+    // Shapes are turned by half, mirrored, or stay as drawn.
     const int pose = plot < kModuleKinds ? 0 : Random(seed_ * 31 + plot).integer(0, 3);
     const double sx = pose & 1 ? -1 : 1, sz = pose & 2 ? -1 : 1;
     visit({module_of(plot), sx, 0, 0, sz, x + (sx < 0 ? kPlot : 0), z + (sz < 0 ? kModuleDepth : 0)});

@@ -1,6 +1,6 @@
 #pragma once
 #include "gpu/device_closing.h"
-#include "gpu/hierarchical_kernels.h"
+#include "tests/backend/hierarchical_kernels.h"
 
 /// A tile on the device, closed by the path of one's choice: for tests and benchmarks of gpu/ itself.
 namespace bp {
@@ -14,7 +14,7 @@ class GpuTile {
              const DeviceClosing::Mark& mark = {});
   /// From now on both paths dilate by cubes of these orientations; `region` holds the dilation.
   void orient(const OrientationField& field, const VoxelBox& region);
-  /// The same, of the hierarchical path alone.
+  /// Orients the hierarchical path only.
   void orient(const RotationLattice& rotations);
   /// Overwrites the device's result with garbage, so that a stale one cannot pass for a new one.
   void poison(cudaStream_t stream);

@@ -9,7 +9,7 @@ using namespace bp;
 
 namespace {
 
-/// A halo that is safe for any field: what halo_of gives where the largest sample is everywhere.
+/// Returns a halo that is safe for any field: the one that halo_of gives if the largest sample is everywhere.
 Halo widest_halo(const ScaleLattice& scale) {
   const std::int32_t r = scale.max / kScaleOne + 1;
   return {r + 1, r};
@@ -34,7 +34,7 @@ TEST_CASE("closing a tile equals its definition on each backend", "[quick][backe
     BitBox got;
     backend->close(solid, scale, widest_halo(scale), {element}, interior, got);
     CHECK(got == want);
-    backend->close(solid, scale, widest_halo(scale), {element}, interior, got);  // buffers hold the tile before
+    backend->close(solid, scale, widest_halo(scale), {element}, interior, got);  // buffers still hold the tile before
     CHECK(got == want);
   }
 }
@@ -92,7 +92,7 @@ TEST_CASE("closing from a shelf of bricks equals closing a box on each backend",
   VoxelBox interior{{-64, 0, 64}, {64 * random.between(0, 2), 64 * random.between(1, 2), 128}};
   if (seed == 5) interior = interior.grown(-random.between(1, 9));
   const Halo halo{largest / kScaleOne + 2, largest / kScaleOne + 1};
-  const BrickBox bricks{{-2, 0, 0}, {random.between(0, 2), 3, 2}};  // does not cover all that is asked for
+  const BrickBox bricks{{-2, 0, 0}, {random.between(0, 2), 3, 2}};  // does not cover all of the region
   BitBox solid = reference::random_solid(random, voxels_of(bricks));
   for (int i = 0; i < 2; ++i) {  // a full brick and an empty one
     const BrickCoord c{random.between(-2, -1), random.between(0, 2), random.between(0, 1)};

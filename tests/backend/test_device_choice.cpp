@@ -1,5 +1,5 @@
-// What --device auto, cuda and cuda:N make of a GPU that works, one that does not, and one that fails on the way.
-// Emulated.
+// Tests what --device auto, cuda and cuda:N do with a GPU that works, one that does not, and one that fails during the
+// run. Emulated.
 #include <cuda_runtime.h>
 
 #include <cstdlib>

@@ -1,5 +1,4 @@
-// What only an emulated device can be asked for: another order of its threads, a memory that is too small, and
-// failures.
+// Tests that need an emulated device: another order of its threads, a memory that is too small, and failures.
 #include <cuda_runtime.h>
 
 #include "gpu/cuda_backend.h"
@@ -148,7 +147,7 @@ TEST_CASE("crossings and the fill by winding on a device with little memory are 
 
 namespace {
 
-/// What a call says when it fails as a device does; empty if it does not fail.
+/// Returns the message of a call that fails as a device does; empty if it does not fail.
 template <class Call>
 std::string device_error(const Call& call) {
   std::string text;

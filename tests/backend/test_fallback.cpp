@@ -1,4 +1,4 @@
-// A device that fails: the CPU finishes the call, from the arguments as they were.
+// A device that fails: the CPU finishes the call, with the arguments as they were.
 #include "lib/device/cpu/fallback_backend.h"
 #include "lib/device/device_error.h"
 #include "tests/backend/random_triangles.h"
@@ -10,7 +10,7 @@ using namespace bp;
 
 namespace {
 
-/// Works like the CPU for some calls, then spoils what it may write and fails.
+/// Works like the CPU for some calls, then spoils its outputs and fails.
 class FailingBackend final : public Backend {
  public:
   FailingBackend(int good_calls, int* living) : good_(good_calls), living_(living) { ++*living_; }

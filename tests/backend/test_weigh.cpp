@@ -14,7 +14,7 @@ namespace {
 
 using Place = CoordinateRows::Place;
 
-/// Inside and outside, on vertices, edges and faces and next to them, far away, and not finite.
+/// Points inside and outside, on vertices, edges and faces and next to them, far away, and not finite.
 std::vector<Vec3d> hard_points(const IndexedMesh& cage, std::size_t random_ones) {
   Bounds3d bounds;
   for (const Vec3d& v : cage.vertices) bounds.add(v);

@@ -12,7 +12,7 @@ using namespace bp::test;
 
 namespace {
 
-/// Crossings in an order of their own.
+/// Returns the crossings as sorted keys.
 std::vector<std::uint32_t> sorted(const std::vector<Crossing>& crossings) {
   std::vector<std::uint32_t> keys(crossings.size());
   if (!keys.empty()) std::memcpy(keys.data(), crossings.data(), keys.size() * sizeof(Crossing));

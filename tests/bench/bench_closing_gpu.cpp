@@ -185,7 +185,7 @@ class Bench {
     if (options_.hierarchical) compare_walks(s, resolution, scale_vox, element_name, field, tile, element, result);
   }
 
-  /// Both variants of the tree walk; equal to `ours`.
+  /// Compares both variants of the tree walk with `ours`.
   void compare_walks(const BenchSolid& s, int resolution, double scale_vox, const std::string& element_name,
                      const std::string& field, GpuTile& tile, StructuringElement element, const BitBox& ours) {
     HierarchicalClosing walk(device_.multiprocessors);

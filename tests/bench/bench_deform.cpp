@@ -26,7 +26,7 @@ namespace {
 
 using namespace bp;
 
-/// Of the clock on the wall, and of all cores together.
+/// Seconds on the wall clock, and of all cores together.
 struct Seconds {
   std::vector<double> wall, cores;
 
@@ -40,7 +40,7 @@ struct Seconds {
   }
 };
 
-/// In the bounds of the cage, and inside it.
+/// Returns random points in the bounds of the cage and inside it.
 std::vector<Vec3d> points_inside(const IndexedMesh& cage, const CageCoordinates& coordinates, std::size_t n) {
   Bounds3d bounds;
   for (const Vec3d& v : cage.vertices) bounds.add(v);
@@ -75,7 +75,7 @@ void run_plain(const IndexedMesh& cage, std::span<const Vec3d> points) {
   for (const Vec3d& p : points) reference::mean_value(cage, p, weights);
 }
 
-/// A round of all points in blocks, as bpdeform bind cuts them: weigh(backend, block of points, its weights, its
+/// Runs over all points in blocks, as bpdeform bind cuts them: weigh(backend, block of points, its weights, its
 /// number).
 class Blocks {
  public:
@@ -143,7 +143,7 @@ std::vector<ResultKey> hashes(const Blocks& blocks, const Backends& backends) {
   return out;
 }
 
-/// What bind and apply do beside the coordinates, on all cores: packing, unpacking, the sum over the columns.
+/// Prints the times of the other steps of bind and apply, on all cores: packing, unpacking, the sum over the columns.
 void print_parts(const Blocks& blocks, const Backends& backends, const CageCoordinates& coordinates) {
   std::vector<PackedWeights> packed(blocks.count());
   const auto seconds = [](const auto& f) {

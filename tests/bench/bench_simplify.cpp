@@ -13,6 +13,7 @@
 #include "lib/core/parallel.h"
 #include "lib/simplify/detail/bulk_order.h"
 #include "lib/simplify/detail/collapse_order.h"
+#include "lib/simplify/simplify.h"
 #include "lib/simplify/surface_tree.h"
 #include "lib/surface/repair.h"
 #include "lib/surface/surface.h"

@@ -49,7 +49,7 @@ std::vector<std::uint32_t> sorted(const std::vector<Crossing>& crossings) {
   return keys;
 }
 
-/// The tile at the middle of the grid.
+/// Measures the tile at the middle of the grid.
 bool run_winding(const std::string& model, const std::string& commit, const CudaDevice& device, const VoxelBox& grid,
                  const std::vector<FixedTriangle>& triangles, const DeviceBuffer<FixedTriangle>& d_triangles) {
   VoxelBox tile = grid;

@@ -44,7 +44,7 @@ struct Plane {
   double offset = 0, area = 0;
 };
 
-/// Which plane each triangle lies in: those of large triangles take the others in.
+/// The plane of each triangle: planes of large triangles take small ones in.
 struct Planes {
   std::vector<Plane> planes;
   std::vector<std::uint32_t> of;  // per triangle
@@ -128,7 +128,7 @@ struct Shares {
   double flat = 0, on_plane = 0, has_plane = 0;
 };
 
-/// Of one face's samples, each `weight`.
+/// Returns the shares of one face's samples; each sample has `weight`.
 Shares shares_of(const Scene& scene, const bp::TriangleD& face, double least_area, double reach, int samples) {
   Shares sum;
   const bp::Vec3d v = area_vector(face), n = (1 / bp::length(v)) * v;

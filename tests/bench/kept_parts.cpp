@@ -1,9 +1,10 @@
-// kept_parts STREAM THIN GAP WIDE: what a closing keeps. Lengths in voxels. Of a stream with both layers:
-// - thin parts, at most THIN thick and in pieces of THIN^3 / 8 voxels or more: those of which at least half of the
-//   voxels are thin in the closing, too, which may be two voxels thicker; others are bridged or swallowed;
-// - openings that are GAP wide or more, but less than WIDE: their pieces, at least half empty in the closing; and the
-//   share of their voxels that is;
-// - narrower places: the share of their voxels that is filled.
+// kept_parts STREAM THIN GAP WIDE: counts the parts that a closing keeps. Lengths in voxels. For a stream with both
+// layers:
+//   - thin parts, at most THIN thick and in pieces of THIN^3 / 8 voxels or more: kept if at least half of their voxels
+//     are thin in the closing, too, which may be two voxels thicker; others are bridged or swallowed;
+//   - openings that are GAP wide or more, but less than WIDE: pieces that are at least half empty in the closing, and
+//     the share of their voxels that is empty;
+//   - narrower places: the share of their voxels that is filled.
 #include <cstdio>
 #include <cstdlib>
 

@@ -1,4 +1,4 @@
-// How far a level is from its scene, by plain sampling: what the error that bplod lists must not be below.
+// Measures how far a level is from its scene, by plain sampling: the error that bplod lists must not be below this.
 //   level_error SCENE LEVEL [POINTS]
 // One line: the largest distance of a point of LEVEL to SCENE, and of a point of SCENE to LEVEL, scene units. The
 // points are all corners, and POINTS (a million by default) over the area. A level of OBJ is in the axes of its scene.

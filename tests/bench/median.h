@@ -4,7 +4,7 @@
 
 namespace bp {
 
-/// The upper one of two in the middle; 0 of none.
+/// Returns the median, the upper one of two in the middle; 0 of no values.
 inline double median(std::vector<double> v) {
   std::sort(v.begin(), v.end());
   return v.empty() ? 0 : v[v.size() / 2];

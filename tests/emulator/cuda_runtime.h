@@ -237,7 +237,7 @@ enum cudaError_t {
 };
 
 namespace emulator {
-/// What the runtime answers from now on instead of cudaSuccess: for tests of what happens then.
+/// Results that the runtime returns from now on instead of cudaSuccess, to test failures.
 struct Faults {
   cudaError_t device_count = cudaSuccess, code = cudaSuccess, launch = cudaSuccess, page_locked = cudaSuccess;
   int driver_version = 13000;  ///< 0: there is no driver

@@ -2,7 +2,8 @@
 #include <cstddef>
 #include <cstdint>
 
-/// What every input of a fuzzer must satisfy; aborts the process otherwise. Shared by the fuzzer and the quick tests.
+/// Properties that every input of a fuzzer must have; the process is aborted otherwise. Shared by the fuzzer and the
+/// quick tests.
 namespace fuzz {
 
 /// The bytes are read as a brick stream. Either that is an Error of bad_input, or the reference reader finds the same

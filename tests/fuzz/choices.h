@@ -43,7 +43,7 @@ class Choices {
     std::memcpy(&value, bytes, sizeof(T));
     return value;
   }
-  /// What is left.
+  /// Returns all remaining bytes.
   std::string rest() {
     std::string text(reinterpret_cast<const char*>(next_), left_);
     left_ = 0;
@@ -55,14 +55,14 @@ class Choices {
   std::size_t left_;
 };
 
-/// 0 to n - 1, by all bytes together: a fuzzer that changes any of them rolls again, so that it cannot grow fond of the
-/// ways that take long.
+/// Returns 0 to n - 1, from a hash of all bytes: a fuzzer that changes any of them rolls again, so that it cannot
+/// prefer slow choices.
 std::uint32_t roll(const std::uint8_t* data, std::size_t size, std::uint32_t n);
 /// A number at a limit of something: of doubles, floats, integers, the exact predicates or the grid; or any double.
 double extreme_number(Choices& choices);
-/// The same among whole numbers.
+/// As extreme_number(), for whole numbers.
 std::int64_t extreme_integer(Choices& choices);
-/// As text, also in ways that no number is written.
+/// As text, also in forms that no number has.
 std::string extreme_text(Choices& choices);
 /// As a C++ or JSON literal; "nan" and "inf" are none in JSON.
 std::string text_of(double value);

@@ -2,16 +2,16 @@
 #include <cstddef>
 #include <cstdint>
 
-/// What every input of a fuzzer must satisfy; the process is aborted otherwise. Shared by the fuzzers and the quick
-/// tests. The bytes are decisions of a generator (choices.h); what it makes goes through the tools, which run in this
-/// process and are held to docs/exit-codes.md (tool_runs.h).
+/// Properties that every input of a fuzzer must have; the process is aborted otherwise. Shared by the fuzzers and the
+/// quick tests. The bytes are decisions of a generator (choices.h). Its output goes through the tools, which run in
+/// this process and must keep to docs/exit-codes.md (tool_runs.h).
 namespace fuzz {
 
 /// A brick stream with valid hashes and hostile contents, through bpinfo, bpclose, bpmesh and bpcheck: refused, or the
 /// proxy holds. All tools agree whether the stream can be read.
 void stream_stages(const std::uint8_t* data, std::size_t size);
 
-/// A scene with extreme numbers in any format that our readers read, through bpinfo, or the whole pipe at a low
+/// A scene with extreme numbers in any format that the suite reads itself, through bpinfo, or the whole pipe at a low
 /// resolution: refused, or the proxy encloses the scene.
 void scene(const std::uint8_t* data, std::size_t size);
 

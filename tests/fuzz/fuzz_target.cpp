@@ -7,7 +7,8 @@
 #include "tests/fuzz/entries.h"
 #include "tests/fuzz/tool_runs.h"
 
-/// While a tool runs, stderr is a file in memory. What the fuzzer and the sanitizers say goes to stderr as it is now.
+/// While a tool runs, stderr is a file in memory. Messages of the fuzzer and the sanitizers go to the stderr of this
+/// moment.
 extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
   static char quiet[] = "-close_fd_mask=3";
   static std::vector<char*> words(*argv, *argv + *argc);
@@ -21,8 +22,8 @@ extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
 
 namespace {
 
-/// Of computing: a busy machine makes no hang, as the clock of -timeout would. Sanitizers take ten times as long as a
-/// release: this is six seconds there.
+/// Seconds of processor time: a busy machine causes no hang, as the clock of -timeout would. Sanitizers take ten times
+/// as long as a release build: this is six seconds there.
 constexpr int kHangSeconds = 60;
 
 void set_alarm(int seconds) {

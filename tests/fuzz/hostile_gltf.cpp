@@ -48,7 +48,7 @@ std::string raw_numbers(const std::string& json) {
   return out;
 }
 
-/// The buffer and what lies in it.
+/// The document, its buffer, and the accessors in it.
 struct Document {
   Choices& c;
   Json json;
@@ -150,7 +150,7 @@ void Document::add_joints(Json& attributes, std::size_t corners) {
   attributes["WEIGHTS_0"] = number(c, accessor(accessor_of(view(weights), 5126, "VEC4", corners)));
 }
 
-/// Joints and morph targets for what is there.
+/// Adds joints and morph targets to the existing meshes.
 void Document::add_skin() {
   const std::uint32_t nodes = std::uint32_t(json["nodes"].size());
   const bool skin = c.once_in(2);

@@ -18,7 +18,7 @@ struct Option {
   std::string name, value;  ///< "--faces", "N[,N...]"; no value: a flag
 };
 
-/// As --help all lists them: whatever is added to a tool is tried from then on.
+/// Returns the options that --help all lists: every new option of a tool is tried from then on.
 std::vector<Option> options_of(Workplace& place, const std::string& tool) {
   std::vector<Option> options;
   std::istringstream help(place.run(tool, {"--help", "all"}).output);
@@ -55,7 +55,8 @@ struct Inputs {
   }
 };
 
-/// Numbers between what is done at once and what nothing can hold: honest work for minutes, and no finding.
+/// Returns true for numbers between instant work and impossible work: these mean minutes of honest work, and no
+/// finding.
 bool takes_long(const std::string& text) {
   char* end = nullptr;
   constexpr double kDiagonal = 14;  // voxels of the cube
@@ -87,7 +88,7 @@ bool is_path(const Option& option) {
   return option.value.find("FILE") != std::string::npos || option.value.find("DIR") != std::string::npos;
 }
 
-/// What a tool needs to do anything, at a size that takes no time.
+/// Returns the arguments that a tool needs to do anything, at a size that takes no time.
 Words sound_words(Choices& c, const std::string& tool, const Workplace& place) {
   if (tool == "bpvox") return {place.path("in.obj"), "-o", place.path("out.bpv")};
   if (tool == "bpscale") return {place.path("in.json"), place.path("in.bpv"), "-o", place.path("out.bpv")};

@@ -10,7 +10,8 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// Low resolutions, or voxels that are far too small or too large for any scene: those between are honest work.
+/// Returns low resolutions, or voxels that are far too small or too large for any scene: sizes in between are honest
+/// work.
 Words grid(Choices& c) {
   static const Words kVoxels{"7%", "30%", "1e300", "1e-300", "5e-324", "1e100", "1e-20%", "1e300%", "1e-310%"};
   if (c.once_in(6)) return {"--voxel", c.of(kVoxels)};
@@ -21,7 +22,7 @@ void require(bool good, const std::string& what, const ToolResult& result) {
   if (!good) fail_fuzz(what, result.output + result.messages);
 }
 
-/// The scene as a mesh that is listed, drawn or judged.
+/// Lists, draws or judges the scene as a mesh.
 void look(std::uint32_t way, Workplace& place, const std::string& scene) {
   if (way == 0) {
     (void)place.run("bpcheck", {scene});
@@ -48,7 +49,7 @@ void finish_pipe(Choices& c, Workplace& place, const std::string& scene, bool in
   // "Inside" is not decided for numbers below 1e-90, nor for open scenes, whose voxels may have an inside all the same
   // (docs/bpcheck.1.md).
   const auto says = [&](const char* text) { return verdict.output.find(text) != std::string::npos; };
-  // A record of a turn that no tool of ours wrote leaves the answer open, and so does what reading has rounded.
+  // The record of a turn that no tool of the suite wrote leaves the answer open, and so does rounding by a reader.
   const bool no_answer =
       verdict.status == 5 &&
       (says("asset.extras.up") || says("rounded") ||

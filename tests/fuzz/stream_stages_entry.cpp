@@ -12,7 +12,7 @@ void add(Words& words, const Words& more) {
   words.insert(words.end(), more.begin(), more.end());
 }
 
-/// Small scales, or hostile ones: those between are honest work for minutes.
+/// Returns small scales, or hostile ones: those in between are honest work for minutes.
 std::string length_text(Choices& c) {
   if (c.once_in(12)) return text_of(extreme_number(c)) + c.of<std::string>({"", "%", "vx"});
   return c.of<std::string>({"1vx", "2vx", "0.5vx", "3.3vx", "5vx", "0.25", "0.7", "1%", "0", "1.0625vx"});
@@ -74,7 +74,7 @@ void mesh(Choices& c, Workplace& place, const std::string& stream, bool readable
   }
 }
 
-/// What bpclose makes of a stream that bpinfo can read, or not.
+/// Runs bpclose and bpmesh on a stream that bpinfo can read, or cannot.
 void close_and_mesh(Choices& c, Workplace& place, const std::string& stream, Words options, bool readable) {
   add(options, {place.path(stream), "-o", place.path("y.bpv")});
   if (!place.run("bpclose", options, {"y.bpv"}).done()) return;

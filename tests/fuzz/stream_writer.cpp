@@ -1,4 +1,4 @@
-// Writes what no writer of ours would: any value in any field, with hashes and counts that fit all the same.
+// Writes streams that no writer of the suite would: any value in any field, with hashes and counts that fit.
 #include <algorithm>
 
 #include "io/stream/stream_format.h"

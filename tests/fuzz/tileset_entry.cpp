@@ -28,7 +28,7 @@ Soup box(const Cell& b) {
   return soup;
 }
 
-/// What of the triangles lies in a cell.
+/// Returns the parts of the triangles in a cell.
 Soup cut(const Soup& soup, const Cell& cell) {
   Soup out;
   for (const Triangle& t : soup) {
@@ -84,10 +84,10 @@ std::string obj_of(const Soup& soup) {
   return text;
 }
 
-/// What was done to a tileset.
+/// The damage that was done to a tileset.
 struct Damage {
-  bool any = false;   ///< it may not hold
-  bool hole = false;  ///< it cannot hold
+  bool any = false;   ///< the answer may be "does not hold"
+  bool hole = false;  ///< the answer must be "does not hold"
 };
 
 class Maker {
@@ -116,7 +116,7 @@ class Maker {
 
  private:
   static Soup box(const Cell& b) { return fuzz::box(b); }
-  /// A bar along x, perhaps with what makes it thin.
+  /// Returns a bar along x, sometimes very thin.
   static Soup box(const Point& low, Choices& c) {
     const double y = c.of({1.0, 1.0, 0.5, 1e-6, 1e-7, 3e-6}), z = c.of({1.0, 1.0, 1e-6, 12.0});
     return fuzz::box({low[0], low[1], low[2], low[0] + c.of({4.0, 12.0, 6.0}), low[1] + y, low[2] + z});
@@ -164,7 +164,7 @@ class Maker {
     }
     root["children"].push_back(std::move(leaf));
   }
-  /// As where the scene has nothing; or none.
+  /// Adds a leaf for a cell in which the scene has nothing, or none.
   void add_empty_leaf(Json& root, const Cell& cell) {
     if (c_.once_in(2)) return;
     Json leaf = tile("none.gltf", {}, cell, kError);

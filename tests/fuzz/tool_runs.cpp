@@ -29,7 +29,7 @@ Main main_of(const std::string& tool) {
   return kMains.at(tool);
 }
 
-/// stderr as it was before any run: reports of sanitizers are for those who run the fuzzer.
+/// stderr as it was before any run: sanitizers report to the people who run the fuzzer.
 int stderr_of_process() {
   static const int fd = ::fcntl(2, F_DUPFD_CLOEXEC, 100);
   return fd;
@@ -84,7 +84,8 @@ bool begins_with_name(const std::string& line, const std::string& tool) {
   return line.rfind(tool + ": ", 0) == 0;
 }
 
-/// Of a failure: one line that begins with the tool's name, and is no message of what nobody foresaw.
+/// Returns the fault of a failed run's messages: they must be one line that begins with the tool's name, and no
+/// "unexpected" error.
 const char* fault_of(const ToolResult& result, const std::string& tool) {
   const int status = result.status;
   const auto says = [&](const char* text) { return result.messages.find(text) != std::string::npos; };

@@ -14,7 +14,7 @@ struct ToolResult {
 /// Ends the process with a message that names `what` and `why`, on the stderr of the process.
 [[noreturn]] void fail_fuzz(const std::string& what, const std::string& why);
 
-/// From now on fail_fuzz() writes to what is stderr now, whatever becomes of that.
+/// Makes fail_fuzz() write to the present stderr from now on, even if stderr is redirected later.
 void keep_stderr();
 
 /// A folder for inputs and outputs; it goes with this.
@@ -30,7 +30,7 @@ class Workplace {
   void write(const std::string& name, const std::string& bytes);
   [[nodiscard]] bool has(const std::string& name) const;
 
-  /// Removes what is called "out", "out.*" or "no".
+  /// Removes files called "out", "out.*" or "no".
   void remove_outputs();
 
   /// Runs a tool with these arguments, and one thread and scratch in the folder where it takes such options. Fails

@@ -17,7 +17,8 @@ using Bytes = std::vector<std::byte>;
 constexpr const char* kScene = "v 1 1 1\nv 3 1 1\nv 1 3 1\nv 1 1 3\nv 2 2 1\nf 1 2 3\nf 1 3 4\nf 2 3 5\n";
 constexpr const char* kCage = "v 0 0 0\nv 9 0 0\nv 0 9 0\nv 0 0 9\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
 
-/// A frame of a file of weights: a payload of ours without its hash, or what a zstd frame holds.
+/// A frame of a file of weights: the payload of one of the suite's own frames without its hash, or the content of a
+/// zstd frame.
 struct Frame {
   bool ours = false;
   Bytes content;
@@ -29,7 +30,8 @@ std::uint32_t u32_at(std::span<const std::byte> bytes, std::size_t at) {
   return value;
 }
 
-/// What bpdeform itself writes. A zstd frame lasts until the next frame of ours, as its block head says.
+/// Splits a file that bpdeform wrote into frames. A zstd frame lasts until the next frame of the suite's own, as its
+/// block head tells.
 std::vector<Frame> frames_of(const Bytes& file) {
   std::vector<Frame> frames;
   const std::size_t header = 8, columns = u32_at(file, header + 16) +
@@ -84,7 +86,7 @@ void damage(Choices& c, Bytes& bytes) {
   }
 }
 
-/// With hashes and sizes that fit.
+/// Returns the bytes of frames, with hashes and sizes that fit.
 std::string bytes_of(const std::vector<Frame>& frames, bool fix_sizes) {
   std::string out;
   const auto append = [&](const Bytes& bytes) {

@@ -14,7 +14,7 @@ StructuringElement random_element(Random& random) {
   return random.one_in(2) ? StructuringElement::cube : StructuringElement::ball;
 }
 
-/// A halo that suffices for any scale up to `largest`.
+/// Returns a halo that suffices for any scale up to `largest`.
 Halo ample(Scale largest) {
   return {largest / kScaleOne + 2, largest / kScaleOne + 1};
 }
@@ -132,9 +132,9 @@ TEST_CASE("closing tile by tile equals closing the whole grid for many fields an
 }
 
 TEST_CASE("a halo one voxel short is noticed", "[quick][closing]") {
-  // The farthest voxel that can matter, for p = (-1, 0, 0) at the tile's border: S is 1 up to x = 8 and 17.5 from x =
-  // 16 on, so q = (16, 0, 0) is the only contour voxel that reaches p; what makes it contour is its neighbour (17, 0,
-  // 0), in the dilation because of g, 17 voxels on. Take g away, and p stays.
+  // Finds the farthest voxel that can matter, for p = (-1, 0, 0) at the tile's border: S is 1 up to x = 8 and 17.5 from
+  // x = 16 on, so q = (16, 0, 0) is the only contour voxel that reaches p. It is contour because its neighbour (17, 0,
+  // 0) is in the dilation, due to g, 17 voxels on. Without g, p stays.
   const GridFrame frame;
   ScaleField field;
   field.base = 1;
@@ -169,7 +169,8 @@ TEST_CASE("closing twice with one ball changes nothing more", "[quick][closing]"
 }
 
 TEST_CASE("the closing of a part lies inside the closing of the whole", "[quick][closing]") {
-  // Increasing: for one radius everywhere. (A contour voxel of the larger set may lie where a varying scale is larger.)
+  // The closing is increasing for one radius everywhere. (A contour voxel of the larger set may lie where a varying
+  // scale is larger.)
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
     CAPTURE(seed);
     Random random(seed);
@@ -190,7 +191,7 @@ TEST_CASE("the closing moves with the grid and its scale field", "[quick][closin
     const VoxelBox grid = reference::random_box(random, 50), box = grid.grown(8);
     const BitBox solid = reference::random_solid(random, grid);
     const StructuringElement element = random_element(random);
-    // By any offset where the scale is constant, by whole lattice cells where it is not.
+    // It is invariant under any offset if the scale is constant, else under offsets of whole lattice cells.
     const bool constant = random.one_in(2);
     VoxelCoord offset{random.between(-70, 70), random.between(-70, 70), random.between(-70, 70)};
     if (!constant) offset = {offset.x / 8 * 8, offset.y / 8 * 8, offset.z / 8 * 8};

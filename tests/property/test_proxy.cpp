@@ -1,5 +1,5 @@
-// Whatever the voxels, what is to stay inside and the target: the proxy is closed, oriented, 2-manifold, embedded and
-// strictly encloses what it was told to, by the independent check.
+// For any voxels, enclosed set and target: the proxy is closed, oriented, 2-manifold, embedded and strictly encloses
+// the set, by the independent check.
 #include <algorithm>
 #include <cmath>
 
@@ -87,7 +87,7 @@ void check_levels(const VoxelBox& box, const BitBox& solid, const BitBox& closin
                   const test::Triangles& inner) {
   test::VoxelSource source(
       box, [&](VoxelCoord p) { return solid.test(p); }, [&](VoxelCoord p) { return closing.test(p); });
-  // As in a larger scene, so that without a target the stop of [CB17] lets the surface move by two voxels.
+  // Bounds of a larger scene, so that without a target the stop of [CB17] lets the surface move by two voxels.
   source.header().bounds.add({box.min.x + 200.0, double(box.min.y), double(box.min.z)});
   MeshCounts counts;
   const std::vector<LatticeMesh> levels = mesh_stream(source, test::memory_context(), params, counts);
@@ -104,7 +104,7 @@ struct Target {
   double error_vox = 0;
 };
 
-/// All that may be enclosed, with and without tightening, to each target.
+/// Checks all enclosed sets, with and without tightening, to each target.
 void check_all_modes(const BitBox& solid, const BitBox& closing, std::initializer_list<Target> targets) {
   if (solid.count() == 0) return;
   const test::Triangles in_solid = triangles_in(solid), in_closing = triangles_in(closing);
@@ -152,7 +152,7 @@ bool odd(std::int32_t a) {
   return (a & 1) != 0;
 }
 
-/// Voxels made to break a mesher.
+/// Returns voxel shapes that are hard for a mesher.
 std::vector<Shape> adversarial_shapes() {
   return {
       {"one voxel", [](VoxelCoord p) { return p == kCentre; }},

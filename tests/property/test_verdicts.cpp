@@ -1,4 +1,4 @@
-// Mutants of what holds: whatever is done to it, no verdict says that it holds still. Seeded.
+// Mutants of valid inputs: whatever is changed, no verdict says that they still hold. Seeded.
 #include <random>
 
 #include "lib/check/tile_cover.h"
@@ -45,7 +45,7 @@ struct LeafScene {
   std::vector<TriangleD> triangles = triangles_of(box({2, 2, 2}, {6, 3, 3}));
   static constexpr double kError = 1e-5;
 
-  /// Whether a leaf that shows these triangles is taken for the scene itself.
+  /// Returns whether a leaf that shows these triangles passes as the scene itself.
   [[nodiscard]] bool is_shown_by(const std::vector<TriangleD>& shown) const {
     const Bounds3d cell{{0, 0, 0}, {16, 16, 16}};
     IndexedMesh content;

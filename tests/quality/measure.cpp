@@ -1,5 +1,5 @@
-// How good levels are, as a viewer sees it and a builder counts it, by means that share nothing with the search for
-// levels: pictures and nearest points.
+// Measures how good levels are, as a viewer sees them and a builder counts them, by means that share nothing with the
+// search for levels: pictures and nearest points.
 //   measure SCENE LEVEL...
 // One JSON line for each LEVEL. Lengths are shares of the diagonal of the scene's bounds.
 //   faces        triangles
@@ -51,7 +51,7 @@ bp::Vec3d normal_of(const bp::TriangleD& t) {
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
 
-/// Over seen points of one mesh: how far the other is, and how much it is turned there.
+/// Sums over seen points of one mesh: the distance to the other mesh, and the angle to it there.
 struct Seen {
   double points = 0, distance = 0, angle = 0, largest = 0;
   void add(const Seen& s) {

@@ -14,10 +14,10 @@ struct ViewAxes {
 };
 /// 36 views from 12 sides at elevations of 0, 15 and 45 degrees; y is up, for silhouettes.
 [[nodiscard]] std::vector<ViewAxes> silhouette_views();
-/// Those, and 12 from below and 2 along y: all that is to be seen of a mesh, but for deep folds.
+/// Returns the silhouette views, and 12 from below and 2 along y: they show all of a mesh except deep folds.
 [[nodiscard]] std::vector<ViewAxes> all_views();
 
-/// What one view shows: for each pixel the triangle that is nearest to the viewer, and how far away.
+/// The content of one view: for each pixel the triangle that is nearest to the viewer, and its distance.
 class Picture {
  public:
   static constexpr int kSide = 300;

@@ -6,14 +6,14 @@
 #include "tests/catch.h"
 #include "tests/support/voxel_source.h"
 
-/// What a proxy must be, by tests that share nothing with the code that makes it but the predicates.
+/// Checks of a proxy that share nothing with the code that makes it but the predicates.
 namespace bp::test {
 
 inline void fill_shelf(MemoryShelf& shelf, const VoxelBox& box, const Solid& solid) {
   store_voxels(bits_of(box, solid), shelf);
 }
 
-/// By trying all pairs.
+/// Counts intersections by trying all pairs.
 inline int self_intersections(const LatticeMesh& m) {
   int pairs = 0;
   for (std::size_t i = 0; i < m.triangles.size(); ++i) {

@@ -5,7 +5,7 @@
 
 namespace bp::test {
 
-/// Whole numbers and points with whole coordinates, uniform in [low, high]; and other numbers.
+/// Random whole numbers and points with whole coordinates, uniform in [low, high]; and other numbers.
 class RandomLattice {
  public:
   explicit RandomLattice(unsigned seed) : random_(seed) {}

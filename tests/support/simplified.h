@@ -7,7 +7,7 @@
 
 #include "io/scene/scene_reader.h"
 
-/// What measurements compare levels with: meshoptimizer's simplifier.
+/// meshoptimizer's simplifier, with which measurements compare levels.
 namespace bp::test {
 
 inline std::vector<TriangleD> read_triangles(const std::string& path) {
@@ -17,7 +17,7 @@ inline std::vector<TriangleD> read_triangles(const std::string& path) {
   return all;
 }
 
-/// With equal positions merged, as meshoptimizer wants it; in floats relative to `middle`.
+/// Simplifies. Equal positions are merged first, as meshoptimizer wants it; in floats relative to `middle`.
 inline std::vector<TriangleD> simplified(const std::vector<TriangleD>& in, const Vec3d& middle, std::size_t faces) {
   std::map<Vec3d, unsigned> number;
   std::vector<float> points;

@@ -18,7 +18,7 @@ inline std::vector<TriangleD> random_triangles(unsigned seed, int n, double size
   return all;
 }
 
-/// Largest distance over a grid of points of t.
+/// Returns the largest distance over a grid of points of t.
 inline double sampled(const TriangleD& t, const TriangleBvh& to, int n) {
   double largest = 0;
   for (int i = 0; i <= n; ++i) {

@@ -7,7 +7,7 @@
 
 namespace bp::test {
 
-/// For a scene that is in memory already.
+/// A store for a scene that is in memory already: it stores nothing.
 class NoStore final : public Scratch {
  public:
   Handle put(std::span<const std::byte>) override { fail(ErrorCode::failed, "triangles left memory"); }
@@ -22,7 +22,7 @@ struct Voxelized {
   std::unique_ptr<BrickShelf> shelf = std::make_unique<MemoryShelf>();
 };
 
-/// `scene` as bpvox would voxelize it. cell_vox: see VoxelizeOptions.
+/// Voxelizes `scene` as bpvox would. cell_vox: see VoxelizeOptions.
 inline Voxelized voxelized(const Triangles& scene, double voxel, std::int32_t cell_vox = 0) {
   Voxelized out;
   ShelfSink sink(out.shelf.get());

@@ -78,7 +78,8 @@ const char* text_of(Remedy remedy) {
   return "";
 }
 
-/// Whether `tool` has the option that an advice names; an advice that names another tool is for that one.
+/// Returns whether an advice suits `tool`: it names an option of that tool, or no option, or an option of bpvox by its
+/// name.
 bool is_for(const std::string& tool, std::string_view advice) {
   const std::size_t at = advice.find("--");
   if (at == std::string_view::npos || advice.find("bpvox") != std::string_view::npos) return true;
@@ -90,7 +91,8 @@ bool is_for(const std::string& tool, std::string_view advice) {
 std::string advised(const Error& error, const std::string& tool) {
   std::string text = error.what();
   const std::size_t fact = text.rfind(": ");
-  bool first = text.find("; ", fact == std::string::npos ? 0 : fact) == std::string::npos;  // nothing is advised yet
+  // No advice has been added yet.
+  bool first = text.find("; ", fact == std::string::npos ? 0 : fact) == std::string::npos;
   std::string_view before;
   Remedies remedies;
   for (const Remedy remedy : error.remedies())
@@ -99,7 +101,7 @@ std::string advised(const Error& error, const std::string& tool) {
     const bool last = &remedy == &remedies.back();
     text += first ? "; " : last ? ", or " : ", ";
     std::string_view words = text_of(remedy);
-    if (before.starts_with("use ") && words.starts_with("use ")) words.remove_prefix(4);  // is said already
+    if (before.starts_with("use ") && words.starts_with("use ")) words.remove_prefix(4);  // "use" is there already
     before = text_of(remedy);
     text += words;
     if (remedy == Remedy::more_memory && error.memory_bytes() > 0)

@@ -5,8 +5,8 @@
 
 namespace bp {
 
-/// The message of an error and, after it, the options that would help: "...; raise --memory to at least 700 MiB, or use
-/// larger voxels". The library knows what would help, the tools how it is named.
+/// Returns the message of an error with the options that would help: "...; raise --memory to at least 700 MiB, or use
+/// larger voxels". The library knows what would help; the tools know the names of their options.
 [[nodiscard]] std::string advised(const Error& error, const std::string& tool = "");
 
 }  // namespace bp

@@ -42,7 +42,7 @@ bool is_there(const std::string& path) {
   return std::filesystem::exists(path, none);
 }
 
-/// The name of a stream or a folder that is not there.
+/// Returns whether a name that does not exist looks like an output: a stream or a folder.
 bool is_like_output(const std::string& path) {
   const std::filesystem::path name = std::filesystem::path(path).filename();
   return path != "-" && (name.extension().empty() || name.extension() == ".bpv") && !is_there(path);
@@ -52,11 +52,11 @@ bool is_like_output(const std::string& path) {
 
 struct Args::State {
   std::string tool, about, example;
-  std::deque<std::string> words;  ///< of the command line, those not parsed yet
-  std::string current;            ///< that is parsed now
+  std::deque<std::string> words;  ///< words of the command line that are not parsed yet
+  std::string current;            ///< the word that is parsed now
   std::vector<Option> options, positionals;
-  std::map<std::string, std::string> removed;  ///< and what replaces them
-  std::string group;                           ///< of the options that are declared next
+  std::map<std::string, std::string> removed;  ///< options of earlier versions, and what replaces them
+  std::string group;                           ///< group of the options that are declared next
   std::optional<std::string> help;             ///< the word of --help
   bool version = false;
 
@@ -142,7 +142,7 @@ void Args::flag(const std::string& names, const std::function<void()>& set, cons
 
 void Args::flag(const std::string& names, bool& value, const std::string& help) {
   flag(
-      names, [&value] { value = true; }, help);  // given twice, it says the same thing
+      names, [&value] { value = true; }, help);  // may be given twice
 }
 
 void Args::flag_with_word(const std::string& name, const std::vector<std::string>& words, Setter set,
@@ -177,7 +177,7 @@ Args::Option* Args::State::look_up(const std::string& name) {
   return nullptr;
 }
 
-/// `word`: what was written, where that is more than the name: "-faces" for -f.
+/// Finds an option. `word`: the text on the command line, if it is longer than the name: "-faces" for -f.
 Args::Option& Args::State::find(const std::string& name, const std::string& word) {
   if (Option* const option = look_up(name)) return *option;
   if (const auto gone = removed.find(name); gone != removed.end())
@@ -211,7 +211,7 @@ void Args::State::take(Option& option, const std::string& name, const std::strin
   }
 }
 
-/// The option was met without a value attached: the next word is it, where one is wanted.
+/// Parses the value of an option that was given without an attached one: the next word, if the option takes it.
 void Args::State::parse_value(Option& option, const std::string& name) {
   const bool fits = !words.empty() && (option.value == Value::required || option.has_word(words.front()));
   if (!fits) {
@@ -233,7 +233,7 @@ void Args::State::parse_long(const std::string& word) {
   take(option, name, text);
 }
 
-/// `-n`, `-nVALUE`, or several flags in one word.
+/// Parses `-n`, `-nVALUE`, or several flags in one word.
 void Args::State::parse_short(const std::string& word) {
   const std::string name = word.substr(0, word.find('='));
   if (name.size() > 2 && look_up("-" + name) != nullptr)  // "-output" hardly means the file "utput"
@@ -250,7 +250,8 @@ void Args::State::parse_short(const std::string& word) {
   }
 }
 
-/// What follows `--`: one name alone may be that of an option; among others, it is one that was put too late.
+/// Checks the words after `--`. A single one may be named like an option; among several, such a word is an option in
+/// the wrong place.
 void Args::State::check_names(std::span<const std::string> names) {
   for (const std::string& name : names) {
     if (names.size() > 1 && look_up(name.substr(0, name.find('='))) != nullptr && !is_there(name))

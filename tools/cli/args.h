@@ -13,10 +13,10 @@
 #include "tools/cli/help/declaration.h"
 #include "tools/cli/length.h"
 
-/// Options of a tool, declared once: parsing, checks, --help and --version follow from the declarations. Opens no file.
-/// The grammar is the usual one: `--name VALUE`, `--name=VALUE`, `-n VALUE`, `-nVALUE`; a value may begin with a dash;
-/// `-` alone is an argument (stdin, stdout); after `--` everything is. Names are not abbreviated; what is given twice
-/// or is not known is a usage error, so that a typing slip never runs for hours.
+/// The options of a tool, declared once: parsing, checks, --help and --version follow from the declarations. Opens no
+/// file. The grammar is the usual one: `--name VALUE`, `--name=VALUE`, `-n VALUE`, `-nVALUE`; a value may begin with a
+/// dash; `-` alone is an argument (stdin, stdout); after `--` every word is an argument. Names are not abbreviated. An
+/// option that is unknown or given twice is a usage error, so that a typing slip never runs for hours.
 namespace bp {
 
 /// Amount of memory or disk as an option value (`4G`).
@@ -26,10 +26,10 @@ struct Bytes {
 
 class Args {
  public:
-  /// --help or --version was printed: nothing is left to do. run_tool ends with status 0.
+  /// Thrown when --help or --version was printed: nothing is left to do. run_tool ends with status 0.
   struct Done {};
   using Setter = std::function<void(const std::string& text)>;  ///< throws bad_argument if `text` will not do
-  /// A word of a choice, its meaning, and the text that help has for it (may be empty).
+  /// A word of a choice, its meaning, and its help text (may be empty).
   template <class E>
   struct Choice {
     const char* word;
@@ -49,28 +49,29 @@ class Args {
 
   /// The options declared from here on belong to this group of help and manual. A group may be named again.
   void group(const std::string& name);
-  /// The options, each by one of its names, that `--help` shows; `--help all` shows all.
+  /// The options that `--help` shows, each by one of its names; `--help all` shows all.
   void often(std::initializer_list<const char*> names);
-  /// An option that the line "Usage" shows; that it is given is for the tool to check.
+  /// The line "Usage" shows this option. The tool itself checks that it is given.
   void needed(const char* name);
-  /// The words that the option declared last takes, among other values.
+  /// Words that the option declared last takes in addition to other values.
   void words(std::vector<Word> words);
-  /// An option of earlier versions; who gives it is told what replaces it.
+  /// Declares an option of earlier versions; a user who gives it is told what replaces it.
   void removed(const std::string& name, const std::string& replacement);
 
-  /// `value` keeps its default if the argument is absent.
+  /// Declares an argument. `value` keeps its default if the argument is absent.
   void positional(const std::string& name, std::string& value, const std::string& help);
-  /// At least one; any number if the name is of the form [NAME...].
+  /// Declares arguments: at least one, or any number if the name has the form [NAME...].
   void positional(const std::string& name, std::vector<std::string>& values, const std::string& help);
 
-  /// names "-s,--scale"; T is string, int, int64_t, uint64_t, double, Length, Bytes, UpAxis, Vec3d, or an optional of
-  /// one of them. The
-  /// help shows the default, except of an empty string or optional. Whole numbers are not negative.
+  /// Declares an option; names "-s,--scale". T is string, int, int64_t, uint64_t, double, Length, Bytes, UpAxis, Vec3d,
+  /// or an optional of one of them. The help shows the default, except an empty string or optional. Whole numbers
+  /// cannot be negative.
   template <class T>
   void option(const std::string& names, const std::string& value_name, T& value, const std::string& help) {
     add({{names, value_name, help, shown(value)}, [&value](const std::string& text) { parse_into(text, value); }});
   }
-  /// One of a few words: option("--element", {{"cube", Element::cube}, {"ball", Element::ball}}, element, "...").
+  /// Declares an option with a choice of words: option("--element", {{"cube", Element::cube}, {"ball", Element::ball}},
+  /// element, "...").
   template <class E>
   void option(const std::string& names, Choices<E> choices, E& value, const std::string& help) {
     std::vector<std::pair<std::string, E>> table;
@@ -90,26 +91,28 @@ class Args {
     };
     add({{names, joined, help, shown_default, "", words}, set});
   }
-  /// Values of any other kind.
+  /// Declares an option with values of any other kind.
   void option(const std::string& names, const std::string& value_name, Setter set, const std::string& help);
-  /// May be given several times.
+  /// Declares an option that may be given several times.
   void option(const std::string& names, const std::string& value_name, std::vector<std::string>& values,
               const std::string& help);
   void flag(const std::string& names, bool& value, const std::string& help);
   void flag(const std::string& names, const std::function<void()>& set, const std::string& help);
-  /// A flag that may carry one of `words`: `--progress`, `--progress json` or `--progress=json`. `set` gets "" or the
-  /// word.
+  /// Declares a flag that may carry one of `words`: `--progress`, `--progress json` or `--progress=json`. `set` gets ""
+  /// or the word.
   void flag_with_word(const std::string& name, const std::vector<std::string>& words, Setter set,
                       const std::string& help);
 
-  /// Throws bad_argument (with a one-line message) or Done. Call it once, after the declarations.
+  /// Parses the command line. Throws bad_argument (with a one-line message) or Done. To be called once, after the
+  /// declarations.
   void parse();
 
-  /// After parse(): whether an option was on the command line. `name` is one of its names.
+  /// Returns whether an option was on the command line. `name`: one of its names. To be called after parse().
   [[nodiscard]] bool given(const std::string& name) const;
-  /// After parse(). Throws bad_argument if one of `names` was given and `needed` was not: it would mean nothing.
+  /// Throws bad_argument if one of `names` was given without `needed`: it would have no effect. To be called after
+  /// parse().
   void needs(std::initializer_list<const char*> names, const char* needed) const;
-  /// The same where `name` means nothing beside `other`.
+  /// Throws bad_argument if `name` was given together with `other`: it would have no effect.
   void excludes(const char* name, const char* other) const;
 
   [[nodiscard]] const std::string& tool() const;
@@ -121,7 +124,7 @@ class Args {
     Setter set;
     Value value = Value::required;
     bool repeatable = false;
-    int times = 0;  ///< given
+    int times = 0;  ///< how often it was given
     [[nodiscard]] bool has_word(const std::string& text) const {
       return std::any_of(words.begin(), words.end(), [&](const Word& word) { return word.text == text; });
     }

@@ -22,7 +22,7 @@ namespace bp {
 
 namespace {
 
-constexpr int kMostThreads = 4096;  ///< each has a backend of its own
+constexpr int kMostThreads = 4096;  ///< each thread has a backend of its own
 
 std::string default_temp() {
   const char* dir = std::getenv("TMPDIR");
@@ -37,7 +37,7 @@ void check_temp(const std::string& dir) {
     fail(ErrorCode::bad_argument, "{}: scratch files cannot be written there; name another directory with --temp", dir);
 }
 
-/// Number on the first line of a file of the kernel; 0 if there is none ("max").
+/// Returns the number on the first line of a kernel's file; 0 if there is none ("max").
 std::uint64_t kernel_number(const char* path) {
   unsigned long long value = 0;
   if (std::FILE* file = std::fopen(path, "r")) {
@@ -47,13 +47,13 @@ std::uint64_t kernel_number(const char* path) {
   return value;
 }
 
-/// The outputs of this process, each by its whole path.
+/// The outputs that this process has opened, each by its whole path.
 std::set<std::string>& named_outputs() {
   static std::set<std::string> names;
   return names;
 }
 
-/// An input that is known late, as the scene that a stream names, may be an output by then.
+/// Refuses an input that is known late, such as the scene that a stream names, if it is an open output by then.
 void refuse_open_output(const std::string& input) {
   if (named_outputs().empty()) return;
   std::vector<std::string> files = parts_of_scene(input);
@@ -64,8 +64,8 @@ void refuse_open_output(const std::string& input) {
   }
 }
 
-/// Of an output that is about to be opened: its whole path; empty if it is written in place, as /dev/null, which may be
-/// named twice.
+/// Returns the whole path of an output that is about to be opened; empty if the output is written in place, as
+/// /dev/null, which may be named twice.
 std::string free_name(const std::string& path) {
   struct stat info {};
   if (path != "-" && ::stat(path.c_str(), &info) == 0 && !S_ISREG(info.st_mode)) return "";
@@ -77,7 +77,7 @@ std::string free_name(const std::string& path) {
   return whole;
 }
 
-/// A report is JSON: its name must promise no scene and no voxels.
+/// Refuses the name of a report, which is JSON, if its ending is that of a scene or of voxels.
 void check_report_name(const std::string& path) {
   const FileEnding ending = file_ending_of(path);
   if (ending.is(FileKind::unknown) || ending.is(FileKind::document)) return;

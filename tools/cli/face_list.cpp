@@ -9,7 +9,8 @@ namespace bp {
 
 namespace {
 
-/// "1,000" or "20,500": one number in groups of three digits, as no list of falling ones looks.
+/// Returns whether the text is one number in groups of three digits: "1,000" or "20,500". A list of falling numbers
+/// never looks so.
 bool is_grouped(const std::string& text) {
   const std::size_t first = text.find(',');
   if (first == 0 || first > 3) return false;

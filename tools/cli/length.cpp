@@ -40,7 +40,7 @@ std::int64_t parse_count(std::string_view text, std::int64_t lo, std::int64_t hi
   value = std::round(value * kFactors[unit] * 1e3) / 1e3;  // 4.35k is 4350
   if (is_number && value == std::floor(value) && value >= double(lo) && value <= std::min(double(hi), 9e15))
     return std::int64_t(value);
-  return parse_integer(text, lo, hi);  // which refuses it
+  return parse_integer(text, lo, hi);  // throws: not in range
 }
 
 Vec3d parse_point(std::string_view text) {

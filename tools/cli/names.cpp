@@ -55,8 +55,8 @@ std::string skipped(const SceneCounts& c) {
 }
 
 std::string reading_note(const SceneCounts& c, double voxel) {
-  constexpr double kSinglePrecision = 0x1p-30;  // of a coordinate: far more than doubles are rounded by, and less than
-                                                // what float32 is
+  // Relative rounding of a coordinate: far more than that of doubles, and less than that of float32.
+  constexpr double kSinglePrecision = 0x1p-30;
   const std::string text = skipped(c);
   if (c.rounding.share < kSinglePrecision || c.rounding.most < voxel / 256) return text;
   return fmt::format(

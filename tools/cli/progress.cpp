@@ -14,9 +14,10 @@ namespace {
 constexpr std::int64_t kLongWorkMs = 1000;  ///< runs shorter than this show nothing
 constexpr std::int64_t kBarMs = 100, kJsonMs = 1000;
 constexpr int kBarWidth = 24;
-constexpr double kFewSteps = 100;  ///< fewer are counted: their rate says nothing
+constexpr double kFewSteps = 100;  ///< passes with fewer steps show a count and no rate
 
-/// The last tool of a pipe draws: two lines on one terminal would overwrite each other.
+/// Returns whether this tool shows progress. In a pipe only the last tool does, as two lines on one terminal would
+/// overwrite each other.
 bool may_draw() {
   return ::isatty(2) != 0 && !stdout_is_pipe();
 }
@@ -62,7 +63,7 @@ void Progress::begin(const std::string& pass, std::uint64_t total, const std::st
   done_ = 0;
   total_ = total;
   begin_ = Clock::now();
-  // Of a long run each pass is shown from its first step: the next one may take long.
+  // In a long run each pass is shown from its first step on, as it may take long.
   const auto before = std::chrono::duration_cast<std::chrono::milliseconds>(begin_ - start_).count();
   const std::int64_t least = mode_ == ProgressMode::automatic ? kLongWorkMs : kBarMs;
   next_ms_ = mode_ == ProgressMode::json ? kBarMs : std::max<std::int64_t>(0, least - before);
@@ -111,7 +112,7 @@ void Progress::show(bool last) {
 
 std::string Progress::bar_line(double seconds) const {
   const auto done = double(done_), total = double(total_);
-  const double rate = seconds * 1000 > kBarMs ? done / seconds : 0;  // 0: not known
+  const double rate = seconds * 1000 > kBarMs ? done / seconds : 0;  // 0: not known yet
   const std::string speed = rate > 0 ? fmt::format(" {} {}/s", short_count(rate), unit_) : "";
   if (total <= 0) return fmt::format("{}: {} {} {}{}", tool_, pass_, short_count(done), unit_, speed);
   const double share = std::min(done / total, 1.0);

@@ -16,7 +16,7 @@ namespace {
 
 double seconds_since(std::chrono::steady_clock::time_point begin) {
   const double s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  return std::round(s * 1e6) / 1e6;  // microseconds are plenty to read
+  return std::round(s * 1e6) / 1e6;  // microseconds suffice for readers
 }
 
 Json versions() {
@@ -58,7 +58,7 @@ std::string Report::text() {
   json["seconds"] = seconds_;
   json["seconds"]["total"] = seconds_since(begin_);
   json["peak_memory_bytes"] = peak_memory();
-  // Names of files need not be UTF-8; a report must come out all the same.
+  // Replaces invalid UTF-8, since names of files need not be UTF-8.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -66,7 +66,8 @@ void Report::write(const CommonOptions& common) {
   if (!common.report_file) return;
   try {
     common.report_file->write(text());
-    if (is_report(common.report)) common.report_file->allow_overwrite();  // of another tool of the pipe, just now
+    // The report of another tool of the pipe, written just now.
+    if (is_report(common.report)) common.report_file->allow_overwrite();
     common.report_file->commit();
   } catch (const Error& e) {
     fail_as(e, "the report is lost, but what was made is complete: {}", e.what());
@@ -83,7 +84,7 @@ std::uint64_t size_of_files(const std::vector<std::string>& paths) {
 }
 
 std::uint64_t peak_memory() {
-  // VmHWM begins anew with exec; ru_maxrss is inherited from the process that started us.
+  // VmHWM starts anew with exec, whereas ru_maxrss is inherited from the process that started this one.
   std::uint64_t kib = 0;
   if (std::FILE* status = std::fopen("/proc/self/status", "r")) {
     char line[256];

@@ -7,8 +7,8 @@
 
 #include "tools/cli/common_options.h"
 
-/// The JSON of --report: what ran, with which options, what it counted, how long each pass took, peak memory, bytes in
-/// and out. Keys keep their order. Times and memory differ from run to run; everything else does not.
+/// The JSON of --report: what ran, with which options, counts, the time of each pass, peak memory, bytes in and out.
+/// Keys keep their order. Times and memory differ from run to run; everything else does not.
 namespace bp {
 
 using Json = nlohmann::ordered_json;
@@ -17,19 +17,19 @@ class Report {
  public:
   explicit Report(std::string tool);
 
-  Json options = Json::object();  ///< those given and defaults; the tool fills it
+  Json options = Json::object();  ///< the given ones and defaults; the tool fills it
   Json counts = Json::object();   ///< triangles, bricks, voxels, ...
-  Json notes = Json::array();     ///< sentences worth a look: what was skipped, why a target was not reached
+  Json notes = Json::array();     ///< sentences for the user: what was skipped, why a target was not reached
   std::uint64_t bytes_in = 0, bytes_out = 0;
 
-  /// Adds a note, and says it on stderr unless the tool is to be quiet: one line, as an error would be.
+  /// Adds a note, and prints it to stderr as one line, unless the tool is quiet.
   void note(const std::string& text, const CommonOptions& common);
 
-  /// Seconds from here to the next begin() or to write(), under this name; a name met again adds up.
+  /// Counts the seconds until the next begin() or write() under this name. Seconds of the same name add up.
   void begin(const std::string& name);
 
   [[nodiscard]] std::string text();
-  /// Writes the file of --report, complete or not at all; nothing without --report.
+  /// Writes the file of --report, completely or not at all; does nothing without --report.
   void write(const CommonOptions& common);
 
  private:
@@ -40,10 +40,10 @@ class Report {
   Json seconds_ = Json::object();
 };
 
-/// Of those that are there; stdin counts nothing.
+/// Returns the sum of the files' sizes. Missing files and stdin count as 0.
 [[nodiscard]] std::uint64_t size_of_files(const std::vector<std::string>& paths);
 
-/// Largest resident set of this process so far, bytes.
+/// Returns the largest resident set of this process so far, bytes.
 [[nodiscard]] std::uint64_t peak_memory();
 
 }  // namespace bp

@@ -19,8 +19,8 @@ namespace bp::detail {
 
 namespace {
 
-/// A closed 0, 1 or 2 would be handed to the next file that is opened, and messages would land in it. The null device
-/// stands in, opened the wrong way round so that using it is still an error.
+/// Opens the null device for each closed one of 0, 1 and 2. Otherwise the next opened file would get its number, and
+/// messages would go to that file. The device is opened in the wrong direction, so that using it is still an error.
 void occupy_standard_streams() {
   for (int fd = 0; fd < 3; ++fd) {
     if (::fcntl(fd, F_GETFD) < 0) (void)!::open("/dev/null", fd == 0 ? O_WRONLY : O_RDONLY);
@@ -30,17 +30,17 @@ void occupy_standard_streams() {
 extern "C" void on_signal(int number) {
   end_making();
   remove_partial_outputs();
-  ::signal(number, SIG_DFL);  // the shell sees a death by signal, 128 + number, and ends its loop
+  ::signal(number, SIG_DFL);  // the shell then sees a death by signal, 128 + number, and ends its loop
   ::raise(number);
 }
 
 void install_handlers() {
   ::signal(SIGPIPE, SIG_IGN);
-  ::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is an error of write(), as a full disk is
+  ::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files becomes an error of write(), like a full disk
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction old {};
     ::sigaction(number, nullptr, &old);
-    if (old.sa_handler == SIG_IGN) continue;  // nohup, background jobs
+    if (old.sa_handler == SIG_IGN) continue;  // ignored before, as by nohup and for background jobs
     struct sigaction action {};
     action.sa_handler = on_signal;
     action.sa_flags = SA_NODEFER;
@@ -48,9 +48,10 @@ void install_handlers() {
   }
 }
 
-/// One line, whatever a file name or a parser put into it.
+/// Prints the message as one line, whatever characters a file name or a parser put into it.
 int complain(const char* tool, std::string message, int status) {
-  while (making_has_ended()) ::pause();  // files and folders are taken from under us: another thread dies of its signal
+  // Outputs are being removed because of a signal: wait for the thread that dies of it.
+  while (making_has_ended()) ::pause();
   for (char& c : message) {
     if ((unsigned char)c < 0x20 || c == 0x7f) c = ' ';
   }
@@ -81,7 +82,7 @@ int guard(const char* tool, const std::function<int()>& body) {
     return complain(tool, "out of memory; use a smaller --memory, fewer --threads or larger voxels", 4);
   } catch (const std::filesystem::filesystem_error& e) {
     return complain(tool, e.what(), 1);
-  } catch (const std::system_error& e) {  // no thread could be started, ...
+  } catch (const std::system_error& e) {  // no thread could be started, for example
     return complain(tool, e.what(), 4);
   } catch (const std::exception& e) {
     return complain(tool, std::string("unexpected: ") + e.what(), 1);

@@ -7,12 +7,12 @@
 #include "tools/cli/args.h"
 #include "tools/cli/common_options.h"
 
-/// main of every tool: parse, run, and the one catch ladder of the process (docs/exit-codes.md).
+/// The main function of every tool: parse, run, and the one catch ladder of the process (docs/exit-codes.md).
 namespace bp {
 
 namespace detail {
-/// Runs `body`; an exception becomes one line on stderr, `tool: message`, and the exit status of its kind. SIGPIPE is
-/// ignored, so that a closed pipe is an error of write() and ends quietly with 141; on SIGINT, SIGTERM and SIGHUP
+/// Runs `body`. An exception becomes one line on stderr, `tool: message`, and the exit status of its kind. SIGPIPE is
+/// ignored, so that a closed pipe is an error of write() and ends quietly with 141. On SIGINT, SIGTERM and SIGHUP
 /// partial outputs are removed and the process dies of the signal.
 int guard(const char* tool, const std::function<int()>& body);
 }  // namespace detail

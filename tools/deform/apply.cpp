@@ -20,13 +20,13 @@ namespace bp {
 
 namespace {
 
-/// By how much the points of the scene move, in their order.
+/// The moves of the scene's points, in their order.
 class MoveStream {
  public:
   MoveStream(WeightReader& weights, const std::vector<Vec3d>& moves, int in_flight)
       : weights_(weights), moves_(moves), blocks_(std::size_t(in_flight)) {}
 
-  /// The next n; fewer at the end.
+  /// Returns the moves of the next n points; fewer at the end.
   std::vector<Vec3d> take(std::size_t n) {
     while (ready_.size() - at_ < n && refill()) {
     }
@@ -37,7 +37,7 @@ class MoveStream {
   }
 
  private:
-  /// Reads some blocks, and unpacks them at once.
+  /// Reads some blocks of weights, and unpacks them in parallel.
   bool refill() {
     ready_.erase(ready_.begin(), ready_.begin() + std::ptrdiff_t(at_));
     at_ = 0;
@@ -62,7 +62,7 @@ class MoveStream {
   std::size_t at_ = 0;
 };
 
-/// Also those that are not finite, which moves_of_cage() names.
+/// Returns the faces of a moved cage, including faces that are not finite: moves_of_cage() reports those.
 std::vector<TriangleD> faces_of(const MovedCage& cage, const ApplyRequest& request) {
   SceneOptions options = request.scene_options;
   options.pose = cage.pose;
@@ -73,7 +73,7 @@ std::vector<TriangleD> faces_of(const MovedCage& cage, const ApplyRequest& reque
   return faces;
 }
 
-/// In so many slices, each with the memory of a worker.
+/// Turns the normals and tangents of a batch, in slices; each slice uses the memory of one worker.
 void turn(const CageCoordinates& coordinates, const std::vector<Vec3d>& moves, int slices, PointBatch& batch) {
   const std::size_t all = batch.normals.size(), step = (all + std::size_t(slices) - 1) / std::size_t(slices);
   parallel_for(all == 0 ? 0 : slices, [&](std::int64_t slice) {
@@ -85,7 +85,7 @@ void turn(const CageCoordinates& coordinates, const std::vector<Vec3d>& moves, i
   });
 }
 
-/// What one moved cage does to the scene.
+/// Moves the points of the scene as one moved cage tells.
 class CageMover {
  public:
   CageMover(const ApplyRequest& request, const MovedCage& cage, const ScenePoints& scene)
@@ -109,7 +109,7 @@ class CageMover {
     for (std::size_t i = 0; i < shifts.size(); ++i) batch.positions[i] = batch.positions[i] + shifts[i];
     points_ += shifts.size();
   }
-  /// Throws bad_input if the scene was another; returns its vertices.
+  /// Throws bad_input if the scene has changed; returns its number of vertices.
   std::uint64_t finish() {
     begin();
     if (!stream_->take(1).empty() || weights_.totals().points != points_ || weights_.totals().hash != hash_.value())
@@ -119,7 +119,8 @@ class CageMover {
   }
 
  private:
-  /// Once the scene is being written: only then it is known what that takes.
+  /// Opens the weights when the writing of the scene begins, since only then the memory that the writing takes is
+  /// known.
   void begin() {
     if (stream_) return;
     at_work_ = blocks_at_work(request_.memory_bytes, scene_.memory_bytes(), coordinates_);
@@ -193,7 +194,7 @@ Applied animate_cages(const ApplyRequest& request, std::span<const MovedCage> ca
 
 std::string files_left(const std::string& scene, const std::string& written) {
   const std::string from = folder_of(scene) + "/", to = folder_of(written) + "/";
-  std::vector<std::string> named;  // a buffer lies in the written glTF, and materials that are not there name nothing
+  std::vector<std::string> named;  // files that `written` names; of an OBJ's files each missing one counts
   if (scene_format_of(scene) != "obj") named = parts_of_scene(written);
   std::vector<std::string> left;
   std::error_code unknown;

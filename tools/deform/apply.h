@@ -20,33 +20,34 @@ struct ApplyRequest {
   NoteOfCage note;
 };
 
-/// A file, in one of its poses.
+/// A moved cage: a file, in one of its poses.
 struct MovedCage {
   std::string path;
   std::shared_ptr<const ScenePose> pose;
 };
-/// All poses of files, one file after the other (read_poses()).
+/// Returns all poses of the files, one file after the other (read_poses()).
 [[nodiscard]] std::vector<MovedCage> moved_cages(std::span<const std::string> paths, const SceneOptions& options,
                                                  std::optional<double> per_second);
 
 struct Applied {
   std::uint64_t points = 0;
-  std::string left_behind;  ///< ScenePoints::left_behind()
+  std::string left_behind;  ///< as ScenePoints::left_behind()
 };
 
-/// As find_scene(), but throws bad_input if there is none. `path`: of the weights.
+/// As find_scene(), but throws bad_input if there is no scene. `path`: the file of weights.
 [[nodiscard]] std::string scene_of(const WeightReader& weights, const std::string& path);
 
-/// Writes the scene of the weights as a moved cage carries it. Throws bad_input if the scene has changed since, or if
-/// the cage has other faces.
+/// Writes the scene of the weights as a moved cage carries it. Throws bad_input if the scene has changed since the
+/// binding, or if the cage has other faces.
 [[nodiscard]] Applied apply_cage(const ApplyRequest& request, const MovedCage& cage, OutputFile& out,
                                  Progress& progress);
-/// The same for several cages: one glTF whose scene goes from each to the next, so many in a second.
+/// Writes one glTF whose scene moves from each cage to the next, `per_second` of them in a second.
 [[nodiscard]] Applied animate_cages(const ApplyRequest& request, std::span<const MovedCage> cages, double per_second,
                                     OutputFile& out, Progress& progress);
 
-/// What `written`, a scene as it was moved, names and does not find in its folder, though `scene` does: images and
-/// materials. "names files that are not in its folder; copy them there from town: town.mtl, wall.png"; else empty.
+/// Returns a text that names the images and materials that `written` (the moved scene) names and that exist in the
+/// folder of `scene` but not in its own folder: "names files that are not in its folder; copy them there from town:
+/// town.mtl, wall.png". Empty if there are none.
 [[nodiscard]] std::string files_left(const std::string& scene, const std::string& written);
 
 }  // namespace bp

@@ -20,12 +20,12 @@ namespace bp {
 
 namespace {
 
-/// Points on their way.
+/// A block of points between reading and writing.
 struct Block {
   std::vector<Vec3d> points;
-  std::uint64_t expected = 0;                    // in the whole scene
-  std::uint64_t outside = 0, first_outside = 0;  // the latter within the block, if there is one
-  Vec3d place{};                                 // of it
+  std::uint64_t expected = 0;                    // points in the whole scene
+  std::uint64_t outside = 0, first_outside = 0;  // first_outside: number within the block, if outside > 0
+  Vec3d place{};                                 // place of the first point outside
   PackedWeights packed;
 };
 
@@ -77,7 +77,8 @@ void work_on(Pool<Backend*>& backends, const CageCoordinates& coordinates, bool 
   if (block.outside == 0 || carry_outside) pack_weights(weights, block.packed);
 }
 
-/// Seconds of a core for the coordinates of a scene, about: 0 if blocks have too few points for a GPU.
+/// Returns about how many seconds one core needs for the coordinates of a scene; 0 if blocks have too few points for a
+/// GPU.
 double core_seconds(const CageCoordinates& coordinates, std::uint64_t points) {
   constexpr double kPerFace = 1e-8;
   constexpr std::size_t kFewPoints = 256;
@@ -86,7 +87,7 @@ double core_seconds(const CageCoordinates& coordinates, std::uint64_t points) {
   return kPerFace * kind * double(coordinates.cage().faces.size()) * double(points);
 }
 
-/// Counts, and remembers the first point outside.
+/// Adds up counts, and remembers the first point outside the cage.
 struct Tally {
   WeightTotals totals;
   std::uint64_t first = 0;
@@ -107,7 +108,7 @@ std::vector<Backend*> pointers_to(const Backends& backends) {
 
 constexpr const char* kSceneFirst = "bind takes the scene first, and then the cage";
 
-/// Larger than the scene, which no cage is.
+/// Returns true if the cage's file is larger than the scene's: then the two were probably swapped.
 bool seems_swapped(const BindRequest& request) {
   return size_of_files({request.cage}) > size_of_files({request.scene});
 }
@@ -116,7 +117,7 @@ IndexedMesh read_cage(const BindRequest& request) {
   try {
     SceneOptions options = request.scene_options;
     ScenePose pose;
-    pose.base = true;  // its morph targets are poses for apply
+    pose.base = true;  // a cage's morph targets are poses for apply
     options.pose = std::make_shared<const ScenePose>(std::move(pose));
     IndexedMesh mesh = read_mesh(request.cage, options);
     (void)make_cage(mesh, request.cage);
@@ -140,13 +141,14 @@ std::uint64_t block_bytes(const CageCoordinates& coordinates) {
   return 24 * points_of_block(columns) * columns + coordinates.bytes_at_once();
 }
 
-/// Beside the blocks; `held`: of it, what describes the scene.
+/// Returns the memory that is needed in addition to blocks, bytes. `held`: bytes in use; the scene's description is
+/// among them.
 std::uint64_t fixed_bytes(std::uint64_t held, const CageCoordinates& coordinates) {
-  constexpr std::uint64_t kPerFace = 512;  // of the cage: its vertices, edges, tables and hierarchy
+  constexpr std::uint64_t kPerFace = 512;  // for a cage: its vertices, edges, tables and hierarchy
   return least_memory(0) + held + kPerFace * coordinates.cage().faces.size();
 }
 
-/// The name of a file from the folder of another; one that begins at the root stays.
+/// Returns the name of a file relative to the folder of another; an absolute name stays.
 std::string name_from(const std::string& from, const std::string& file) {
   const std::filesystem::path folder = std::filesystem::absolute(from).parent_path();
   if (std::filesystem::path(file).is_absolute()) return file;
@@ -155,7 +157,7 @@ std::string name_from(const std::string& from, const std::string& file) {
 
 }  // namespace
 
-/// Poses and morph targets of a glTF are no loss: they are what moves the cage.
+/// Poses and morph targets of a glTF are not reported as lost: they move the cage.
 void note_of_cage(const IndexedMesh& cage, const std::string& path, const NoteOfCage& note) {
   SceneCounts counts;
   counts.bad_faces = cage.bad_faces, counts.differing = cage.differing, counts.unfollowed = cage.unfollowed;
@@ -174,7 +176,7 @@ int blocks_at_work(std::uint64_t memory_bytes, std::uint64_t held, const CageCoo
 }
 
 WeightTotals bind_scene(const BindRequest& request, OutputFile& out, Progress& progress) {
-  constexpr std::uint64_t kBytesPerPoint = 100;  // of an OBJ, which does not tell its vertices
+  constexpr std::uint64_t kBytesPerPoint = 100;  // for an OBJ, which does not tell its number of vertices
   const WeightHeader header{name_from(request.weights, request.scene), size_of_files({request.scene}),
                             read_cage(request), request.kind};
   const CageCoordinates coordinates(make_cage(header.cage, request.cage), request.kind);

@@ -10,17 +10,18 @@
 
 namespace bp {
 
-/// Blocks of weights at work at the same time, each with coordinates at work: as many as memory and threads allow, at
-/// most two for each thread. `held`: bytes of it that are in use. Throws NeedsMemory if not even one fits.
+/// Returns how many blocks of weights may be at work at the same time, each with its coordinates: as many as memory and
+/// threads allow, at most two for each thread. `held`: bytes of the memory that are in use. Throws NeedsMemory if not
+/// even one fits.
 [[nodiscard]] int blocks_at_work(std::uint64_t memory_bytes, std::uint64_t held, const CageCoordinates& coordinates);
 
-/// The limit on memory at which one fits.
+/// Returns the limit on memory at which one block fits.
 [[nodiscard]] std::uint64_t limit_for_blocks(std::uint64_t held, const CageCoordinates& coordinates);
 
-/// Gets a sentence on what the file of a cage says that was not read.
+/// Gets a sentence on content of a cage's file that was not read.
 using NoteOfCage = std::function<void(const std::string&)>;
 
-/// Passes on what a cage was read without, if anything. `path`: of its file.
+/// Passes a sentence to `note` if content of the cage's file was not read. `path`: the cage's file.
 void note_of_cage(const IndexedMesh& cage, const std::string& path, const NoteOfCage& note);
 
 struct BindRequest {
@@ -29,14 +30,14 @@ struct BindRequest {
   bool carry_outside = false;  ///< points outside follow the nearest face; else they are refused
   std::uint64_t memory_bytes = 0;
   SceneOptions scene_options;
-  /// What computes coordinates. Gets the seconds that they would take on one core, about. Their pinned memory is taken
-  /// off memory_bytes.
+  /// Returns the backends that compute coordinates, given about how many seconds one core would need. Their pinned
+  /// memory is subtracted from memory_bytes.
   std::function<const Backends&(double core_seconds)> backends;
   NoteOfCage note;
 };
 
-/// Binds a scene: streams its vertices through the coordinates of the cage into `out`. Throws bad_input if points lie
-/// outside and are not to be carried, with their number.
+/// Binds a scene: streams its vertices through the coordinates of the cage into `out`. Throws bad_input, with the
+/// number of such points, if points lie outside and are not to be carried.
 [[nodiscard]] WeightTotals bind_scene(const BindRequest& request, OutputFile& out, Progress& progress);
 
 }  // namespace bp

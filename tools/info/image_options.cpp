@@ -7,7 +7,7 @@ namespace bp {
 
 namespace {
 
-constexpr double kLeastZoom = 0.01, kMostZoom = 1e6;  // beyond, doubles no longer tell neighbouring samples apart
+constexpr double kLeastZoom = 0.01, kMostZoom = 1e6;  // beyond this, doubles no longer tell neighbouring samples apart
 
 }  // namespace
 

@@ -46,7 +46,7 @@ MeshInfo measure(TriangleSource& source) {
   return info;
 }
 
-/// What the number of triangles counts where the file has polygons.
+/// Returns a text that tells how polygons were counted as triangles; empty if there are triangles only.
 std::string cut_text(const FaceCounts& faces) {
   if (faces.quads + faces.polygons == 0) return "";
   return faces.triangles == 0 ? " after cutting" : fmt::format(" after cutting, {} before", faces.triangles);
@@ -58,7 +58,7 @@ std::string level_text(std::size_t level, std::size_t levels) {
                     : fmt::format("level {} of 0 to {}", level, levels - 1);
 }
 
-/// The first ones: --json has more.
+/// Returns the first names; --json has all.
 std::string names_text(const PartNames& all) {
   constexpr std::size_t kMost = 8;
   if (all.names.empty()) return "";
@@ -97,7 +97,7 @@ std::string mesh_text(const MeshInfo& info, const std::string& name) {
     s += fmt::format("skipped     {} degenerate, {} not finite, {} broken\n", c.degenerate, c.non_finite, c.bad_faces);
   }
   if (c.unfollowed.any()) s += fmt::format("unread      {}\n", not_followed(c.unfollowed));
-  if (c.rounding.share > 0x1p-30)  // single precision
+  if (c.rounding.share > 0x1p-30)  // rounding of single precision
     s += fmt::format("read        to within {:.2g} of the file's coordinates\n", c.rounding.most);
   if (!t.bounds.empty()) {
     s += fmt::format("bounds      {} to {}, diagonal {:.6g}\n", point(t.bounds.min), point(t.bounds.max),

@@ -19,7 +19,7 @@ bool touch(const Bounds3d& a, const Bounds3d& b, double slack) {
   return true;
 }
 
-/// Bounds of the boxes that are joined by others, in the order of their first boxes.
+/// Joins boxes that are nearer than `slack`; returns the bounds of each group, in the order of their first boxes.
 std::vector<Bounds3d> joined(const std::vector<Bounds3d>& boxes, double slack) {
   std::vector<std::size_t> root(boxes.size());
   std::iota(root.begin(), root.end(), 0);

@@ -17,9 +17,10 @@ namespace bp {
 
 namespace {
 
-constexpr double kFarApart = 4;                                // largest inputs between them
-constexpr std::uint64_t kImageBytes = std::uint64_t(3) << 29;  // of textures of an input: the largest fits
-constexpr std::size_t kEdges = 50000, kEdgesOfMany = 20000;    // more would only darken the picture
+constexpr double kFarApart = 4;  // distance between inputs, over the size of the largest, from which they are far apart
+// Largest size of an input's textures: the largest set of images that fits.
+constexpr std::uint64_t kImageBytes = std::uint64_t(3) << 29;
+constexpr std::size_t kEdges = 50000, kEdgesOfMany = 20000;  // more edges would only darken the picture
 
 std::string shown_name(const std::string& in) {
   return in == "-" ? "stdin" : file_name(in);
@@ -86,7 +87,7 @@ void turn(Panel& panel, UpAxis from, UpAxis to) {
   panel.view.source = panel.source.get();
 }
 
-/// At one scale, hardly anything would be seen of any of them.
+/// Returns true if the inputs are so far apart that hardly anything of them could be seen at one scale.
 bool are_far_apart(const std::vector<std::unique_ptr<Panel>>& panels, const Bounds3d& all) {
   double largest = 0;
   for (const auto& panel : panels) {
@@ -125,7 +126,7 @@ void Picture::add_layer(Layer layer, const CoarseView& cells, const StreamHeader
       fmt::format("{}: {} voxels of {:.4g}", i == 0 ? "solid" : "closing", totals.layers[i].voxels, header.frame.voxel);
   if (cells.cell_voxels() > 1) panel->view.label += fmt::format("\ndrawn in cells of {} voxels", cells.cell_voxels());
   if ((header.has_closing || header.has_field) && !header.scale.constant() && !panel->triangles.empty()) {
-    constexpr double kCells = 4;  // along an edge that has one colour to the next
+    constexpr double kCells = 4;  // cells along an edge between two colours
     const double longest = kCells * cells.cell_voxels() * header.frame.voxel;
     panel->view.bar = color_by_scale(header.scale, longest, panel->triangles, panel->colors);
     panel->view.colors = panel->colors;
@@ -160,7 +161,7 @@ void Picture::add_mesh(MeshInfo& info, std::unique_ptr<TriangleSource> source, c
   panels_.push_back(std::move(panel));
 }
 
-/// What --up says, else the first input that tells.
+/// Returns the axis of --up, else that of the first input that tells one.
 UpAxis Picture::common_up() const {
   if (o_.image.up) return *o_.image.up;
   for (const auto& panel : panels_) {
@@ -185,24 +186,25 @@ std::string Picture::note_on_axes() const {
       names, name_of(*last->up), name_of(*o_.image.up));
 }
 
-/// Name, what is drawn, and the bounds in the input's own axes.
+/// Labels each panel with its name, what is drawn, and the bounds in the input's own axes.
 void Picture::label_panels() {
   std::vector<std::string> inputs;
   for (const auto& panel : panels_) inputs.push_back(panel->input);
   const std::vector<std::string> names = panel_names(inputs);
   for (std::size_t i = 0; i < panels_.size(); ++i) {
     std::string& label = panels_[i]->view.label;
-    label = names[i] + "\n" + label;
+    label.insert(0, names[i] + "\n");
     if (const std::string bounds = bounds_text(panels_[i]->bounds); !bounds.empty()) label += "\n" + bounds;
   }
 }
 
-/// Turns panels to the axes that all are drawn in, and returns the bounds of all.
+/// Turns the panels to common axes; returns the bounds of all.
 Bounds3d Picture::place_panels(RenderOptions& options) {
   if (options.look_at && panels_[0]->up.value_or(options.up) != options.up)
-    options.look_at = turned(*options.look_at, *panels_[0]->up, options.up);  // it is in the axes of the first input
+    // It was given in the axes of the first input.
+    options.look_at = turned(*options.look_at, *panels_[0]->up, options.up);
   Bounds3d all;
-  bool streamed = false;  // then the bounds do, for what is streamed is not looked through once more
+  bool streamed = false;  // then the bounds suffice: a streamed mesh is not read once more
   for (const auto& panel : panels_) {
     if (panel->up && *panel->up != options.up) turn(*panel, *panel->up, options.up);
     panel->view.triangles = panel->triangles;

@@ -19,40 +19,40 @@ namespace bp {
 struct PictureOptions {
   ImageOptions image;
   bool overwrite = false;
-  bool several = false;  ///< inputs
+  bool several = false;  ///< several inputs
 };
 
-/// One panel, and what it draws.
+/// A panel, and what it draws.
 struct Panel {
   std::string input;
   std::vector<TriangleD> triangles;
   std::vector<TriangleColors> colors;
   std::vector<std::uint8_t> inner_edges;
-  std::unique_ptr<TriangleSource> source;  ///< of a mesh too large to keep, or with textures
+  std::unique_ptr<TriangleSource> source;  ///< for a mesh too large to keep, or with textures
   std::unique_ptr<ImageCache> images;
   Bounds3d bounds;
   std::optional<UpAxis> up;  ///< if the input tells
   View view;
 };
 
-/// The panels, left to right, at one scale; each with its own axis up.
+/// A picture of panels from left to right, at one scale; each with its own axis up.
 class Picture {
  public:
-  /// Opens the file: a name that cannot be written fails before the work.
+  /// Opens the file, so that a name that cannot be written fails before the work.
   explicit Picture(const PictureOptions& options);
   [[nodiscard]] bool wanted() const { return file_ != nullptr || o_.image.pick; }
 
-  /// The layers of a stream; of one among several inputs only the last.
+  /// Adds the layers of a stream; with several inputs only the last layer.
   void add_stream(const CoarseView& cells, const StreamHeader& header, const StreamTotals& totals,
                   const std::string& in);
-  /// `info` of `source`; what it kept is taken. `which` of its levels it is; empty if there is one. `textures`: what
-  /// the source may show; null: nothing.
+  /// Adds a mesh. `info`: facts about `source`; its triangles are taken. `which`: which of the source's levels it is;
+  /// empty if there is one level. `textures`: images that the source may show; null: none.
   void add_mesh(MeshInfo& info, std::unique_ptr<TriangleSource> source, const std::string& in, const std::string& which,
                 std::shared_ptr<const TextureSet> textures = nullptr);
-  /// Returns what the user should know of the picture.
+  /// Writes the picture; returns notes for the user.
   [[nodiscard]] std::vector<std::string> write();
-  /// "X,Y,Z" of ImageOptions::pick, in the axes of the input that is seen there; after write(). Throws bad_argument if
-  /// nothing is.
+  /// Returns the point of ImageOptions::pick as "X,Y,Z", in the axes of the input that is seen there. To be called
+  /// after write(). Throws bad_argument if nothing is seen there.
   [[nodiscard]] std::string picked() const { return picked_; }
 
  private:

@@ -11,7 +11,7 @@ namespace bp {
 
 namespace {
 
-/// The two halves of each triangle, across its longest edge, until no edge is too long.
+/// Cuts triangles across their longest edges until no edge is too long.
 std::vector<TriangleD> cut(std::vector<TriangleD> left, double longest) {
   std::vector<TriangleD> done;
   while (!left.empty()) {

@@ -38,7 +38,7 @@ std::string scale_text(const ScaleField& s) {
   return fmt::format("{}, and {} place{} with a rule", s.base, s.rules.size(), s.rules.size() == 1 ? "" : "s");
 }
 
-/// How much smaller the file is than the bits of the voxels of its bricks.
+/// Returns the bits of all voxels of the bricks, over the size of the file.
 double ratio(const StreamTotals& t) {
   const std::uint64_t bricks = t.layers[0].bricks + t.layers[1].bricks;
   return double(bricks) * kBrickWords * 8 / double(t.bytes);

@@ -24,7 +24,7 @@ namespace {
 
 using Kind = EncloseOption::Kind;
 
-/// Bytes that so many triangles of a scene take, from when they are read to the end.
+/// Returns the bytes that the triangles of a scene take, from reading them to the end.
 std::uint64_t bytes_of(std::uint64_t triangles, const EnclosureInput& in) {
   const std::uint64_t tree = triangles * sizeof(TriangleD) + TriangleBvh::bytes_needed(triangles);
   if (in.mode == MeshMode::fit) return triangles * sizeof(TriangleD) + tree;
@@ -34,13 +34,13 @@ std::uint64_t bytes_of(std::uint64_t triangles, const EnclosureInput& in) {
 void check_memory(const std::string& name, std::uint64_t triangles, const EnclosureInput& in) {
   const std::uint64_t bytes = bytes_of(triangles, in), most = in.memory.bytes();
   if (bytes <= most) return;
-  constexpr std::uint64_t kSurfaceBytes = std::uint64_t(32) << 20;  // at work, beside them: enough as a rule
+  constexpr std::uint64_t kSurfaceBytes = std::uint64_t(32) << 20;  // for surfaces at work in addition: mostly enough
   throw NeedsMemory(fmt::format("{}: enclosing its triangles", name), bytes, most,
                     in.memory.limit_with(bytes + kSurfaceBytes - most),
                     {in.mode == MeshMode::fit ? Remedy::enclose_closing : Remedy::enclose_input});
 }
 
-/// Nothing of the voxels or the surface is there yet: half of the memory is for the reader's vertices.
+/// Voxels and surface do not exist yet, so half of the memory is for the reader's vertices.
 SceneOptions scene_options(const EnclosureInput& in, const std::string& format) {
   SceneOptions options;
   options.format = format;
@@ -51,7 +51,7 @@ SceneOptions scene_options(const EnclosureInput& in, const std::string& format) 
   return options;
 }
 
-/// What the voxels do not enclose cannot be kept inside.
+/// Throws bad_input if triangles lie outside the bounds: the voxels do not enclose them, so they cannot be kept inside.
 void check_bounds(const std::string& name, const std::vector<TriangleD>& chunk, const Bounds3d& bounds) {
   Bounds3d both = bounds;
   for (const TriangleD& t : chunk) {
@@ -61,7 +61,7 @@ void check_bounds(const std::string& name, const std::vector<TriangleD>& chunk, 
   fail(ErrorCode::bad_input, "{}: reaches beyond the scene that the stream was made from; name that scene", name);
 }
 
-/// Tells in `note` what of the files was not read as it stands there.
+/// Reads the triangles of files. `note` tells which content of the files was not read.
 std::vector<TriangleD> read_files(const std::vector<std::string>& files, const EnclosureInput& in, std::string& note) {
   const auto scene = open_scenes(files, scene_options(in, ""));
   std::vector<TriangleD> all;
@@ -76,7 +76,7 @@ std::vector<TriangleD> read_files(const std::vector<std::string>& files, const E
   return all;
 }
 
-/// Why the scene's triangles cannot be had, and what to do.
+/// Why the scene's triangles cannot be used, and what to do.
 struct Obstacle {
   std::string why, remedy;
 };
@@ -85,7 +85,7 @@ Obstacle obstacle(const SceneFault& fault) {
   return {fault.fact, fault.changed ? "run bpvox again" : "name the file with --enclose"};
 }
 
-/// The triangles that the stream was made from; none if these files hold other ones by now.
+/// Returns the triangles that the stream was made from; none if the files hold other triangles by now.
 std::vector<TriangleD> read_same(const SceneFiles& scene, const EnclosureInput& in) {
   std::vector<TriangleD> all;
   ContentHash hash;
@@ -106,7 +106,7 @@ std::vector<TriangleD> read_same(const SceneFiles& scene, const EnclosureInput& 
   return all;
 }
 
-/// Fills `out` with the scene's triangles; returns why not, if so.
+/// Fills `out` with the scene's triangles; returns the obstacle if that fails.
 std::optional<Obstacle> take_scene(const EnclosureInput& in, bool any_number, std::vector<TriangleD>& out) {
   const SceneFiles& scene = in.header.scene;
   if (const auto fault = fault_of(scene)) return obstacle(*fault);
@@ -122,9 +122,10 @@ std::optional<Obstacle> take_scene(const EnclosureInput& in, bool any_number, st
   return std::nullopt;
 }
 
-/// Whether `automatic` looks for the scene's triangles at all. A proxy inside a scene is kept by voxels. A fit whose
-/// distance is bounded begins at the closing; and a cube's closing stands off slanted sides about as far as a fit looks
-/// for the scene: thorns.
+/// Returns whether `automatic` looks for the scene's triangles at all. It does not for a proxy inside a scene, which is
+/// kept by voxels, nor for a fit with a bound on the distance, which begins at the closing. (A fit around a cube's
+/// closing would grow thorns: that closing lies outside slanted sides by about the distance in which a fit looks for
+/// the scene.)
 bool wants_scene(const EnclosureInput& in) {
   if (in.mode == MeshMode::inside) return false;
   const bool cube = in.header.has_closing && in.header.element == StructuringElement::cube;
@@ -170,7 +171,7 @@ Enclosure enclosure_of(const EncloseOption& option, const EnclosureInput& in) {
 
 }  // namespace
 
-/// A fit follows surfaces: segments and points are none.
+/// Segments and points are dropped for a fit, since it follows surfaces.
 Enclosure make_enclosure(const EncloseOption& option, const EnclosureInput& in) {
   Enclosure out = enclosure_of(option, in);
   if (in.mode == MeshMode::fit)

@@ -6,31 +6,32 @@
 #include "lib/pass/mesh/mesh_pass.h"
 #include "tools/cli/options/mesh.h"
 
-/// What --enclose of bpmesh asks for, read from its files.
+/// The set that --enclose of bpmesh asks for, read from its files.
 namespace bp {
 
-/// What is known before a brick is read.
+/// The facts that are known before a brick is read.
 struct EnclosureInput {
   const StreamHeader& header;
   MeshMode mode = MeshMode::bounding;
   bool has_error = false;  ///< --error was given
   bool distances = false;  ///< distances to the scene will be measured
-  PieceMemory memory;      ///< that the scene's triangles may take
+  PieceMemory memory;      ///< memory that the scene's triangles may take
   std::string temp_dir = {};
 };
 
 struct Enclosure {
   Enclose what = Enclose::closing;
   std::vector<TriangleD> scene;  ///< for Enclose::scene
-  /// Why `automatic` does without the scene's triangles, or what of named files was not read; empty: nothing to say.
+  /// Tells why `automatic` does not use the scene's triangles, or which content of named files was not read; empty:
+  /// nothing to tell.
   std::string note;
 };
 
-/// Chooses, and reads the scene's triangles where they are needed. `automatic` is the scene's triangles if the stream
-/// names its files, these are there, hold the very triangles that the stream was made from, and are no more than
-/// kMostEnclosedTriangles; else the scene's voxels. The choice depends on the stream, on these files and on the options
-/// only. Throws out_of_resource if the triangles do not fit in the memory, bad_input if `scene` or files are not what
-/// the stream was made from.
+/// Chooses the enclosed set, and reads the scene's triangles where they are needed. `automatic` chooses the scene's
+/// triangles if the stream names its files, the files hold exactly the triangles that the stream was made from, and
+/// these are no more than kMostEnclosedTriangles; else the scene's voxels. The choice depends only on the stream, on
+/// these files and on the options. Throws out_of_resource if the triangles do not fit in memory, bad_input if `scene`
+/// or files are not what the stream was made from.
 [[nodiscard]] Enclosure make_enclosure(const EncloseOption& option, const EnclosureInput& input);
 
 }  // namespace bp

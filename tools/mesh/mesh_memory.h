@@ -4,7 +4,7 @@
 
 namespace bp {
 
-/// Of --memory, what bpmesh has for surfaces.
+/// Returns the part of --memory that bpmesh has for surfaces.
 [[nodiscard]] PieceMemory mesh_memory(const CommonOptions& common);
 
 }  // namespace bp

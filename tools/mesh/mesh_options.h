@@ -7,7 +7,7 @@
 #include "tools/cli/options/levels.h"
 #include "tools/cli/options/mesh.h"
 
-/// The command line of bpmesh.
+/// The options of bpmesh.
 namespace bp {
 
 struct MeshOptions {
@@ -18,20 +18,20 @@ struct MeshOptions {
   double volume = 0;
   bool quads = false;
 
-  /// Nothing, or the bound.
+  /// Returns the bound of --error, if given.
   [[nodiscard]] std::optional<Length> error() const {
     return levels.errors.empty() ? std::nullopt : std::optional(levels.errors.front());
   }
 };
 
-/// Throws bad_argument if options contradict each other.
+/// Declares and parses the options. Throws bad_argument if they contradict each other.
 [[nodiscard]] MeshOptions parse_mesh_options(Args& args);
 
-/// proxy.glb, or proxy.0.glb and so on if there are several levels. After output_format(). Throws bad_argument if
-/// stdout is to take several.
+/// Returns proxy.glb, or proxy.0.glb and so on if there are several levels. To be called after output_format(). Throws
+/// bad_argument if several levels would go to stdout.
 [[nodiscard]] std::string level_name(const MeshOptions& options, std::size_t level);
-/// By the name of the output; stdout is GLB. Throws bad_argument if the name tells none, or if the format holds no
-/// quads that are asked for.
+/// Returns the format that the output's name tells; stdout is GLB. Throws bad_argument if the name tells none, or if
+/// quads are asked for and the format cannot hold them.
 [[nodiscard]] MeshFormat output_format(const MeshOptions& options);
 
 }  // namespace bp

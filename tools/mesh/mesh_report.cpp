@@ -9,7 +9,7 @@ namespace bp {
 
 namespace {
 
-/// "1000" or "5000,1000,200"; "0" without a target.
+/// Returns "1000" or "5000,1000,200"; "0" without a target.
 std::string faces_text(const MeshOptions& o) {
   return o.levels.faces.empty() ? "0" : fmt::format("{}", fmt::join(o.levels.faces, ","));
 }
@@ -27,7 +27,7 @@ Json json_of(const QuadMeasures& q) {
           {"volume_over_diagonals", {{"least", q.volume_least}, {"most", q.volume_most}}}};
 }
 
-/// `asked`: faces; 0: not said.
+/// `asked`: faces that were asked for; 0: none.
 Json json_of(const LevelCounts& c, std::uint64_t asked) {
   const SimplifyCounts& s = c.simplify;
   const MeshMeasures& m = c.measures;

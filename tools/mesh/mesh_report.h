@@ -6,10 +6,10 @@
 #include "tools/mesh/mesh_options.h"
 #include "tools/run/provenance.h"
 
-/// What bpmesh tells of a run: in the files that it writes, and in --report.
+/// The facts about a run of bpmesh that go to its output files and to --report.
 namespace bp {
 
-/// Of a level. enclosed: what stayed inside; input: checksum of the stream.
+/// Returns the provenance of a level. enclosed: the set that stayed inside; input: checksum of the stream.
 [[nodiscard]] Provenance mesh_provenance(const MeshOptions& options, const GridFrame& frame,
                                          const std::string& enclosed, const std::string& input, std::size_t level);
 

@@ -14,20 +14,22 @@ std::string level_text(const MeshCounts& c, std::size_t level) {
   return c.levels.size() > 1 ? fmt::format("level {}: ", level) : "";
 }
 
-/// Whether --error and the measures are distances to the closing: nobody asked for the scene or its voxels.
+/// Returns whether --error and the measures are distances to the closing: they are if nobody asked for the scene or its
+/// voxels.
 bool counts_from_closing(const MeshOptions& o) {
   using Enclose = EncloseOption::Kind;
   return o.proxy.enclose.kind == Enclose::closing || (o.error() && o.proxy.enclose.kind == Enclose::automatic);
 }
 
-/// What distances of the proxy are measured to.
+/// Returns the name, for messages, of the set that distances of the proxy are measured to.
 std::string measured_to(const MeshOptions& o) {
   if (o.proxy.mode == MeshMode::inside) return "what it lies in";
   if (o.proxy.mode == MeshMode::fit) return "what it is drawn to";
   return counts_from_closing(o) ? "what is meshed" : "what it encloses";
 }
 
-/// Of a level that no step has taken beyond --error and --volume, but that was beyond from its beginning.
+/// Adds a note for a level that exceeds --error or --volume. Steps keep these bounds, so such a level exceeded them at
+/// its beginning.
 void note_bounds(Report& report, const MeshOptions& o, const MeshCounts& c, std::size_t i,
                  const ShortfallFacts& facts) {
   const double error_world = facts.error_world;
@@ -59,7 +61,7 @@ void note_bounds(Report& report, const MeshOptions& o, const MeshCounts& c, std:
   }
 }
 
-/// "3 by topology, 1 by --volume": why edges that are left were not merged.
+/// Returns the reasons why the remaining edges were not merged: "3 by topology, 1 by --volume".
 std::string refusals_text(const MeshOptions& o, const SimplifyCounts& s) {
   const char* const limits = !o.error() ? "--volume" : o.volume == 0 ? "--error" : "--error or --volume";
   const std::pair<std::uint64_t, const char*> all[] = {
@@ -76,7 +78,7 @@ std::string refusals_text(const MeshOptions& o, const SimplifyCounts& s) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-/// The finest proxy is the scene, if that is a solid, but for rounding.
+/// Returns whether the finest proxy equals the scene, apart from rounding. Only a scene that is a solid can be reached.
 bool is_exact(const MeshOptions& o, const MeshCounts& c, std::size_t i, const ShortfallFacts& facts) {
   constexpr double kRounding = 1e-3;
   if (i > 0 || o.proxy.mode != MeshMode::bounding || !facts.scene_volume) return false;
@@ -88,7 +90,7 @@ FaceAdvice advice_of(const MeshOptions& o, const ShortfallFacts& facts) {
   return {o.proxy.mode, facts.has_scale ? "bpclose --scale" : ""};
 }
 
-/// What kept a level from its faces.
+/// Returns the reason why a level does not have the faces asked for.
 std::string obstacle_text(const MeshOptions& o, const MeshCounts& c, std::size_t i, const ShortfallFacts& facts) {
   const LevelCounts& level = c.levels[i];
   const std::string& by = level.stopped_by;
@@ -97,7 +99,7 @@ std::string obstacle_text(const MeshOptions& o, const MeshCounts& c, std::size_t
   return merged_note(level.simplify.faces_out, level.measures.shells, level.measures.handles, advice_of(o, facts));
 }
 
-/// Of a level that has not the faces that were asked for.
+/// Adds a note for a level that does not have the faces asked for.
 void note_faces(Report& report, const MeshOptions& o, const MeshCounts& c, std::size_t i, const ShortfallFacts& facts) {
   const LevelCounts& level = c.levels[i];
   const std::uint64_t faces = level.simplify.faces_out;
@@ -117,7 +119,7 @@ void note_faces(Report& report, const MeshOptions& o, const MeshCounts& c, std::
               o.common);
 }
 
-/// Of a level that has its faces at the price of its volume.
+/// Adds a note for a level whose volume is large because it has so few faces.
 void note_volume(Report& report, const MeshOptions& o, const MeshCounts& c, std::size_t i,
                  const ShortfallFacts& facts) {
   if (i >= o.levels.faces.size() || o.volume > 0) return;

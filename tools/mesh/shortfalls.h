@@ -5,16 +5,16 @@
 #include "tools/cli/report.h"
 #include "tools/mesh/mesh_options.h"
 
-/// Targets of bpmesh that were out of reach: the user gets the best there is, and the reason.
+/// Notes on targets of bpmesh that were out of reach: the user gets the best result there is, and the reason.
 namespace bp {
 
-/// What is known beside the counts.
+/// Facts that the counts do not hold.
 struct ShortfallFacts {
   double error_world = 0;              ///< bound of --error; 0: none
   bool has_scale = false;              ///< bpclose --scale closed the stream
-  std::optional<double> scene_volume;  ///< of triangles that are enclosed, if they are closed; scene units cubed
+  std::optional<double> scene_volume;  ///< volume of the enclosed triangles, if they are closed; scene units cubed
 };
-/// One note for each target.
+/// Adds one note for each target that was not reached.
 void note_shortfalls(Report& report, const MeshOptions& options, const MeshCounts& counts, const ShortfallFacts& facts);
 
 }  // namespace bp

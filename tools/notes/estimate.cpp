@@ -13,19 +13,22 @@ namespace bp {
 namespace {
 
 // Measured as user seconds and peak memory, at 256 to 2048 voxels: docs/performance.md, "The estimate of a long run".
-constexpr double kNoteSeconds = 10;               ///< shorter runs say nothing: they were not measured
-constexpr double kSurfacePerArea = 0.6;           ///< voxels that triangles touch, for each voxel face of the bounds
-constexpr double kFacesPerArea = 1;               ///< triangles of the dense surface, the same
+constexpr double kNoteSeconds = 10;      ///< shorter runs say nothing: they were not measured
+constexpr double kSurfacePerArea = 0.6;  ///< voxels that triangles touch, for each voxel face of the bounds' surface
+constexpr double kFacesPerArea = 1;      ///< triangles of the dense surface, for each voxel face of the bounds' surface
 constexpr double kMostFacesPerVoxel = 4;          ///< two triangles on either side of a sheet
 constexpr double kSecondsPerSurfaceVoxel = 1e-7;  ///< bpvox: 0.6 to 1.1e-7
-constexpr double kSecondsPerScaledVoxel = 4e-11;  ///< bpclose, a voxel of the grid and voxel of scale: 2 to 9e-11
-constexpr double kSecondsPerFace = 1.3e-6;        ///< bpmesh, a triangle of the dense surface: 1.1 to 3.7e-6
-constexpr double kLodEffort = 2.5;                ///< a level of bplod, over bpmesh
-constexpr double kTilesEffort = 6.5;              ///< a level of a tileset, over bpmesh: 2.5 to 17
-constexpr double kTilesBytes = 150e6;             ///< tiles at work: 130e6 to 260e6
-constexpr double kCoresPerGpu = 64;               ///< bpclose as a whole: 2 to 5 times as fast as 16 cores
-constexpr double kSerialShare = 0.5;              ///< of bpmesh
-constexpr double kProgramBytes = 25e6, kVoxBytes = 10, kCloseBytes = 100, kMeshBytes = 32;  ///< the last three: of each
+/// Bpclose, for each voxel of the grid and voxel of scale: 2 to 9e-11.
+constexpr double kSecondsPerScaledVoxel = 4e-11;
+constexpr double kSecondsPerFace = 1.3e-6;  ///< bpmesh, for each triangle of the dense surface: 1.1 to 3.7e-6
+constexpr double kLodEffort = 2.5;          ///< time of a level of bplod, over bpmesh
+constexpr double kTilesEffort = 6.5;        ///< time of a level of a tileset, over bpmesh: 2.5 to 17
+constexpr double kTilesBytes = 150e6;       ///< tiles at work: 130e6 to 260e6
+/// Cores that a GPU equals; bpclose as a whole is 2 to 5 times as fast as on 16 cores.
+constexpr double kCoresPerGpu = 64;
+constexpr double kSerialShare = 0.5;  ///< share of bpmesh's time in which one core works
+/// The last three: bytes for each surface voxel, and for each triangle of the dense surface.
+constexpr double kProgramBytes = 25e6, kVoxBytes = 10, kCloseBytes = 100, kMeshBytes = 32;
 
 double area_in_voxels(const Bounds3d& b, double voxel) {
   if (b.empty()) return 0;
@@ -40,7 +43,7 @@ Estimate of_grid(const Bounds3d& scene, double voxel) {
   return e;
 }
 
-/// "40 s", "7 min", "3 h", "12 days".
+/// Returns "40 s", "7 min", "3 h", "12 days".
 std::string duration_text(double seconds) {
   constexpr double kMinute = 60, kHour = 3600, kDay = 86400;
   if (seconds < 2 * kMinute) return fmt::format("{:.0f} s", seconds);
@@ -57,7 +60,7 @@ void Estimate::then(const Estimate& next) {
   bytes = std::max(bytes, next.bytes);
 }
 
-// A plane touches up to 1.7 voxels for each of its area, a line up to one for each step along an axis.
+// A plane touches up to 1.7 voxels for each voxel face of its area, a line up to one for each step along an axis.
 double most_touched_voxels(const VoxelizeCounts& counts, double voxel) {
   return 2 * counts.area / voxel / voxel + 2 * counts.extent / voxel + 8 * double(counts.scene.triangles);
 }

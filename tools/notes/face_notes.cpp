@@ -8,9 +8,9 @@ namespace bp {
 
 namespace {
 
-constexpr double kLoose = 2;  // times the volume, or its part
+constexpr double kLoose = 2;  // volume over that of the voxels from which a mesh is loose
 
-/// What a larger scale does where there are several parts or a handle, or does to the form.
+/// Returns the effect of a larger scale: it joins parts and closes handles, or makes the form simpler.
 std::string scale_effect(std::uint64_t shells, std::uint64_t handles, bool inside) {
   if (shells <= 1 && handles == 0)
     return fmt::format("{} makes the form simpler", inside ? "takes narrow things away and" : "fills narrow gaps and");
@@ -18,7 +18,7 @@ std::string scale_effect(std::uint64_t shells, std::uint64_t handles, bool insid
   return handles == 0 ? "joins parts" : shells <= 1 ? "closes holes" : "joins parts and closes holes";
 }
 
-/// "a larger bpclose --scale joins parts"; of a stream that nobody closed, bpclose does.
+/// Returns "a larger bpclose --scale joins parts" or the like; for a stream that was not closed, it advises bpclose.
 std::string scale_advice(std::uint64_t shells, std::uint64_t handles, const FaceAdvice& advice) {
   const std::string effect = scale_effect(shells, handles, advice.mode == MeshMode::inside);
   return (advice.scale.empty() ? "bpclose " : fmt::format("a larger {} ", advice.scale)) + effect;

@@ -4,31 +4,31 @@
 
 #include "lib/pass/mesh/mesh_pass.h"
 
-/// What a user should know of a mesh that has not the faces wanted.
+/// Notes on a mesh that does not have the wanted number of faces.
 namespace bp {
 
-/// What the advice of a note depends on.
+/// Facts that the advice of a note depends on.
 struct FaceAdvice {
   MeshMode mode = MeshMode::bounding;
-  std::string scale = "--scale";  ///< how the reader names the scale: bpmesh has no such option; empty: there is none
-  bool exact = false;             ///< the mesh is the scene, but for rounding: nothing shows more of it
+  std::string scale = "--scale";  ///< name of the scale for the reader: bpmesh has no such option; empty: there is none
+  bool exact = false;             ///< the mesh equals the scene, apart from rounding: more faces would show no more
 };
 
-/// Of a mesh with clearly fewer faces than were asked for: merging edges ends there, so there never were as many.
-/// Empty if there are about as many, or more. One line.
+/// Returns a note for a mesh with clearly fewer faces than were asked for: merging edges never had as many. Empty if
+/// there are about as many, or more. One line.
 [[nodiscard]] std::string too_few_note(std::uint64_t faces, std::uint64_t asked, const FaceAdvice& advice = {});
 
-/// Of a mesh with clearly fewer faces than were asked for, because those tried with more leave more volume. Empty as
-/// above.
+/// Returns a note for a mesh with clearly fewer faces than were asked for, because meshes with more faces had more
+/// volume. Empty as in too_few_note().
 [[nodiscard]] std::string least_volume_note(std::uint64_t faces, std::uint64_t asked, const FaceAdvice& advice = {});
 
-/// Why merging ended by itself, and what there is to be done: parts (shells) and handles are kept, if there are any to
-/// speak of, and a larger scale does to an opening what is the opposite of what it does to a closing.
+/// Returns why merging ended by itself, and what to do. Merging keeps parts (shells) and handles; the note names them
+/// if there are several. The effect of a larger scale on an opening is the opposite of its effect on a closing.
 [[nodiscard]] std::string merged_note(std::uint64_t faces, std::uint64_t shells, std::uint64_t handles,
                                       const FaceAdvice& advice);
 
-/// Of a mesh whose faces are so few for what they stand for that its volume is far from it. `ratio`: of its volume to
-/// that of the voxels that are meshed. Empty if that is near 1, or for a fit. One line.
+/// Returns a note for a mesh whose volume is far too large because it has few faces. `ratio`: its volume over that of
+/// the voxels that are meshed. Empty if the ratio is near 1, or for a fit. One line.
 [[nodiscard]] std::string loose_note(std::uint64_t faces, double ratio, std::uint64_t shells, std::uint64_t handles,
                                      const FaceAdvice& advice);
 

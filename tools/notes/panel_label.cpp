@@ -9,7 +9,7 @@ namespace bp {
 
 namespace {
 
-/// The last `parts` parts of a path.
+/// Returns the last `parts` parts of a path.
 std::string tail(const std::string& path, std::size_t parts) {
   std::size_t begin = path.size();
   for (; parts > 0 && begin > 0; --parts) {
@@ -37,7 +37,7 @@ std::vector<std::string> panel_names(const std::vector<std::string>& paths) {
 
 std::string bounds_text(const Bounds3d& bounds) {
   if (bounds.empty()) return "";
-  // As many digits as tell a thousandth of the diagonal, and no more than doubles have.
+  // Digits tell a thousandth of the diagonal, and no more than doubles have.
   const double step = bounds.diagonal() / 1000;
   const int after_point = step > 0 && std::isfinite(step) ? int(std::ceil(-std::log10(step))) : 6;
   std::string text;

@@ -5,17 +5,17 @@
 #include "lib/core/box.h"
 #include "lib/image/typeface.h"
 
-/// What panels of a picture are called.
+/// Names of the panels of a picture.
 namespace bp {
 
-/// One for each path: the file's name, and where other paths end in the same name as many of its folders as it takes to
-/// tell them apart. "-" is stdin. The same path has the same name.
+/// Returns one name for each path: the file's name, with as many of its folders as tell it from other files of the same
+/// name. "-" is stdin. The same path has the same name.
 [[nodiscard]] std::vector<std::string> panel_names(const std::vector<std::string>& paths);
 
-/// "x 0 to 1, y 0 to 1, z -0.5 to 2.5", to a thousandth of the diagonal; "" of empty bounds.
+/// Returns "x 0 to 1, y 0 to 1, z -0.5 to 2.5", to a thousandth of the diagonal; "" for empty bounds.
 [[nodiscard]] std::string bounds_text(const Bounds3d& bounds);
 
-/// What to say where `typeface` is null; else "".
+/// Returns a note if `typeface` is null; else "".
 [[nodiscard]] std::string note_on_font(const Typeface* typeface);
 
 }  // namespace bp

@@ -9,12 +9,12 @@ namespace bp {
 
 namespace {
 
-/// With three digits or more, and without an exponent where people would write none.
+/// Returns a number with three digits or more, without an exponent where people would write none.
 std::string number(double x) {
   return x >= 1000 && x < 1e15 ? fmt::format("{:.0f}", x) : fmt::format("{:.3g}", x);
 }
 
-/// "2 is 154 % of the scene's diagonal (1.3)".
+/// Returns "2 is 154 % of the scene's diagonal (1.3)".
 std::string share_text(const Length& length, double diagonal) {
   return fmt::format("{} is {} % of the scene's diagonal ({:.4g})", length.text(),
                      number(100 * length.value / diagonal), diagonal);
@@ -24,7 +24,8 @@ std::string insist_text(const Length& length, double diagonal) {
   return fmt::format("to insist, write {}%", number(100 * length.value / diagonal));
 }
 
-/// What a number beyond the scene is likely to mean: the same number of percent, or of voxels; empty: nothing known.
+/// Returns what a number larger than the scene probably means: the same number of percent, or of voxels; empty if
+/// neither fits.
 std::string likely_length(const Length& length, double diagonal, double voxel) {
   if (length.value <= 100 * kLargestShare) return fmt::format(": did you mean {}%?", length.text());
   if (voxel > 0 && length.value * voxel <= kLargestShare * diagonal)
@@ -45,7 +46,7 @@ std::string likely_voxel(const Length& voxel, double side, double diagonal) {
   return "is the scene in other units?";
 }
 
-/// "0.00001 makes a grid of 75000 voxels along the scene's longest side (0.75)".
+/// Returns "makes a grid of 75000 voxels along the scene's longest side (0.75)".
 std::string grid_text(double voxels, double side) {
   return fmt::format("makes a grid of {} voxels along the scene's longest side ({:.4g})", number(voxels), side);
 }
@@ -71,7 +72,7 @@ void question_scale(const char* option, const Length& scale, const Bounds3d& sce
 }
 
 std::string scale_share_note(const std::optional<Length>& scale, const Bounds3d& scene) {
-  constexpr double kPercent = 25;  // more is no likely percentage
+  constexpr double kPercent = 25;  // larger numbers are hardly meant as percentages
   const double diagonal = scene.empty() ? 0 : scene.diagonal();
   if (!scale || scale->unit != Length::Unit::scene || !(diagonal > 0) || scale->value < kNotedShare * diagonal)
     return "";

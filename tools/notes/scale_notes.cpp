@@ -6,7 +6,7 @@ namespace bp {
 
 namespace {
 
-/// False if the rule changes no scale within `margin` of the scene.
+/// Returns false if the rule changes no scale within `margin` of the scene.
 bool matters(const ScaleRule& rule, const ScaleField& field, double largest, const Bounds3d& scene, double margin) {
   if (rule.shape == ScaleShape::view) return true;
   Bounds3d place;
@@ -50,7 +50,7 @@ std::vector<std::string> scale_notes(const ScalePlan& plan, const StreamHeader& 
   }
   if (header.bounds.empty()) return notes;
   for (const ScaleRule& rule : field.rules) {
-    // One scale around the scene is as far as its dilation goes.
+    // The closing at a place depends on scales within one scale of it.
     if (matters(rule, field, largest * voxel, header.bounds, (largest + 1) * voxel)) continue;
     notes.push_back(rule_text(rule) + " is nowhere near the scene; this rule of the field changes nothing");
   }

@@ -5,17 +5,17 @@
 #include "lib/grid/scale_field.h"
 #include "lib/grid/stream.h"
 
-/// What is allowed of a scale, but hardly meant.
+/// Notes on scales that are allowed, but hardly meant.
 namespace bp {
 
-/// Name and place of a rule: "head: at 0,1,2", "box 0,0,0 to 1,1,1", "view 0,0,9 and 3 more".
+/// Returns the name and place of a rule: "head: at 0,1,2", "box 0,0,0 to 1,1,1", "view 0,0,9 and 3 more".
 [[nodiscard]] std::string rule_text(const ScaleRule& rule);
 
-/// Sentences for the user: a scale that closes nothing, rules that the closing cannot reach, and, measured, rules by
+/// Returns notes on a scale that closes nothing, on rules that the closing cannot reach, and, if measured, on rules by
 /// shape that find nothing.
 [[nodiscard]] std::vector<std::string> scale_notes(const ScalePlan& plan, const StreamHeader& header);
 
-/// Of rules by shape with a length below a voxel.
+/// Returns notes on rules by shape with a length below a voxel.
 [[nodiscard]] std::vector<std::string> short_length_notes(const ScalePlan& plan, double voxel);
 
 }  // namespace bp

@@ -19,7 +19,7 @@ std::string point_text(const Vec3d& p) {
   return fmt::format("{:.6g},{:.6g},{:.6g}", p[0], p[1], p[2]);
 }
 
-/// Voxels that suit the rest of the scene, if the grid of the whole scene can have them.
+/// Returns the voxel size that suits the rest of the scene, if the grid of the whole scene can have it.
 std::string voxel_for_the_rest(const StrayPart& stray, const Bounds3d& scene) {
   constexpr double kAlong = 256;
   const double voxel = stray.rest.longest_side() / kAlong;
@@ -27,8 +27,8 @@ std::string voxel_for_the_rest(const StrayPart& stray, const Bounds3d& scene) {
   return fmt::format(", or say --voxel {:.3g} for {} voxels along the rest", voxel, kAlong);
 }
 
-/// Names of the parts of the scene that hold a triangle of `stray`. None where files cannot be read again, or name no
-/// parts: then the place has to do.
+/// Returns the names of the scene's parts that hold a triangle of `stray`. None if files cannot be read again, or name
+/// no parts: then the note tells the place only.
 std::set<std::string> names_of(const StrayPart& stray, const SceneAgain& scene) {
   if (std::count(scene.files.begin(), scene.files.end(), "-") > 0) return {};
   SceneOptions options = scene.options;
@@ -44,7 +44,7 @@ std::set<std::string> names_of(const StrayPart& stray, const SceneAgain& scene) 
   return options.part_names->names;
 }
 
-/// " of 'bird' and 2 other parts"; empty without names.
+/// Returns " of 'bird' and 2 other parts"; empty without names.
 std::string names_text(const std::set<std::string>& names) {
   if (names.empty()) return "";
   std::string name = *names.begin();
@@ -66,10 +66,10 @@ std::string stray_note(const VoxelizeCounts& counts, const StreamHeader& header,
       voxel_for_the_rest(stray, header.bounds));
 }
 
-/// Tells of a surface with an opening that the flood comes in by. A closed one has its volume filled, and parts that
-/// are thinner than two voxels have next to none.
+/// Returns a note if the surface has an opening through which the flood enters, so that next to no inside was found.
+/// Scenes that are mostly surface voxels, as of parts thinner than two voxels, get none.
 std::string leak_note(const VoxelizeCounts& counts, const StreamHeader& header) {
-  constexpr double kFilled = 0.02, kSolid = 0.5;  // of the volume that the triangles go around
+  constexpr double kFilled = 0.02, kSolid = 0.5;  // shares of the volume that the triangles go around
   if (header.fill != FillMode::flood) return "";
   const double voxel_volume = std::pow(header.frame.voxel, 3), around = std::abs(counts.signed_volume);
   const double solid = double(counts.solid_voxels) * voxel_volume;

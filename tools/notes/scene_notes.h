@@ -6,17 +6,17 @@
 #include "lib/grid/stream.h"
 #include "lib/pass/voxelize/voxelize_pass.h"
 
-/// What a person should know of a scene that was voxelized, a sentence each: what was left out, a small part that makes
-/// the grid large, a flood that found no inside.
+/// Notes on a scene that was voxelized, a sentence each: what was left out, a small part that makes the grid large, a
+/// flood that found no inside.
 namespace bp {
 
-/// How a scene is read again, for the names of its parts.
+/// How to read a scene again, for the names of its parts.
 struct SceneAgain {
-  std::vector<std::string> files;  ///< with stdin among them it is not read
+  std::vector<std::string> files;  ///< not read if stdin is among them
   SceneOptions options;
 };
 
-/// Reads the scene again only if a small part makes the grid large.
+/// Returns the notes. Reads the scene again only if a small part makes the grid large.
 [[nodiscard]] std::vector<std::string> scene_notes(const VoxelizeCounts& counts, const StreamHeader& header,
                                                    const SceneAgain& scene);
 

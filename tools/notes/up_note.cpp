@@ -9,20 +9,21 @@ namespace bp {
 
 namespace {
 
-/// Whether the scene begins about where the axis has 0, as what stands on the ground does along its height: within a
-/// tenth of that.
+/// Returns whether the scene begins near 0 along the axis, within a tenth of its length, as scenes do that stand on the
+/// ground along their height.
 bool stands_on(const Bounds3d& scene, std::size_t axis, double share = 0.1) {
   return std::abs(scene.min[axis]) <= share * (scene.max[axis] - scene.min[axis]);
 }
 
-/// Whether it ends about there.
+/// Returns whether the scene ends near 0 along the axis.
 bool hangs_from(const Bounds3d& scene, std::size_t axis) {
   return std::abs(scene.max[axis]) <= 0.1 * (scene.max[axis] - scene.min[axis]);
 }
 
 constexpr double kExactly = 0.02;
 
-/// A wall, a door, a picture: it stands on y = 0, and its middle is near z = 0. The heights of a map do that seldom.
+/// Returns whether the scene is a wall, a door or a picture: it stands on y = 0, and its middle is near z = 0. Heights
+/// of a map seldom are.
 bool is_upright(const Bounds3d& scene) {
   const double half = (scene.max[2] - scene.min[2]) / 2;
   return stands_on(scene, 1, kExactly) && std::abs(scene.min[2] + half) <= half / 2;
@@ -31,7 +32,7 @@ bool is_upright(const Bounds3d& scene) {
 }  // namespace
 
 std::string up_note(const Bounds3d& scene, bool told) {
-  constexpr double kFlat = 0.25;  // of the shorter side: rooms and most buildings are not
+  constexpr double kFlat = 0.25;  // height over the shorter side: rooms and most buildings are higher
   if (told || scene.empty()) return "";
   const double x = scene.max[0] - scene.min[0], y = scene.max[1] - scene.min[1], z = scene.max[2] - scene.min[2];
   const auto note = [&](const std::string& what, const char* consequence, const char* up) {

@@ -14,7 +14,7 @@ bool GroundedSource::read(std::vector<TriangleD>& out) {
   }
   if (ended_ || bounds_.empty()) return false;
   ended_ = true;
-  // In axes whose y points up: the rectangle at the least y, seen from above.
+  // The rectangle has the least y in axes whose y points up, and the extent of the scene as seen from above.
   const AxisTurn turn = to_y_up(up_.value_or(scene_->up().value_or(UpAxis::y)));
   Bounds3d upright;
   for (const Vec3d& p : {bounds_.min, bounds_.max}) upright.add(turn(p));

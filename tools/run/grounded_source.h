@@ -6,8 +6,8 @@
 
 namespace bp {
 
-/// A scene on the ground: after its own triangles come two that cover the rectangle below it, at its lowest point, as
-/// far as its bounds reach. `up`: the axis; empty: what the scene tells, else y.
+/// A scene on the ground: its own triangles, then two that cover the rectangle below it, at its lowest point, within
+/// its bounds. `up`: the axis; empty: what the scene tells, else y.
 class GroundedSource final : public TriangleSource {
  public:
   GroundedSource(std::unique_ptr<TriangleSource> scene, std::optional<UpAxis> up) : scene_(std::move(scene)), up_(up) {}

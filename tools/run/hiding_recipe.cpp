@@ -10,7 +10,7 @@ namespace bp {
 
 namespace {
 
-/// The value of "key=value" among words; throws bad_argument if there is none.
+/// Returns the value of "key=value" among words; throws bad_argument if there is none.
 std::string value_of(const std::string& line, const std::string& key) {
   const std::size_t at = line.find(" " + key + "=");
   if (at == std::string::npos) fail(ErrorCode::bad_argument, "no {}", key);

@@ -9,16 +9,16 @@ namespace bp {
 
 struct OccluderRecipe {
   HidingRecipe hiding;
-  bool opaque_only = false;  ///< what can be seen through hides nothing; walls may meet the proxy
+  bool opaque_only = false;  ///< transparent triangles hide nothing, and may meet the proxy
   bool ground = false;       ///< the scene stands on the ground (tools/run/grounded_source.h), along the axis `up`
   UpAxis up = UpAxis::y;
 };
 
-/// Among the options by which a file was made.
+/// Adds the recipe to the options in the provenance of a file.
 void add_recipe(const OccluderRecipe& recipe, OptionText& text);
 
-/// What bpmesh --mode inside and bplod --profile occluder wrote into the file of how it was made; nothing where another
-/// tool made it, or where it cannot be read or understood.
+/// Returns the recipe that bpmesh --mode inside or bplod --profile occluder wrote into its output; nothing if another
+/// tool made the file, or if the recipe cannot be read or understood.
 [[nodiscard]] std::optional<OccluderRecipe> hiding_recipe(const MeshExtras& extras);
 
 }  // namespace bp

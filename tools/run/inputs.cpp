@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kNamed = 5;
 
-/// Their names, sorted.
+/// Returns the names of the meshes in a folder, sorted.
 std::vector<std::string> meshes_in(const std::string& folder) {
   std::vector<std::string> names;
   std::error_code none;

@@ -24,7 +24,7 @@ using Kind = DeviceChoice::Kind;
 
 struct Wish {
   DeviceChoice choice;
-  std::string_view by = "--device";  ///< for messages
+  std::string_view by = "--device";  ///< what asked for the device, for messages
 };
 
 Wish resolve(const DeviceChoice& choice) {
@@ -44,10 +44,10 @@ Backends make_cpu_backends() {
 }
 
 #ifdef BP_HAVE_CUDA
-constexpr double kGpuStartSeconds = 0.25;  ///< of the driver, about
-constexpr int kBackendsPerGpu = 8;         ///< some gather and scatter bricks while others copy and compute
+constexpr double kGpuStartSeconds = 0.25;  ///< start of the driver, about
+constexpr int kBackendsPerGpu = 8;         ///< while some copy and compute, others gather and scatter bricks
 
-/// Neighbours are of different GPUs.
+/// Makes backends in an order in which neighbours belong to different GPUs.
 Backends make_backends_on(const std::vector<int>& devices) {
   Backends backends;
   for (int i = 0; i < kBackendsPerGpu; ++i) {
@@ -62,7 +62,7 @@ std::string list_of(const std::vector<CudaDevice>& devices) {
   return text;
 }
 
-/// cuda
+/// Makes backends for --device cuda.
 Backends make_gpu_backends(const Wish& wish) {
   const std::vector<CudaDevice> there = cuda_devices();
   if (there.empty())
@@ -78,7 +78,8 @@ Backends make_gpu_backends(const Wish& wish) {
   return make_backends_on(ids);
 }
 
-/// The first GPU that works; empty if there is none. Throws DeviceError, that of the first, if none of several works.
+/// Makes backends on the first GPU that works; empty if there is no GPU. If none of several works, throws the
+/// DeviceError of the first.
 Backends make_on_first_gpu() {
   std::optional<DeviceError> first;
   for (const CudaDevice& device : cuda_devices()) {
@@ -92,7 +93,8 @@ Backends make_on_first_gpu() {
   return {};
 }
 
-/// auto: a GPU if the cores would take longer than it takes to start. Empty if there is none that works.
+/// Makes backends for --device auto: on a GPU, if the cores would need longer than the GPU takes to start. Empty if no
+/// GPU works.
 Backends make_gpu_backends_if_worth(const CommonOptions& common, double core_seconds, Report* report) {
   if (report == nullptr || core_seconds / thread_count() < kGpuStartSeconds) return {};
   Backends backends;

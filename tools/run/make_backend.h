@@ -13,9 +13,9 @@ namespace bp {
 ///   report        outlives the backends; may be null where core_seconds is 0: auto is the CPU then
 [[nodiscard]] Backends make_backends(const CommonOptions& common, double core_seconds, Report* report = nullptr);
 
-/// Names of what is at work, each once.
+/// Returns the names of the devices at work, each once.
 [[nodiscard]] std::vector<std::string> names_of(const Backends& backends);
-/// Page-locked memory that they hold, bytes: to be taken off --memory.
+/// Returns the page-locked memory that the backends hold, bytes. It must be subtracted from --memory.
 [[nodiscard]] std::uint64_t pinned_bytes(const Backends& backends);
 
 }  // namespace bp

@@ -7,8 +7,8 @@
 
 namespace bp {
 
-/// What the program takes of --memory where scenes are voxelized or streams closed, and where meshes are made or
-/// checked.
+/// The program's own share of --memory in tools that voxelize scenes or close streams, and in tools that make or check
+/// meshes.
 constexpr std::uint64_t kVoxelProgram = std::uint64_t(96) << 20, kMeshProgram = std::uint64_t(48) << 20;
 
 [[nodiscard]] inline MemoryShare part_of(MemoryShare memory, double part) {
@@ -17,28 +17,28 @@ constexpr std::uint64_t kVoxelProgram = std::uint64_t(96) << 20, kMeshProgram = 
   return memory;
 }
 
-/// What is left of --memory beside what a device pins. That is at most half of it.
+/// Returns --memory without the memory that a device pins, which is at most half of it.
 [[nodiscard]] inline std::uint64_t unpinned(std::uint64_t memory, std::uint64_t pinned) {
   return memory - std::min(pinned, memory / 2);
 }
 
-/// What is left of --memory beside the program and what each thread has in hand, bytes.
+/// The part of --memory, in bytes, that is left without the program and the buffers of each thread.
 struct UsableMemory {
   MemoryLimit limit;
   std::uint64_t bytes;
-  /// `pinned`: by GPUs, of `memory`.
+  /// `pinned`: the part of `memory` that GPUs pin.
   UsableMemory(std::uint64_t memory, std::uint64_t program, std::uint64_t pinned = 0)
       : limit{memory, program + std::uint64_t(thread_count()) * (8 << 20) + pinned},
         bytes(MemoryLimit{memory - pinned, limit.fixed_bytes - pinned}.rest_bytes()) {}
 };
 
-/// How --memory is shared out while a scene is voxelized, bytes. The rest is for the program, and for what the threads
+/// The shares of --memory while a scene is voxelized, bytes. The rest is for the program, and for the data that threads
 /// and the writer have in hand.
 struct VoxelizeBudget {
   std::uint64_t reader;   ///< vertices of an indexed file: neighbours in the file are neighbours in space
-  std::uint64_t waiting;  ///< triangles and bricks, what store and shelf hold included
+  std::uint64_t waiting;  ///< triangles and bricks, with those in the store and on the shelf
   std::uint64_t store, shelf;
-  std::uint64_t tiles;  ///< at work
+  std::uint64_t tiles;  ///< tiles at work
   explicit VoxelizeBudget(std::uint64_t memory) : VoxelizeBudget(UsableMemory(memory, kVoxelProgram)) {}
 
  protected:
@@ -51,8 +51,8 @@ struct VoxelizeBudget {
   }
 };
 
-/// How bplod does: as above while it voxelizes. Then triangles and reader have gone, and what shelf and store leave is
-/// for tiles and surfaces at work, and for what distances are measured with.
+/// The shares of --memory in bplod: VoxelizeBudget while it voxelizes. Then triangles and reader are gone, and all that
+/// shelf and store leave is for tiles and surfaces at work and for measuring distances.
 struct BuildBudget : VoxelizeBudget {
   static constexpr double kWorkShare = 0.5;
   MemoryShare work;
@@ -64,11 +64,11 @@ struct BuildBudget : VoxelizeBudget {
   }
 };
 
-/// How bpmesh shares out --memory, bytes.
+/// The shares of --memory in bpmesh, bytes.
 struct MeshBudget {
   std::uint64_t shelves;        ///< voxels
-  std::uint64_t waiting, work;  ///< pieces of the surface, those in hand
-  std::uint64_t store;          ///< further ones that wait, compressed
+  std::uint64_t waiting, work;  ///< pieces of the surface that wait, and those at work
+  std::uint64_t store;          ///< further pieces that wait, compressed
   static constexpr double kWaitingShare = 0.25, kWorkShare = 0.3;
   MemoryLimit limit;
   explicit MeshBudget(std::uint64_t memory) {

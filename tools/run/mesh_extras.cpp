@@ -13,10 +13,10 @@ namespace bp {
 
 namespace {
 
-constexpr std::size_t kHeadBytes = 65536;  // comments stand at the start
+constexpr std::size_t kHeadBytes = 65536;  // comments stand at the start of a file
 constexpr std::size_t kMaxJsonBytes = 64u << 20;
 
-/// Up to `n` bytes from `offset`.
+/// Returns up to `n` bytes from `offset`.
 std::string bytes_at(const InputFile& file, std::uint64_t offset, std::size_t n) {
   std::string bytes(n, '\0');
   bytes.resize(file.read_at(offset, std::as_writable_bytes(std::span(bytes))));
@@ -64,7 +64,7 @@ std::vector<std::string> gltf_provenance(const Json& document) {
   return lines;
 }
 
-/// The most that a node has, itself included.
+/// Returns the largest number of levels of a node, itself included.
 std::size_t gltf_levels(const Json& document) {
   static const Json::json_pointer ids("/extensions/MSFT_lod/ids");
   std::size_t most = 1;
@@ -100,14 +100,15 @@ std::optional<std::string> gltf_up(const Json& document) {
   return up.is_string() ? up.get<std::string>() : up.dump();
 }
 
-/// Half of the step of 32-bit floats at `x`.
+/// Returns half of the step of 32-bit floats at `x`.
 double half_step(double x) {
   int exponent = 0;
   (void)std::frexp(x, &exponent);
   return x == 0 ? 0 : std::ldexp(0.5, exponent - std::numeric_limits<float>::digits);
 }
 
-/// Of a node without parent and children that has a translation and a scale; `bounds`: an accessor with min and max.
+/// Returns how far 32-bit floats move a coordinate of a node with a translation and a scale, without parent and
+/// children. `bounds`: an accessor with min and max.
 double rounding_of(const Json& node, const Json& bounds) {
   double most = 0;
   const auto number = [](const Json& object, const char* key, std::size_t i, double otherwise) {
@@ -157,7 +158,7 @@ std::size_t gltf_animations(const Json& document) {
   return document.is_object() && document.contains("animations") ? document.at("animations").size() : 0;
 }
 
-/// The most that a primitive has.
+/// Returns the largest number of morph targets of a primitive.
 std::size_t gltf_morph_targets(const Json& document) {
   std::size_t most = 0;
   if (!document.is_object() || !document.contains("meshes")) return most;
@@ -174,7 +175,7 @@ std::size_t gltf_skins(const Json& document) {
   return document.is_object() && document.contains("skins") ? document.at("skins").size() : 0;
 }
 
-/// The most that a skin has.
+/// Returns the largest number of joints of a skin.
 std::size_t gltf_joints(const Json& document) {
   std::size_t most = 0;
   if (gltf_skins(document) == 0) return most;

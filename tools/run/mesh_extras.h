@@ -7,31 +7,34 @@
 
 namespace bp {
 
-/// What a file says beside its triangles; nothing if there is none, or if it cannot be understood.
+/// The content of a mesh file in addition to its triangles. Fields are empty if the file does not tell, or cannot be
+/// understood.
 struct MeshExtras {
-  std::vector<std::string> provenance;  ///< a line each step, as bpmesh wrote: comments of PLY and OBJ, extras of glTF
-  std::optional<Vec3d> origin;          ///< that --origin subtracted from its vertices
-  std::string contract;                 ///< the name of what it claims (docs/contracts.md); empty: nothing
-  std::optional<std::string> up;        ///< of glTF: asset.extras.up; what is no text, as JSON
-  bool recorded = false;                ///< of glTF: asset.extras.provenance is there, as files of this suite have it
-  /// Of glTF: how far a coordinate is off, at most, when a program applies the translations and scales of nodes in
-  /// 32-bit floats; scene units. 0: not at all, or not known, since nodes turn or have children.
+  /// A line for each step, as bpmesh wrote it: comments of PLY and OBJ, extras of glTF.
+  std::vector<std::string> provenance;
+  std::optional<Vec3d> origin;    ///< the point that --origin subtracted from its vertices
+  std::string contract;           ///< name of the contract that it claims (docs/contracts.md); empty: none
+  std::optional<std::string> up;  ///< glTF: asset.extras.up; as JSON if it is no text
+  bool recorded = false;          ///< glTF: asset.extras.provenance exists, as in files of this suite
+  /// glTF: largest error of a coordinate, in scene units, in a program that applies the translations and scales of
+  /// nodes in 32-bit floats. 0: none, or not known, since nodes turn or have children.
   double rounding = 0;
-  bool tile = false;              ///< the content of a tile, which its transform puts into its place
-  std::size_t levels = 1;         ///< of detail; MSFT_lod of glTF
-  bool hulls = false;             ///< nodes of glTF are named UCX_*, as convex hulls for Unreal
-  std::size_t animations = 0;     ///< of glTF
-  std::size_t morph_targets = 0;  ///< of glTF: the most that a mesh has
-  std::size_t skins = 0;          ///< of glTF
-  std::size_t joints = 0;         ///< of glTF: the most that a skin has
+  bool tile = false;              ///< the file is the content of a tile, whose transform puts it into its place
+  std::size_t levels = 1;         ///< levels of detail; MSFT_lod of glTF
+  bool hulls = false;             ///< nodes of the glTF are named UCX_*, as convex hulls for Unreal
+  std::size_t animations = 0;     ///< glTF only
+  std::size_t morph_targets = 0;  ///< glTF: the largest number of a mesh
+  std::size_t skins = 0;          ///< glTF only
+  std::size_t joints = 0;         ///< glTF: the largest number of a skin
 };
 [[nodiscard]] MeshExtras mesh_extras(const std::string& path);
 
-/// The hash that its first step says of the scene's triangles, as VoxelizeCounts::input_hash; empty: it does not say.
+/// Returns the hash of the scene's triangles in the first step of the provenance, as VoxelizeCounts::input_hash; empty
+/// if it is missing.
 [[nodiscard]] std::string hash_of_scene(const MeshExtras& extras);
-/// The tool that made the mesh, bpmesh or bplod; empty: another, or it does not say.
+/// Returns the tool that made the mesh, bpmesh or bplod; empty if it was another, or is not known.
 [[nodiscard]] std::string made_by(const MeshExtras& extras);
-/// Its --mode, as the option is written; empty: it does not say.
+/// Returns its --mode, as the option is written; empty if it is not known.
 [[nodiscard]] std::string mode_of(const MeshExtras& extras);
 
 }  // namespace bp

@@ -13,9 +13,10 @@ namespace bp {
 
 namespace {
 
-constexpr double kNear = 8;  // sides: floats lose 3 bits of 24
+// A scene farther from the origin than so many of its sides gets another: floats would lose 3 bits of 24.
+constexpr double kNear = 8;
 
-/// Of the coordinates, when `origin` is subtracted.
+/// Returns the largest size of a coordinate after `origin` is subtracted.
 double reach_of(const Bounds3d& b, const Vec3d& origin) {
   double reach = 0;
   for (std::size_t i = 0; i < 3; ++i)
@@ -23,16 +24,16 @@ double reach_of(const Bounds3d& b, const Vec3d& origin) {
   return reach;
 }
 
-/// Power of two in (x / 2, x].
+/// Returns the power of two in (x / 2, x].
 double power_of_two_below(double x) {
   int exponent = 0;
   (void)std::frexp(x, &exponent);
   return std::ldexp(1.0, exponent - 1);
 }
 
-/// A round length of a tenth of `side` to all of it. The last bit of a lattice unit is a power of two, and at most
-/// side / 2^13: a voxel has at least 8 bits, and is not larger than the side. So multiples of a larger power of two are
-/// exact, and multiples of a power of ten whose factors of two make one.
+/// Returns a round length between a tenth of `side` and all of it. The last bit of a lattice unit is a power of two,
+/// and at most side / 2^13: a voxel has at least 8 bits, and is not larger than the side. So multiples of a larger
+/// power of two are exact, and so are multiples of a power of ten whose factors of two make such a power.
 double round_step(double side) {
   double ten = 1, two = 1;
   for (; ten * 10 <= side; ten *= 10) two *= 2;

@@ -13,13 +13,13 @@ namespace bp {
 
 namespace {
 
-constexpr double kCells = 256;  // along the scene's diagonal
+constexpr double kCells = 256;  // cells along the scene's diagonal
 constexpr std::size_t kMostBoxes = 2048;
 
-/// Cells of the space that triangles touch.
+/// The cells of a grid that triangles touch.
 class TouchedCells {
  public:
-  /// All triangles will lie within `bounds`.
+  /// All triangles must lie within `bounds`.
   TouchedCells(const Bounds3d& bounds, double edge) : origin_(bounds.min), edge_(edge) {
     const VoxelCoord last = cell_of(bounds.max);
     cells_.reset({{0, 0, 0}, {last.x + 1, last.y + 1, last.z + 1}});
@@ -37,7 +37,7 @@ class TouchedCells {
 
   [[nodiscard]] bool empty() const { return bounds_.empty(); }
 
-  /// Boxes of the cells; larger cells where these would be too many.
+  /// Returns boxes around the cells; around larger cells if there would be too many boxes.
   [[nodiscard]] std::vector<Bounds3d> boxes() const {
     const FewBoxes few = few_boxes_of(cells_, kMostBoxes);
     std::vector<Bounds3d> boxes;
@@ -63,21 +63,21 @@ class TouchedCells {
     return c;
   }
 
-  /// Not beyond the triangles.
+  /// Returns the box of cells, cut to the bounds of the triangles.
   [[nodiscard]] Bounds3d bounds_of(const VoxelBox& cells, double edge) const {
     Bounds3d box;
     for (std::size_t i = 0; i < 3; ++i) {
       box.min[i] = std::max(origin_[i] + edge * cells.min[int(i)], bounds_.min[i]);
       box.max[i] = std::min(origin_[i] + edge * cells.max[int(i)], bounds_.max[i]);
-      box.max[i] = std::max(box.min[i], box.max[i]);  // of a flat part, whose cell may end before it by a rounding
+      box.max[i] = std::max(box.min[i], box.max[i]);  // a flat part's cell may end before the part by a rounding
     }
     return box;
   }
 
   const Vec3d origin_;
   const double edge_;
-  BitBox cells_;     // along the scene's diagonal, at most kCells and one
-  Bounds3d bounds_;  // of all triangles
+  BitBox cells_;     // at most kCells + 1 along the scene's diagonal
+  Bounds3d bounds_;  // bounds of all triangles
 };
 
 [[noreturn]] void refuse(const std::string& pattern, const std::set<std::string>& names) {

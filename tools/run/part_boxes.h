@@ -8,11 +8,11 @@
 
 namespace bp {
 
-/// Boxes around the parts of a scene whose name fits (SceneOptions::parts): together they hold all of their triangles,
-/// and each point of them is near one. At most some thousand; the finest are as large as a 256th of the scene's
-/// diagonal. Memory: of the reader, and 4 MiB. Throws bad_input if the files are not there any more or not the same, if
-/// their format has no names, or if no part fits. `options`: how the scene is read; its format and parts are those of
-/// `scene` and `pattern`.
+/// Returns boxes around the parts of a scene whose name fits (SceneOptions::parts): together they hold all triangles of
+/// the parts, and each point of a box is near a triangle. At most some thousand boxes; the smallest are as large as a
+/// 256th of the scene's diagonal. Memory: that of the reader, and 4 MiB. Throws bad_input if the files are missing or
+/// have changed, if their format has no names, or if no part fits. `options`: how the scene is read; `scene` and
+/// `pattern` replace its format and parts.
 [[nodiscard]] std::vector<Bounds3d> part_boxes(const SceneFiles& scene, const Bounds3d& bounds,
                                                const std::string& pattern, SceneOptions options);
 

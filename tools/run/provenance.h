@@ -5,13 +5,13 @@
 #include "lib/grid/stream.h"
 #include "tools/cli/length.h"
 
-/// The canonical text of a tool's options for the provenance chain: "voxel=0.125 fill=flood". Only what changes the
-/// result, defaults included, in a fixed order; never a path, a thread count or a time of day.
+/// The canonical text of a tool's options for the provenance chain: "voxel=0.125 fill=flood". It has only options that
+/// change the result, with defaults, in a fixed order; never a path, a thread count or a time of day.
 namespace bp {
 
 class OptionText {
  public:
-  OptionText& add(const std::string& key, const std::string& value);  ///< nothing if the value is empty
+  OptionText& add(const std::string& key, const std::string& value);  ///< adds nothing if the value is empty
   OptionText& add(const std::string& key, const char* value) { return add(key, std::string(value)); }
   OptionText& add(const std::string& key, double value);  ///< shortest text that reads back the same
   OptionText& add(const std::string& key, bool value) { return add(key, value ? "yes" : "no"); }
@@ -26,7 +26,7 @@ class OptionText {
   std::string text_;
 };
 
-/// One link of the chain, by this version of the suite.
+/// Returns one link of the chain, made by this version of the suite.
 [[nodiscard]] Provenance make_provenance(const std::string& tool, const OptionText& options,
                                          const std::string& input_hash = "");
 

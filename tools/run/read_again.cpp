@@ -7,7 +7,8 @@ namespace bp {
 
 namespace {
 
-/// Else what takes it might cut it into parts without an end.
+/// Throws bad_input if a triangle lies outside the bounds. Code that takes the triangles might otherwise cut it into
+/// parts without an end.
 void check_within(const TriangleD& t, const Bounds3d& bounds, const std::string& name) {
   for (const Vec3d& p : t) {
     for (std::size_t i = 0; i < 3; ++i) {

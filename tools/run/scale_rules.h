@@ -8,18 +8,20 @@
 
 namespace bp {
 
-/// Reads a file of rules (docs/bpscale.1.md) for the scene and the grid of `header`. `scene`: how that is read again,
-/// for rules by name. `may_orient`: as RuleContext. Throws bad_input with the key at fault, bad_argument if a scale is
-/// out of range.
+/// Reads a file of rules (docs/bpscale.1.md) for the scene and the grid of `header`. `scene`: how to read the scene
+/// again, for rules by name. `may_orient`: as in RuleContext. Throws bad_input with the wrong key, bad_argument if a
+/// scale is out of range.
 [[nodiscard]] ScalePlan read_rules(const std::string& file, const StreamHeader& header, const SceneOptions& scene,
                                    bool may_orient = false);
 
-/// A stream and its rules. It is shelved, and read on from the shelf, if a rule is to be measured on its voxels.
+/// A stream with a file of rules. The stream is shelved, and read on from the shelf, if a rule must be measured on its
+/// voxels.
 class RuledSource final : public BrickSource {
  public:
-  /// `context` of measuring. The scene is read again within `memory`, that of the tool, while nothing else is at work.
+  /// `context`: for measuring. The scene is read again within `memory`, the tool's limit, while nothing else is at
+  /// work.
   RuledSource(BrickSource& source, const PassContext& context, std::uint64_t memory, const std::string& temp);
-  /// All rules by shape are measured. Throws bad_input also if the stream is one to be opened.
+  /// Reads the rules, and measures all rules by shape. Throws bad_input also if the stream is the input of an opening.
   [[nodiscard]] ScalePlan read_rules(const std::string& file, bool may_orient = false);
 
   [[nodiscard]] const StreamHeader& header() const override { return source_.header(); }
@@ -34,7 +36,7 @@ class RuledSource final : public BrickSource {
   std::unique_ptr<ShelfSource> shelved_;  // bricks leave it as they are read
 };
 
-/// Rules for the provenance: their JSON, or, where it is long, what it is and its hash.
+/// Returns rules for the provenance: their JSON, or, if it is long, `what` and a hash.
 [[nodiscard]] std::string provenance_text(const std::string& json, const std::string& what);
 [[nodiscard]] std::string provenance_text(const ScalePlan& plan);
 

@@ -9,13 +9,13 @@ namespace bp {
 
 [[nodiscard]] std::vector<std::string> names_of(const SceneFiles& scene);
 
-/// Why the files that a stream names are surely not what it was made from.
+/// A reason why the files that a stream names are surely not what it was made from.
 struct SceneFault {
   std::string fact;      ///< "scene.obj is not there"
-  bool changed = false;  ///< the file is there, and another one
+  bool changed = false;  ///< the file exists, but has changed
 };
 [[nodiscard]] std::optional<SceneFault> fault_of(const SceneFiles& scene);
-/// The same, when it is known.
+/// Returns the fault of a file that has changed.
 [[nodiscard]] SceneFault changed_scene(const std::string& file);
 
 }  // namespace bp

@@ -87,6 +87,7 @@ bool ToolPipe::start(const std::vector<ToolCommand>& commands, const std::vector
 ToolResult ToolPipe::run(const std::vector<ToolCommand>& commands, const std::vector<const MemoryFile*>& inputs,
                          const MemoryFile& out, bool tells_user) {
   std::vector<int> descriptors;
+  descriptors.reserve(inputs.size());
   for (const MemoryFile* file : inputs) descriptors.push_back(file->descriptor());
   const MemoryFile said;
   ToolResult result;

@@ -9,7 +9,7 @@ namespace bp {
 namespace {
 
 constexpr std::size_t kMaxText = std::size_t(512) << 20;
-constexpr std::size_t kMaxPrefix = 256;  // of a data URI, up to its comma
+constexpr std::size_t kMaxPrefix = 256;  // largest length of a data URI's beginning, up to its comma
 
 class JsonLifter {
  public:
@@ -49,7 +49,7 @@ class JsonLifter {
   std::vector<std::byte> decoded_;
 };
 
-// The opening quote is behind us. Escapes are copied as they are.
+// Copies a string whose opening quote was read. Escapes are copied as they are.
 void JsonLifter::copy_string() {
   const std::size_t start = json_.text.size();
   while (left_ > 0 && json_.text.size() <= kMaxText) {
@@ -82,7 +82,7 @@ void JsonLifter::lift(std::size_t start) {
   json_.data.push_back(part_of(view_of(scratch_, name_), begin, scratch_->size() - begin));
 }
 
-// Up to the closing quote. JSON may write '/' as "\/".
+// Decodes base64 up to the closing quote. JSON may write '/' as "\/".
 void JsonLifter::decode(ScratchFile* out) {
   std::uint32_t group = 0;
   int bits = 0;
@@ -108,8 +108,9 @@ void JsonLifter::flush(ScratchFile* out) {
 
 }  // namespace
 
-// Blocks on the heap, as the standard library for this machine allocates them: an object and its tree (64), a member
-// with its key (112, and long keys), an array (48), an element (16, twice that while it grows), a text (48 and itself).
+// Counts blocks on the heap as the standard library of this platform allocates them: an object and its tree (64), a
+// member with its key (112, and long keys), an array (48), an element (16, twice that while it grows), a text (48 and
+// itself).
 std::uint64_t bytes_to_parse(const std::string& text) {
   std::uint64_t bytes = 1024;
   for (std::size_t i = 0; i < text.size(); ++i) {

@@ -18,7 +18,7 @@ constexpr std::uint64_t kFirst = 12;
 constexpr int kVertexData = 34962;
 
 struct Chunk {
-  std::uint64_t begin = 0, size = 0;  ///< of its content
+  std::uint64_t begin = 0, size = 0;  ///< range of its content
   std::uint32_t type = 0;
   [[nodiscard]] std::uint64_t end() const { return begin + (size + 3) / 4 * 4; }
 };
@@ -35,7 +35,7 @@ bool is_glb(const SceneFile& file) {
   return std::memcmp(magic.data(), "glTF", magic.size()) == 0;
 }
 
-/// Calls f(bytes) with the first `size` bytes of a file, block by block; blocks but the last are multiples of 3.
+/// Calls f(bytes) with the first `size` bytes of a file, block by block. All blocks but the last are multiples of 3.
 template <class File, class F>
 void each_block(const File& file, std::uint64_t size, const F& f) {
   std::vector<std::byte> block(std::size_t(3) << 18);
@@ -93,7 +93,7 @@ void GltfCopy::plan_copies(const GltfPlan& plan) {
       sum += v.numbers[i] == 0 ? 0 : kViewBytes + (i == 0 ? kPositionBytes : kOtherBytes);
   }
   std::map<std::uint64_t, std::uint64_t> mesh_bytes;
-  std::uint64_t node = ~std::uint64_t(0);  // edits of a node follow each other
+  std::uint64_t node = ~std::uint64_t(0);  // edits of one node follow each other
   for (const GltfEdit& e : plan.edits) {
     if (!e.own_mesh || e.node == node) continue;
     node = e.node;
@@ -165,7 +165,7 @@ void GltfCopy::plan_targets(const std::vector<GltfVertices>& parts, std::size_t 
   add_memory(targets * bytes_of_targets(), "its JSON with a morph target of each part for each cage");
 }
 
-/// Of all parts, for one cage.
+/// Returns the bytes of the morph targets of all parts for one cage.
 std::uint64_t GltfCopy::bytes_of_targets() const {
   std::uint64_t of_each = 0, stride = 0;
   for (const Part& part : parts_) {
@@ -240,7 +240,7 @@ void GltfCopy::write(OutputFile& out) {
   each_block(*data_, data_->size(), [&](std::span<const std::byte> b) { out.write(b); });
 }
 
-/// The buffer goes to the place of a mark that stands nowhere else. There is one text at a time.
+/// Writes the JSON, with the buffer at the place of a mark that occurs nowhere else. Only one text exists at a time.
 void GltfCopy::write_json(OutputFile& out) {
   constexpr int kIndent = 2;
   std::string mark = "base64,", text = json_.dump(kIndent);

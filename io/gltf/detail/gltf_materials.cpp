@@ -11,7 +11,7 @@ namespace bp {
 
 namespace {
 
-/// Whether two images lie at the same places of a mesh.
+/// Returns whether two images use the same coordinates on a mesh.
 bool same_places(const GltfObject& a, const GltfObject& b) {
   const auto transform = [](const GltfObject& info) -> std::string {
     constexpr const char* kName = "KHR_texture_transform";
@@ -30,7 +30,8 @@ bool has_light_image(const GltfObject& material) {
   return material.has("emissiveTexture") && light_of(material) != std::array<float, 3>{};
 }
 
-/// The first image that a material has besides its colours: it says where all of them lie.
+/// Returns the first image of a material without an image of colours. Its coordinates count for all images of the
+/// material.
 std::optional<GltfObject> first_map(const GltfObject& material) {
   for (const char* const name : {"normalTexture", "emissiveTexture"}) {
     if (material.has(name)) return material.object(name);
@@ -43,8 +44,8 @@ std::optional<GltfObject> first_map(const GltfObject& material) {
 
 }  // namespace
 
-// Section 3.9.2 again: the image that multiplies the colours, that of light (section 3.9.3), and, if asked for, what
-// else the material says.
+// Adds the image that multiplies the colours (section 3.9.2), that of light (section 3.9.3), and, if surfaces are asked
+// for, the other properties of the material.
 void GltfMaterials::add_texture(std::uint64_t i, const GltfObject& attributes, Primitive& primitive) {
   const GltfObject material = doc_.root().item("materials", i);
   const std::optional<GltfObject> base = base_texture(material);
@@ -61,7 +62,7 @@ std::optional<GltfObject> GltfMaterials::first_other(const GltfObject& material)
   return material.object("emissiveTexture");
 }
 
-/// Where images lie, with KHR_texture_transform.
+/// Adds the coordinates of images, with KHR_texture_transform.
 void GltfMaterials::add_places(const GltfObject& info, const GltfObject& attributes, Primitive& primitive) {
   std::uint64_t set = info.number("texCoord", 0);
   if (info.has_extension("KHR_texture_transform")) {
@@ -116,7 +117,8 @@ std::uint32_t GltfMaterials::texture_material(std::uint64_t i, const GltfObject&
   return textures_->add_material(fmt::format("{}: materials[{}]{}", file_, i, base ? "" : " alone"), m);
 }
 
-// Sections 3.9.2 and 3.9.3. `places`: of the image that says where all of them lie.
+// Returns the surface of a material (sections 3.9.2 and 3.9.3). `places`: the image whose coordinates count for all
+// images.
 TextureSurface GltfMaterials::surface_of(const GltfObject& material, const std::optional<GltfObject>& places) {
   TextureSurface s;
   s.metal_factor = 1;
@@ -141,7 +143,7 @@ void GltfMaterials::add_light(const GltfObject& material, const std::optional<Gl
   if (has_light_image(material)) s.emission = map_of(material.object("emissiveTexture"), places);
 }
 
-/// None if it lies elsewhere than the image of colours, which is told.
+/// Returns an image of a material; none, with a fault, if its coordinates differ from those of the image of colours.
 TextureMap GltfMaterials::map_of(const GltfObject& info, const std::optional<GltfObject>& places) {
   if (places && !same_places(info, *places)) {
     textures_->add_fault(
@@ -179,7 +181,8 @@ std::array<double, 4> GltfMaterials::base_color(std::uint64_t i) const {
   return rgba;
 }
 
-// Masks have holes, and what is blended shows what is behind. An alpha of an opaque material says what it is meant for.
+// Returns whether a material can be seen through: masks have holes, and blended materials show what is behind. The
+// alpha of an opaque material is ignored.
 bool GltfMaterials::see_through(std::uint64_t i) const {
   const GltfObject material = doc_.root().item("materials", i);
   return (material.has("alphaMode") && material.text("alphaMode") != "OPAQUE") || base_color(i)[3] < 1;

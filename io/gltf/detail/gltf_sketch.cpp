@@ -47,7 +47,7 @@ class SketchReader final : public nlohmann::json_sax<nlohmann::json> {
   }
   bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception&) override { return false; }
 
-  /// All places, as if each had a mesh and accessors of its own.
+  /// Adds all places, as if each had a mesh and accessors of its own.
   void add_to(GltfSketch& sketch) const {
     for (const Mesh& m : all_) {
       sketch.places += m.nodes * m.primitives;
@@ -57,7 +57,7 @@ class SketchReader final : public nlohmann::json_sax<nlohmann::json> {
   }
 
  private:
-  static constexpr int kRoot = 1, kItem = 3, kPrimitive = 5, kAttributes = 6;             // depth of these objects
+  static constexpr int kRoot = 1, kItem = 3, kPrimitive = 5, kAttributes = 6;  // nesting depth of these objects
   static constexpr std::uint64_t kWord = 5, kNumber = 24, kBrackets = 2, kSeparator = 1;  // bytes of text, at most
   struct Mesh {
     std::uint64_t nodes = 0, primitives = 0, text_bytes = 0, accessor_bytes = 0, target_bytes = 0;
@@ -92,7 +92,7 @@ class SketchReader final : public nlohmann::json_sax<nlohmann::json> {
     return true;
   }
 
-  const std::uint64_t most_meshes_;  // a number beyond it names none
+  const std::uint64_t most_meshes_;  // larger numbers name no mesh
   std::vector<Mesh> all_;
   int depth_ = 0;
   std::uint64_t meshes_met_ = 0;
@@ -105,7 +105,7 @@ class SketchReader final : public nlohmann::json_sax<nlohmann::json> {
 GltfSketch sketch_of(std::string text) {
   GltfSketch sketch{text.size(), bytes_to_parse(text)};
   for (char& c : text) {
-    if (static_cast<unsigned char>(c) >= 128) c = '?';  // names in Latin-1 are no JSON, and are read all the same
+    if (static_cast<unsigned char>(c) >= 128) c = '?';  // names in Latin-1 are no valid JSON, but are read
   }
   SketchReader reader(text.size());
   (void)nlohmann::json::sax_parse(text, &reader);

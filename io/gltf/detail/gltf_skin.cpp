@@ -25,7 +25,7 @@ GltfSkin::GltfSkin(GltfDocument& doc, const GltfObject& skin, const std::vector<
     : doc_(doc) {
   const std::size_t count = skin.array("joints").size();
   if (count == 0) skin.broken("has no joints");
-  std::vector<double> inverses;  // sixteen a joint, by columns
+  std::vector<double> inverses;  // sixteen numbers a joint, by columns
   if (skin.has("inverseBindMatrices")) {
     inverses = doc.numbers(skin.number("inverseBindMatrices"), kMatrixNumbers, "the joints of a skin");
     if (inverses.size() < count * kMatrixNumbers)
@@ -89,7 +89,7 @@ Affine GltfSkin::blend(const std::vector<Shares>& shares, std::uint64_t vertex) 
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 4; ++j) sum.off.set(i, j, sum.off(i, j) / all);
   }
-  sum.blur(0x1p-48);  // the sum of at most 16 weights, and the division
+  sum.blur(0x1p-48);  // rounding of a sum of at most 16 weights, and of the division
   return sum;
 }
 

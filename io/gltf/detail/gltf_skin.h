@@ -10,20 +10,20 @@ namespace bp {
 
 class GltfSkin {
  public:
-  /// `skin`: an item of the document's "skins". `places`: of all nodes, as far as the scene reaches them; joints are
-  /// nodes. Throws bad_input if a joint is none, or is not reached.
+  /// `skin`: an item of the document's "skins". `places`: transforms of the nodes that the scene reaches; joints are
+  /// nodes. Throws bad_input if a joint is no node, or is not reached.
   GltfSkin(GltfDocument& doc, const GltfObject& skin, const std::vector<std::optional<Affine>>& places);
 
-  /// Where the vertices of a primitive come to stand, in the coordinates of `places`. Each joint has its share of a
-  /// vertex: JOINTS_n and WEIGHTS_n, which need not sum to 1. A vertex of no weight is its first joint's. In double.
-  /// Throws out_of_resource if a primitive takes more than SceneOptions::document.
+  /// Returns where the joints move the vertices of a primitive, in the coordinates of `places`. Each joint has its
+  /// share of a vertex: JOINTS_n and WEIGHTS_n, which need not sum to 1. A vertex without weight follows its first
+  /// joint. In double. Throws out_of_resource if a primitive takes more than SceneOptions::document.
   [[nodiscard]] Accessor points(const GltfObject& attributes, const Accessor& positions) const;
-  /// The same of normals, of any length.
+  /// As points(), for normals of any length.
   [[nodiscard]] Accessor normals(const GltfObject& attributes, const Accessor& normals) const;
 
  private:
   struct Shares {
-    std::vector<double> joints, weights;  ///< four of each a vertex
+    std::vector<double> joints, weights;  ///< four of each for a vertex
   };
   [[nodiscard]] std::vector<Shares> shares_of(const GltfObject& attributes, std::uint64_t vertices) const;
   [[nodiscard]] Shares read_shares(const GltfObject& attributes, const std::string& joints, const std::string& weights,
@@ -33,7 +33,7 @@ class GltfSkin {
   [[nodiscard]] Accessor moved(const GltfObject& attributes, const Accessor& vectors, const Move& move) const;
 
   GltfDocument& doc_;
-  std::vector<Affine> joints_;  // from where a vertex was bound to where it is
+  std::vector<Affine> joints_;  // each takes a vertex from the bind pose to its place
 };
 
 }  // namespace bp

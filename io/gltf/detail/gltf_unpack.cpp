@@ -5,7 +5,7 @@
 #include "io/gltf/gltf_document.h"
 #include "io/gltf/meshopt_codec.h"
 
-// Views and primitives that are compressed. What they unpack to goes to a scratch file: memory does not grow with it.
+// Reads compressed views and primitives. Unpacked bytes go to a scratch file, so that memory does not grow with them.
 
 namespace bp {
 
@@ -31,13 +31,13 @@ MeshoptView meshopt_view(const GltfObject& packed) {
   return view;
 }
 
-/// Saturated: what cannot be is found out later.
+/// Returns the unpacked size of a view, saturated: impossible numbers are refused later.
 std::uint64_t unpacked_bytes(const MeshoptView& view) {
   return std::uint64_t(std::min(0x1p62, double(view.count) * double(view.stride)));
 }
 
 constexpr const char* kDraco = "KHR_draco_mesh_compression";
-constexpr int kSets = 8;  // of texture coordinates and of joints, at most
+constexpr int kSets = 8;  // most sets of texture coordinates and of joints
 
 DracoAttribute attribute_of(const GltfObject& accessor, std::uint64_t id) {
   const std::string type = accessor.text("type");
@@ -63,7 +63,7 @@ std::uint32_t index_at(std::span<const std::byte> bytes, std::size_t size, std::
   return index;
 }
 
-/// Whether two lists hold the same triangles. Compression may turn the corners of one around.
+/// Returns whether two lists hold the same triangles. Compression may rotate the corners of a triangle.
 bool same_triangles(std::span<const std::byte> a, std::span<const std::byte> b, std::size_t size) {
   for (std::size_t i = 0; i + 3 <= a.size() / size; i += 3) {
     const auto turned_by = [&](std::size_t turn) {
@@ -76,7 +76,8 @@ bool same_triangles(std::span<const std::byte> a, std::span<const std::byte> b, 
   return true;
 }
 
-/// Whether `file`, from `address` on, holds what was unpacked. Filters of directions say nothing of places.
+/// Returns whether `file` holds the unpacked bytes from `address` on. Views with a filter of directions are not
+/// compared, since they hold no positions.
 bool same_data(const SceneFile& file, std::uint64_t address, const MeshoptView& what,
                std::span<const std::byte> unpacked) {
   if (what.filter == MeshoptFilter::octahedral || what.filter == MeshoptFilter::quaternion) return true;
@@ -133,7 +134,7 @@ bool GltfDocument::requires_one_of(std::span<const char* const> extensions) cons
   });
 }
 
-/// View i as a reader without the extension takes it; none where it holds no data, as a placeholder does.
+/// Returns view i as a reader without the extension sees it; none if it holds no data, as a placeholder.
 std::optional<GltfDocument::View> GltfDocument::plain_view(std::uint64_t i) {
   const GltfObject object = root().item("bufferViews", i);
   const std::uint64_t number = object.number("buffer");
@@ -180,7 +181,8 @@ bool GltfDocument::unpack(const GltfObject& primitive) {
                  options_.document.bytes);
   std::vector<DracoAttribute> values;
   std::vector<std::uint64_t> accessors;
-  const bool known = unpacked_numbers_.contains(numbers);  // of another primitive, which shares all or nothing
+  // Another primitive may share its accessors: all of them or none.
+  const bool known = unpacked_numbers_.contains(numbers);
   for (const std::string& name : attribute_names()) {
     if (!ids.has(name.c_str()) || !attributes.has(name.c_str())) continue;
     accessors.push_back(attributes.number(name.c_str()));

@@ -13,7 +13,7 @@ namespace bp::detail {
 
 namespace {
 
-/// The linear part alone.
+/// Returns the inverse of the linear part.
 std::optional<Affine> inverse_of(const Affine& a) {
   const Vec3d r0{a.m[0][0], a.m[0][1], a.m[0][2]}, r1{a.m[1][0], a.m[1][1], a.m[1][2]},
       r2{a.m[2][0], a.m[2][1], a.m[2][2]};
@@ -28,7 +28,7 @@ std::optional<Affine> inverse_of(const Affine& a) {
   return inverse;
 }
 
-/// Finds all vertices that can move, or says why some cannot.
+/// Finds all vertices that can move, or tells why some cannot.
 class VertexFinder {
  public:
   VertexFinder(GltfDocument& doc, const std::string& name, const SceneOptions& options)
@@ -65,12 +65,12 @@ class VertexFinder {
   const SceneOptions& options_;
   std::vector<Open> open_;
   std::set<std::uint64_t> seen_, meshes_;
-  std::set<std::uint64_t> taken_;  // accessors that are written in their place
+  std::set<std::uint64_t> taken_;  // accessors that are overwritten
   std::map<std::pair<std::array<std::uint64_t, 3>, std::array<std::array<double, 4>, 3>>, std::size_t> known_;
   GltfPlan plan_;
 };
 
-/// As if all primitives of all nodes were places.
+/// Reserves memory as if all primitives of all nodes were places of their own.
 void VertexFinder::reserve() {
   std::uint64_t places = 0;
   for (std::size_t n = 0; n < root_.array("nodes").size(); ++n) {
@@ -82,7 +82,7 @@ void VertexFinder::reserve() {
   plan_.vertices.reserve(places), plan_.edits.reserve(places);
 }
 
-/// Coarser levels (MSFT_lod) stand where their node stands.
+/// Adds a node with its coarser levels (MSFT_lod), which stand where the node stands.
 void VertexFinder::add_node(const Open& next) {
   const GltfObject node = root_.item("nodes", next.node);
   const Affine transform = next.parent * gltf_transform(node);
@@ -122,7 +122,7 @@ Accessor VertexFinder::floats(std::uint64_t number, std::size_t components) {
   return accessor;
 }
 
-/// The first place of an accessor keeps its bytes, and every other place gets its own.
+/// Adds a primitive. The first place of an accessor uses its bytes; every other place gets a copy.
 void VertexFinder::add_primitive(GltfEdit place, const GltfObject& primitive, const Affine& transform) {
   if (primitive.has_extension("KHR_draco_mesh_compression"))
     primitive.unfit("is compressed (KHR_draco_mesh_compression): unpack it, for instance with gltf-transform");
@@ -155,7 +155,8 @@ GltfVertices VertexFinder::vertices_of(const GltfObject& attributes, const Affin
   return v;
 }
 
-/// Numbers that two accessors hold would be written twice. Interleaved ones lie side by side.
+/// Refuses numbers that two accessors share, since they would be written twice. Interleaved accessors may lie side by
+/// side.
 void VertexFinder::check_shared_bytes() const {
   struct Range {
     std::uint64_t begin, end, stride, size;

@@ -14,7 +14,7 @@ constexpr std::array kRead = {"KHR_draco_mesh_compression",
                               "MSFT_lod",
                               "CESIUM_RTC",
                               "3DTILES_content_gltf"};
-// They change nothing of where triangles are. All that begin so, for a name that ends in _.
+// Extensions that do not move or hide triangles. A name that ends with _ stands for all that begin with it.
 constexpr std::array kHarmless = {"KHR_materials_",
                                   "KHR_texture_",
                                   "EXT_texture_",

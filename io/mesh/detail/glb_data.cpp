@@ -24,7 +24,7 @@ std::string GlbData::document(Json asset, const std::vector<std::size_t>& roots)
   doc["scenes"] = Json::array({{{"nodes", roots}}});
   doc.update(doc_);
   doc["buffers"] = Json::array({{{"byteLength", data_.size()}}});
-  if (compressed_) {  // where the bytes would be if the views were not compressed; nobody reads it
+  if (compressed_) {  // the size that the views would have uncompressed; nobody reads it
     doc["buffers"].push_back(
         {{"byteLength", fallback_}, {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}});
   }
@@ -64,7 +64,7 @@ std::size_t GlbData::add_directions(const std::vector<std::array<float, N>>& all
 }
 
 std::size_t GlbData::add_indices(const TriangleIndices& triangles, std::size_t vertices) {
-  const bool narrow = vertices < 65535;  // the last one means "restart"
+  const bool narrow = vertices < 65535;  // 65535 means "restart"
   std::string bytes;
   for (const auto& t : triangles) {
     for (const std::uint32_t v : t) bytes.append(reinterpret_cast<const char*>(&v), narrow ? 2 : 4);

@@ -17,24 +17,24 @@ class GlbData {
   explicit GlbData(bool compressed) : compressed_(compressed) {}
 
   [[nodiscard]] bool is_compressed() const { return compressed_; }
-  /// The file uses it; `required`: and cannot be shown without.
+  /// Notes that the file uses an extension; `required`: it cannot be shown without.
   void use(const std::string& extension, bool required);
-  /// What is quantized needs KHR_mesh_quantization; once.
+  /// Notes that the file needs KHR_mesh_quantization.
   void quantize() { quantized_ = true; }
 
-  /// An accessor of a new view; `accessor` has all but the view. `filter`: of EXT_meshopt_compression.
+  /// Adds an accessor in a new view; `accessor` has all but the view. `filter`: of EXT_meshopt_compression.
   std::size_t add_attributes(const std::string& bytes, std::size_t stride, GltfOutJson accessor,
                              const char* filter = nullptr);
   std::size_t add_indices(const TriangleIndices& triangles, std::size_t vertices);
-  /// Bytes that are an image; the number of their view.
+  /// Adds the bytes of an image; returns the number of their view.
   std::size_t add_image_bytes(const std::string& bytes);
-  /// As octahedral bytes where the file is compressed.
+  /// Adds tangents or normals, as octahedral bytes if the file is compressed.
   std::size_t add_tangents(const std::vector<std::array<float, 4>>& tangents);
   std::size_t add_normals(const std::vector<std::array<float, 3>>& normals);
 
-  /// What goes into the document beside accessors and views: nodes, meshes, materials ...
+  /// Returns the document without accessors and views, for nodes, meshes, materials ...
   [[nodiscard]] GltfOutJson& json() { return doc_; }
-  /// The whole, with `json` first.
+  /// Returns the whole document; the members of `json` come first.
   [[nodiscard]] std::string document(GltfOutJson asset, const std::vector<std::size_t>& roots);
   [[nodiscard]] const std::string& bytes() const { return data_; }
 
@@ -54,7 +54,7 @@ class GlbData {
                    {"accessors", GltfOutJson::array()},
                    {"bufferViews", GltfOutJson::array()}};
   std::string data_;
-  std::size_t fallback_ = 0;  // bytes of the views uncompressed
+  std::size_t fallback_ = 0;  // size of the views uncompressed
 };
 
 }  // namespace bp

@@ -24,7 +24,7 @@ struct Extent {
   }
 };
 
-/// The last bit of a number that is set; infinite for 0.
+/// Returns the lowest set bit of a number, as a number; infinite for 0.
 double last_bit(double x) {
   if (x == 0) return HUGE_VAL;
   int exponent = 0;
@@ -32,13 +32,14 @@ double last_bit(double x) {
   return std::ldexp(1.0, exponent - 53 + std::countr_zero(mantissa));
 }
 
-/// Numbers so small that float32 holds them with fewer bits are not taken: programs may set them to zero.
+/// Returns whether a float holds the number with all bits. Denormal floats are not taken: programs may set them to
+/// zero.
 bool is_plain_float(double x) {
   return x == 0 || (double(float(x)) == x && std::isnormal(float(x)));
 }
 
-/// The number with the fewest bits from which both ends are at most `reach` away; it is near their middle. Empty: there
-/// is none that is a multiple of `step`.
+/// Returns the number with the fewest bits from which both ends are at most `reach` away; it is near their middle.
+/// Empty if none of these is a multiple of `step`.
 std::optional<double> few_bits_near(double lo, double hi, double reach, double step) {
   int exponent = 0;
   (void)std::frexp(std::max(std::abs(lo), std::abs(hi)), &exponent);
@@ -57,9 +58,9 @@ bool all_vertices(std::span<const LatticeMesh* const> meshes, const Vec3d& origi
   });
 }
 
-/// Subtracting it leaves floats, and is exact: coordinates and offset are multiples of the last bit of the lattice, and
-/// the difference is at most 2^24 times this bit. It lies within two sizes of the meshes, so that a node turns about
-/// something near.
+/// Returns an offset whose subtraction leaves floats and is exact: coordinates and offset are multiples of the last bit
+/// of the lattice, and the difference is at most 2^24 times this bit. It lies within two sizes of the meshes, so that a
+/// node turns about a near point.
 std::optional<Vec3d> likely_offset(std::span<const LatticeMesh* const> meshes, const Vec3d& origin) {
   constexpr double kSizes = 2;
   Bounds3d bounds;

@@ -9,11 +9,11 @@ namespace bp {
 
 namespace {
 
-/// The record before all others.
+/// The first record.
 struct SummarySizes {
   std::uint64_t bytes = 0, bad_faces = 0, animations = 0;
   Unfollowed unfollowed;
-  std::uint64_t meshes = 0, nodes = 0, parts = 0, textures = 0;  // records; bytes of names
+  std::uint64_t meshes = 0, nodes = 0, parts = 0, textures = 0;  // numbers of records; parts, textures: bytes of names
 };
 
 template <class T>

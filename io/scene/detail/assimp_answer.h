@@ -5,7 +5,7 @@
 #include "io/scene/detail/assimp_textures.h"
 #include "io/scene/instanced_scene.h"
 
-/// What the importer's process sends: plain records, counted.
+/// The answer of the importer's process: plain records, counted.
 namespace bp {
 
 struct MeshRecord {
@@ -13,12 +13,12 @@ struct MeshRecord {
   std::uint64_t colors = Accessor::kZeros;                                // address; kZeros: the vertices have none
   std::array<double, 3> base_color{1, 1, 1};
   bool is_exact = false;  // positions are doubles; else float32
-  double off = 0;         // of such doubles
+  double off = 0;         // bound on their error
   TextureRecord texture;
 };
 struct NodeRecord {
   using Numbers = std::array<std::array<double, 4>, 3>;
-  Numbers m{}, off{};  // of the transform
+  Numbers m{}, off{};  // the transform, and bounds on its errors
   std::uint64_t mesh = 0;
 
   NodeRecord() = default;
@@ -37,7 +37,7 @@ struct NodeRecord {
   }
 };
 struct Summary {
-  std::uint64_t bytes = 0, bad_faces = 0;  // of the scratch file; faces whose corners do not exist
+  std::uint64_t bytes = 0, bad_faces = 0;  // bytes of the scratch file; faces whose corners do not exist
   std::uint64_t animations = 0;
   Unfollowed unfollowed;
   std::vector<MeshRecord> meshes;
@@ -47,7 +47,7 @@ struct Summary {
 };
 
 [[nodiscard]] std::string packed(const Summary& summary);
-/// `name`: of the scene's file, for the Error if the answer is garbled.
+/// Unpacks an answer. `name`: the scene's file, for the Error if the answer is garbled.
 [[nodiscard]] Summary unpacked(const std::string& bytes, const std::string& name);
 
 }  // namespace bp

@@ -15,8 +15,9 @@ namespace bp {
 
 namespace {
 
-constexpr double kMostMoved = 0x1p-12;   // of a matrix's largest number: more is a pose
-constexpr double kMostMissing = 0x1p-8;  // of a sum of weights: more is not rounding, and programs differ
+constexpr double kMostMoved = 0x1p-12;  // largest difference, over a matrix's largest number: more is a pose
+// Largest deviation of a sum of weights from 1: more is no rounding, and programs differ.
+constexpr double kMostMissing = 0x1p-8;
 
 Affine rounded_matrix(const aiMatrix4x4& m) {
   Affine a;
@@ -31,7 +32,7 @@ Affine rounded_matrix(const aiMatrix4x4& m) {
   return a;
 }
 
-/// The sizes of the 3 x 3 numbers of a matrix, and of its translation.
+/// The size of a matrix's 3 x 3 numbers, and that of its translation.
 struct Sizes {
   explicit Sizes(const Affine& a) {
     for (const auto& row : a.m) {
@@ -42,7 +43,7 @@ struct Sizes {
   double linear = 0, far = 0;
 };
 
-/// By how much the sums of weights miss 1; none if a vertex has no weight.
+/// Returns by how much the sums of weights miss 1; none if a vertex has no weight.
 std::optional<double> missing_weight(const aiMesh& mesh) {
   std::vector<double> sums(mesh.mNumVertices, 0);
   for (unsigned b = 0; b < mesh.mNumBones; ++b) {
@@ -83,7 +84,7 @@ bool BonePlaces::hold(const aiMesh& mesh, Affine& mesh_place) const {
     const Affine offset = rounded_matrix(bone.mOffsetMatrix);
     const Affine moved = *found->second * offset;
     const Sizes joint(*found->second), back(offset);
-    // The importer's own product may have cancelled: its terms are no larger than these.
+    // The importer's product may have cancelled: these are bounds on its terms.
     const double cancelled = kImporterShare * (joint.far + own.far + 3 * joint.linear * back.far);
     const double far = joint.far + own.far + 3 * joint.linear * back.far;
     for (std::size_t i = 0; i < 3; ++i) {

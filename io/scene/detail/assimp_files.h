@@ -8,7 +8,7 @@
 #include "io/files/file.h"
 #include "io/scene/scene_file.h"
 
-/// Files as Assimp wants them.
+/// The file system that Assimp reads through.
 namespace bp {
 
 class SceneStream final : public Assimp::IOStream {
@@ -36,7 +36,8 @@ class SceneStream final : public Assimp::IOStream {
   std::uint64_t at_ = 0;
 };
 
-/// The scene under the name that Assimp is given; other names (materials, parts) are files beside it, and are noted.
+/// Offers the scene under the name that Assimp is given. Other names (materials, parts) are files in the scene's
+/// folder, and are noted.
 class SceneFileSystem final : public Assimp::DefaultIOSystem {
  public:
   SceneFileSystem(SceneFilePtr file, std::string name, std::string& parts)

@@ -19,7 +19,8 @@ TextureWrap wrap_of(aiTextureMapMode mode) {
                                            : TextureWrap::clamp;
 }
 
-/// Paths are often those of another machine: then the file lies beside the scene, if anywhere.
+/// Returns the path of an image. Paths are often those of another machine: then the file can only be in the scene's
+/// folder.
 std::string path_of(std::string name, const std::string& scene) {
   if (name.starts_with("file://")) name = name.substr(7);
   return find_beside(std::filesystem::path(scene).parent_path().string(), name);
@@ -57,7 +58,7 @@ TextureRecord TextureUnloader::unload(const aiMesh& mesh, const aiScene& scene) 
   return record;
 }
 
-/// Only those that are files within the file: a height of 0 says so.
+/// Writes the bytes of an image within the file, if they are a compressed file: a height of 0 says so.
 void TextureUnloader::add_data(const aiTexture& texture, TextureRecord& record) {
   if (texture.mHeight != 0 || texture.mWidth == 0) return;
   record.data_bytes = texture.mWidth;
@@ -94,7 +95,7 @@ void lay_texture(const TextureRecord& record, const std::string& names, const Sc
   primitive.uv->count = record.vertices;
   primitive.uv->address = record.places;
   primitive.uv->stride = 3 * sizeof(float);
-  // v goes upwards there.
+  // v goes upwards in Assimp.
   primitive.uv_transform = {record.scale[0], 0, record.offset[0], 0, -record.scale[1], 1 - record.offset[1]};
 }
 

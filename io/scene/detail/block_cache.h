@@ -3,14 +3,15 @@
 
 #include "io/scene/scene_file.h"
 
-/// Small random reads from a file through a bounded number of blocks: 8-way sets, least recently used goes.
+/// Cache for small random reads from a file: a bounded number of blocks, in 8-way sets; the least recently used block
+/// is replaced.
 namespace bp {
 
 class BlockCache {
  public:
   static constexpr std::size_t kBlockBytes = std::size_t(1) << 14;
 
-  /// At most `budget_bytes` of blocks (no fewer than 8 blocks), allocated when first used.
+  /// Keeps at most `budget_bytes` of blocks (at least 8 blocks), allocated when first used.
   BlockCache(SceneFilePtr file, std::uint64_t budget_bytes);
 
   /// Copies the n <= kBlockBytes bytes at `offset`. Throws bad_input if the file ends before them.
@@ -27,7 +28,7 @@ class BlockCache {
   static constexpr std::size_t kWays = 8;
   struct Slot {
     std::uint64_t block = ~std::uint64_t(0), used = 0;
-    std::size_t bytes = 0;  // fewer than a block at the end of the file
+    std::size_t bytes = 0;  // less than a block at the end of the file
     std::unique_ptr<std::byte[]> data;
   };
   void copy(std::uint64_t block, std::size_t within, std::byte* out, std::size_t n) {

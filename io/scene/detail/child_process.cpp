@@ -22,12 +22,12 @@ namespace bp {
 
 namespace {
 
-// What the child sends back: a tag, then the result, or an error as packed().
+// Tags of the child's answer: then comes the result, or an error as packed().
 constexpr char kResult = 'R', kError = 'E', kFailure = 'F', kMemory = 'M';
 
 struct ErrorHead {
   std::uint64_t memory_bytes = 0;
-  std::uint8_t code = 0, remedies = 0;  // how many; they follow, a byte each, and then the text
+  std::uint8_t code = 0, remedies = 0;  // remedies: their number; they follow, a byte each, and then the text
 };
 
 std::string packed(const Error& e) {
@@ -55,7 +55,7 @@ std::uint64_t address_space() {
   return std::uint64_t(pages) * std::uint64_t(::sysconf(_SC_PAGESIZE));
 }
 
-/// `kill`: what the limit becomes once it has been told.
+/// `kill`: the hard limit, which ends the process after it was warned.
 void limit(int resource, std::uint64_t value, std::uint64_t kill = 0) {
   struct rlimit r {};
   if (::getrlimit(__rlimit_resource_t(resource), &r) != 0) return;
@@ -67,7 +67,7 @@ void limit(int resource, std::uint64_t value, std::uint64_t kill = 0) {
 }
 
 void confine(const ChildLimits& limits) {
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // do not outlive a parent that was killed
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // the child must not outlive a parent that was killed
   for (const int signal : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGXCPU, SIGTERM, SIGINT, SIGHUP, SIGPIPE})
     std::signal(signal, SIG_DFL);
   const int nowhere = ::open("/dev/null", O_RDWR);
@@ -110,7 +110,7 @@ std::string message_of(const std::function<std::string()>& work) {
 
 enum class Reception { complete, late, large };
 
-/// All that comes until the child closes its end, the time is over, or more has come than it may send.
+/// Receives all bytes until the child closes its end, the time is over, or more has come than it may send.
 Reception receive(int in, const ChildLimits& limits, std::string& message) {
   using Clock = std::chrono::steady_clock;
   const auto end = Clock::now() + std::chrono::seconds(limits.wall_seconds);

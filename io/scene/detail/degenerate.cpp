@@ -61,7 +61,7 @@ class Expansion {
   int size_ = 0;
 };
 
-/// Component i of the cross product, j and k the axes after it.
+/// Returns whether component i of the cross product is exactly zero; j and k are the axes after i.
 bool exactly_zero(const TriangleD& t, std::size_t j, std::size_t k) {
   const Sum ej(t[1][j], -t[0][j]), ek(t[1][k], -t[0][k]), fj(t[2][j], -t[0][j]), fk(t[2][k], -t[0][k]);
   Expansion n;

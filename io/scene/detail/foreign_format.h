@@ -4,20 +4,20 @@
 
 namespace bp {
 
-/// What a file is, and which program makes a mesh of it, of formats that people have scenes in and that are not read
-/// here: "is a point cloud (LAS), which is not read; ...". By the end of its name, or by its first bytes; empty: not
-/// known.
+/// Returns the kind of a file, and a program that makes a mesh of it, for formats that hold people's scenes and are not
+/// read here: "is a point cloud (LAS), which is not read; ...". Told by the end of its name, or by its first bytes;
+/// empty: not known.
 [[nodiscard]] std::string foreign_format(const std::string& path, const std::string& first_bytes = "");
 
-/// The last part of it, also of formats that are read in part (IFC): "convert it: ...".
+/// Returns the last part of that text, also for formats that are read in part (IFC): "convert it: ...".
 [[nodiscard]] std::string foreign_way(const std::string& path);
 
-/// Whether the end of a name is that of an archive, in which a scene may be.
+/// Returns whether the end of a name is that of an archive, which may hold a scene.
 [[nodiscard]] bool is_archive(const std::string& path);
 
-/// Throws bad_input with foreign_format(), if that is known.
+/// Throws bad_input with foreign_format(), if the format is known.
 void refuse_foreign(const std::string& path, const std::string& first_bytes = "");
-/// Throws bad_input: a scene of points, or of lines between them, without triangles.
+/// Throws bad_input for a scene of points, or of lines between them, without triangles.
 [[noreturn]] void refuse_points(const std::string& name, std::uint64_t points, std::uint64_t lines);
 
 /// Throws bad_input if the first bytes of an IFC file name a schema that is not read.

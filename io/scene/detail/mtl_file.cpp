@@ -11,18 +11,18 @@ namespace bp {
 
 namespace {
 
-/// The part of a path that stands before its last name; empty, or with a slash at its end.
+/// Returns the folder part of a path; empty, or with a slash at its end.
 std::string folder_before(const std::string& path) {
   return path.substr(0, path.rfind('/') + 1);
 }
 
-/// Bytes of a string outside the string itself, with what the allocator adds.
+/// Returns the bytes of a string outside the string object, with those that the allocator adds.
 std::uint64_t heap_bytes(const std::string& text) {
   static const std::size_t inside = std::string().capacity();
   return text.capacity() > inside ? text.capacity() + 2 * sizeof(void*) : 0;
 }
 
-/// From 0 to 1; NaN is 0.
+/// Clamps to [0, 1]; NaN becomes 0.
 double part_of(double x) {
   return std::min(1.0, std::max(0.0, x));
 }
@@ -53,9 +53,9 @@ void MtlMaterials::clear() {
   bytes_ = count_ = 0;
 }
 
-/// The material of this name as one without properties. Once the materials do not fit: one that nobody finds.
+/// Returns the material of this name, without properties. Once the materials do not fit: one that is never found.
 MtlMaterials::Material& MtlMaterials::renewed(const std::string& name) {
-  // With what the tree keeps of each, and what the allocator adds.
+  // with the tree's links, and bytes that the allocator adds
   constexpr std::uint64_t kNodeBytes = sizeof(decltype(materials_)::value_type) + 6 * sizeof(void*);
   ++count_;
   if (!fit()) {
@@ -123,10 +123,11 @@ void MtlMaterials::read_line(TextScanner& text, const std::string& key, Material
   }
 }
 
-/// Of -bm: more than images are wide. Slopes beyond it are cliffs all the same.
+/// Largest strength of -bm: more than images are wide. Slopes beyond it are cliffs anyway.
 constexpr double kMostStrength = 65536;
 
-// "map_Kd -s 2 2 1 -clamp on some name.png": options have words or numbers after them, and the name may have blanks.
+// Reads "map_Kd -s 2 2 1 -clamp on some name.png": options have words or numbers after them, and the name may have
+// blanks.
 void MtlMaterials::read_map(TextScanner& text, Map& map) {
   while (text.word_on_line() && text.peek() == '-') {
     const std::string option(text.word());
@@ -169,7 +170,8 @@ std::uint64_t MtlMaterials::Material::heap_bytes() const {
   return sum;
 }
 
-/// None if it is not there, or lies elsewhere than the material's first one: that is told.
+/// Returns an image of a material; none, with a fault, if it is missing or if its coordinates differ from those of the
+/// material's first image.
 TextureMap MtlMaterials::map_of(const Map& map, const Material& material, TextureTable& textures,
                                 const std::optional<Relief>& relief) {
   if (map.image.empty()) return {};
@@ -201,7 +203,8 @@ void MtlMaterials::add_light(const Material& material, TextureTable& textures, T
   if (s.emission.is_there()) s.emission_factor = {1, 1, 1};
 }
 
-/// Roughness and metal come from one image (TextureSurface): two would have to be mixed.
+/// Returns the surface of a material. Roughness and metal come from one image (TextureSurface): two would have to be
+/// mixed.
 TextureSurface MtlMaterials::surface_of(const Material& material, TextureTable& textures) {
   TextureSurface s;
   s.roughness_factor = float(material.roughness);

@@ -9,9 +9,9 @@
 #include "lib/core/color.h"
 #include "lib/core/memory_share.h"
 
-/// Wavefront MTL: of the materials the diffuse colour, Kd, taken as sRGB, as programs show it; and whether they can be
-/// seen through: d below 1, Tr (which is 1 - d; some write 1 for opaque) between 0 and 1, or map_d; and
-/// the image of map_Kd, which replaces Kd, as most programs have it. If surfaces are asked for, also Pr, Pm, Ke, their
+/// Reads Wavefront MTL. It reads from each material: the diffuse colour, Kd, taken as sRGB, as programs show it;
+/// whether it is transparent: d below 1, Tr (which is 1 - d; some write 1 for opaque) between 0 and 1, or map_d; and
+/// the image of map_Kd, which replaces Kd, as in most programs. If surfaces are asked for, also Pr, Pm, Ke, their
 /// images, which replace them, and the normal map of norm, or else of map_Bump or bump, which is heights if it is grey.
 namespace bp {
 
@@ -19,31 +19,31 @@ class MtlMaterials {
  public:
   /// `document`: as SceneOptions::document. Materials take a quarter of it; 0 bytes: no limit.
   explicit MtlMaterials(const MemoryShare& document) : document_(document) {}
-  /// Adds those of a file that lies beside the file `beside` (find_beside(), io/files/beside.h); one of the same name
-  /// replaces. A file that is not there or cannot be understood adds none: a scene without colours is still a scene. An
-  /// OBJ without a path has none.
-  /// Once the materials do not fit, those of further files are only counted.
+  /// Adds the materials of a file in the folder of the file `beside` (find_beside(), io/files/beside.h). One of the
+  /// same name is replaced. A file that is missing or cannot be understood adds none: a scene without colours is still
+  /// a scene. An OBJ without a path has none. Once the materials do not fit, those of further files are only counted.
   void load(const std::string& beside, const std::string& name);
   [[nodiscard]] bool fit() const { return document_.bytes == 0 || bytes_ <= document_.bytes / kParts; }
   /// Throws out_of_resource, with the limit on memory at which all materials counted so far fit.
   [[noreturn]] void refuse() const;
   /// Forgets all materials and files.
   void clear();
-  /// White if there is no such material. With the light (Ke) that a material without images gives, unless surfaces are
-  /// asked for.
+  /// Returns the colour of a material; white if there is none of this name. Unless surfaces are asked for, the light
+  /// (Ke) of a material without images is added.
   [[nodiscard]] LinearColor color(const std::string& material, bool surface) const;
-  /// Of a place that a face gives (vt): the place in the image.
+  /// Returns the place in the image for texture coordinates of a face (vt).
   [[nodiscard]] std::array<float, 2> place(const std::string& material, double u, double v) const;
-  /// What lies on its triangles, added to `textures`, faults too; TriangleTexture::kNoMaterial if nothing does.
+  /// Adds the material's images to `textures`, and their faults; returns its number, TriangleTexture::kNoMaterial if it
+  /// has no image.
   [[nodiscard]] std::uint32_t texture(const std::string& material, TextureTable& textures, bool surface);
-  /// Whether it has an image of colours or light (map_Kd, map_Ke).
+  /// Returns whether the material has an image of colours or light (map_Kd, map_Ke).
   [[nodiscard]] bool has_image(const std::string& material) const;
-  /// False if there is no such material.
+  /// Returns whether the material is transparent; false if there is none of this name.
   [[nodiscard]] bool see_through(const std::string& material) const;
 
  private:
   static constexpr std::size_t kMost = std::size_t(1) << 20;
-  static constexpr std::uint64_t kParts = 4;  // of the document, for materials
+  static constexpr std::uint64_t kParts = 4;  // materials take at most 1 / kParts of the document's memory
   struct Map {
     std::string image;  // as the file names it; empty: none
     bool clamp = false;
@@ -52,15 +52,15 @@ class MtlMaterials {
     friend bool operator==(const Map&, const Map&) = default;
   };
   struct Material {
-    const std::string* file = nullptr;  // that it stands in, one of files_
+    const std::string* file = nullptr;  // the file that has it, one of files_
     LinearColor color, emission{0, 0, 0};
     bool see_through = false;
     double alpha = 1, roughness = 1, metal = 0;
     Map color_map, normal_map, bump_map, roughness_map, metal_map, emission_map;
     std::optional<std::uint32_t> number;  // in the table of textures
-    /// That says where all of them lie.
+    /// Returns the image whose coordinates count for all images of the material.
     [[nodiscard]] const Map& first_map() const;
-    /// Beside the material itself.
+    /// Returns the bytes outside of the object itself.
     [[nodiscard]] std::uint64_t heap_bytes() const;
     [[nodiscard]] bool has_image() const { return !color_map.image.empty() || !emission_map.image.empty(); }
   };
@@ -76,9 +76,9 @@ class MtlMaterials {
   const MemoryShare document_;
   std::map<std::string, Material> materials_;
   std::set<std::string> files_;
-  std::string too_many_;                 // the file whose materials did not fit beside those before
-  std::uint64_t bytes_ = 0, count_ = 0;  // of all materials, also those that are only counted
-  Material counted_;                     // the last of these
+  std::string too_many_;                 // the file whose materials did not fit in addition to those before
+  std::uint64_t bytes_ = 0, count_ = 0;  // of all materials, with those that are only counted
+  Material counted_;                     // the last of those that are only counted
 };
 
 }  // namespace bp

@@ -36,7 +36,8 @@ std::string start_of(const SceneFile& file) {
   return start;
 }
 
-/// What the first bytes of a file tell; else what its name tells. `extension` is set for a format that goes to Assimp.
+/// Returns the reader that the first bytes of a file tell; else the one that its name tells. `extension` is set for a
+/// format that goes to Assimp.
 Reader reader_by_content(const std::string& start, std::uint64_t size, std::string& extension) {
   if (is_binary_stl(start, size)) return Reader::stl;
   const std::size_t first = start.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
@@ -69,7 +70,7 @@ RawSourcePtr open_raw(const SceneFilePtr& file, const std::string& path, const S
   std::string extension = scene_format_of(path);
   if (extension.empty() && !options.format.empty()) extension = scene_format_named(options.format);
   Reader reader = reader_of(extension);
-  if (file->size() == 0 && reader != Reader::obj)  // of OBJ it is a mesh without faces
+  if (file->size() == 0 && reader != Reader::obj)  // an empty OBJ is a mesh without faces
     fail(ErrorCode::bad_input, "{}: is empty; did the tool before it fail?", file->name());
   if (reader != Reader::other) {
     const std::string start = start_of(*file);

@@ -7,13 +7,13 @@
 
 namespace bp {
 
-/// Numbers positions by their exact coordinates (their bits: NaN equals itself, and -0 must have become 0).
-/// Open addressing; 8 bytes a slot beside the positions themselves.
+/// Numbers positions by their exact coordinates (their bits: NaN equals itself, and -0 must have become 0). Open
+/// addressing; 8 bytes a slot in addition to the positions.
 class PositionIndex {
  public:
   explicit PositionIndex(std::vector<Vec3d>& positions) : positions_(positions), slots_(1024, kEmpty) {}
 
-  /// Number of `p`, appended if it is new. Throws out_of_resource beyond 2^32 - 1 positions.
+  /// Returns the number of `p`, appended if it is new. Throws out_of_resource beyond 2^32 - 1 positions.
   std::uint32_t add(const Vec3d& p) {
     if (2 * positions_.size() >= slots_.size()) grow();
     const std::size_t slot = find(p);

@@ -32,7 +32,7 @@ bool PolygonSource::read(std::vector<TriangleD>& out, std::vector<TriangleColors
   return !out.empty();
 }
 
-/// The next good face; false at the end.
+/// Opens the next good face; returns false at the end.
 bool PolygonSource::open_face() {
   for (; next_face(corners_); ++bad_faces_) {
     if (!good_face()) continue;
@@ -112,13 +112,14 @@ std::uint64_t most_described(const SceneOptions& options) {
 std::uint64_t limit_of_description(std::uint64_t bytes, const SceneOptions& options) {
   const std::uint64_t most = most_described(options);
   if (options.document.bytes == 0 || bytes <= most) return 0;
-  // Both grow with the limit on memory.
+  // The document's memory and the vertices' memory grow with the limit.
   const double document = double(options.document.bytes) / double(std::max<std::uint64_t>(1, most));
   return options.document.limit_with(std::uint64_t(std::ceil(double(bytes - most) * document)));
 }
 
-/// The shares of descriptions and of vertices keep their proportion, which limit_of_description() counts on. The limit
-/// is the one at which the step has so little: half of so small a limit is shared out.
+/// Leaves next to no memory. Descriptions and vertices keep the proportion of their shares, which
+/// limit_of_description() needs. The limit is the one at which the step has so little: half of such a small limit is
+/// shared out.
 SceneOptions without_memory(SceneOptions options) {
   constexpr std::uint64_t kReader = 16;
   const double documents = double(options.document.bytes) / double(std::max<std::uint64_t>(1, options.memory_bytes));

@@ -1,19 +1,18 @@
-#include "io/scene/detail/scene_row.h"
-
 #include <algorithm>
 
 #include "io/files/file.h"
 #include "io/scene/detail/foreign_format.h"
 #include "io/scene/raw_source.h"
 #include "io/scene/scene_format.h"
+#include "io/scene/scene_reader.h"
 #include "lib/core/error.h"
 
 namespace bp {
 
 namespace {
 
-/// The limit on memory at which the description of a scene fits. 0: it fits in next to nothing, or the file cannot be
-/// opened for another reason.
+/// Returns the limit on memory at which the description of a scene fits. 0: it fits in next to nothing, or the file
+/// cannot be opened for another reason.
 std::uint64_t limit_to_open(const std::string& path, const SceneOptions& options) {
   try {
     (void)open_scene(path, without_memory(options));
@@ -23,14 +22,14 @@ std::uint64_t limit_to_open(const std::string& path, const SceneOptions& options
   return 0;
 }
 
-/// Files in a row. Only one is open at a time, so that vertices and file handles of the others take nothing; stdin,
-/// which cannot be opened again, stays open once it is.
+/// Files in a row. Only one is open at a time, so that vertices and file handles of the others take nothing. stdin,
+/// which cannot be opened again, stays open.
 class SceneRow final : public TriangleSource {
  public:
   SceneRow(std::vector<std::string> paths, const SceneOptions& options) : paths_(std::move(paths)), options_(options) {
     for (const std::string& path : paths_) {
       if (path == "-") continue;
-      const InputFile probe(path);  // a missing file should not wait for hours of reading, nor one that is not read
+      const InputFile probe(path);  // a missing file, or one that is not read, is reported before hours of reading
       if (options_.format.empty() && scene_format_of(path).empty()) refuse_foreign(path);
     }
   }
@@ -69,7 +68,7 @@ class SceneRow final : public TriangleSource {
   [[nodiscard]] std::string name() const override {
     return paths_.size() == 1 ? paths_[0] : fmt::format("{} scenes", paths_.size());
   }
-  [[nodiscard]] std::optional<UpAxis> up() const override { return up_; }  // of the first one that tells
+  [[nodiscard]] std::optional<UpAxis> up() const override { return up_; }  // the first one told
 
  private:
   template <class Read>
@@ -87,8 +86,8 @@ class SceneRow final : public TriangleSource {
     }
     return false;
   }
-  /// The other files do not make up for an export that failed. Where only some parts are asked for, a file may have
-  /// none.
+  /// Refuses an empty file: the other files do not make up for a failed export. If only some parts are asked for, a
+  /// file may have none.
   void check_not_empty(const TriangleSource& scene) const {
     if (!options_.parts.empty() || options_.walls_only || scene.counts().has_area()) return;
     const SceneCounts& c = scene.counts();
@@ -107,7 +106,8 @@ class SceneRow final : public TriangleSource {
     entered_ = true;
     return *slot;
   }
-  /// Where one does not fit, those after it are asked, too: the limit that is named has room for each.
+  /// Opens a file. If one does not fit, those after it are asked, too, so that the limit in the error suffices for
+  /// each.
   [[nodiscard]] std::unique_ptr<TriangleSource> open(const std::string& path) const {
     try {
       return open_scene(path, options_);
@@ -138,7 +138,10 @@ class SceneRow final : public TriangleSource {
 
 }  // namespace
 
-std::unique_ptr<TriangleSource> scene_row(std::vector<std::string> paths, const SceneOptions& options) {
+std::unique_ptr<TriangleSource> open_scenes(std::vector<std::string> paths, const SceneOptions& options) {
+  if (paths.empty()) fail(ErrorCode::bad_argument, "no scene was named; name a file, or - for stdin");
+  check_stdin_once(paths);
+  if (paths.size() == 1) return open_scene(paths[0], options);
   return std::make_unique<SceneRow>(std::move(paths), options);
 }
 

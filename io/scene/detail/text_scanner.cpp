@@ -11,11 +11,11 @@ namespace {
 bool is_line_end(char c) {
   return c == '\n' || c == '\r';
 }
-/// Vertical tab, form feed, and the mark that DOS set behind the last line.
+/// Returns whether c is a vertical tab, a form feed, or the mark that DOS set behind the last line.
 bool is_odd_blank(char c) {
   return c == '\v' || c == '\f' || c == '\x1A';
 }
-/// Ends a word: blank, line end, other control characters of ASCII.
+/// Returns whether c ends a word: a blank, a line end, or another ASCII control character.
 bool ends_word(char c) {
   return static_cast<unsigned char>(c) <= ' ';
 }
@@ -58,7 +58,7 @@ void TextScanner::line_end() {
   ++line_;
 }
 
-// Called where a run of blanks ended at a line end, a backslash, a control character or the end of the buffer.
+// Looks further where a run of blanks ended at a line end, a backslash, a control character or the end of the buffer.
 TextScanner::Next TextScanner::look_ahead() {
   if (cur_ == end_) return refill() ? Next::blank : Next::line_end;
   if (is_line_end(*cur_)) return Next::line_end;
@@ -126,7 +126,8 @@ void TextScanner::skip_word() {
   } while (cur_ == end_ && refill());
 }
 
-// from_chars leaves the value alone when the number has no double: it is too large, or nearer to 0 than any double.
+// Returns the value of a number that has no double, which from_chars leaves alone: too large, or nearer to 0 than any
+// double.
 double TextScanner::real_out_of_range(const char* last) const {
   bool large = false;  // without an exponent: large if a digit other than 0 stands before the point
   const char* c = cur_;
@@ -137,7 +138,7 @@ double TextScanner::real_out_of_range(const char* last) const {
   return large ? std::numeric_limits<double>::infinity() : 0.0;
 }
 
-// 1.#INF 1.#IND 1.#QNAN 1.#SNAN: the '#' of anything else starts a comment.
+// Skips 1.#INF 1.#IND 1.#QNAN 1.#SNAN; the '#' after any other number starts a comment.
 bool TextScanner::skip_microsoft_nan(double& value) {
   if (cur_[1] != 'I' && cur_[1] != 'Q' && cur_[1] != 'S') return false;
   value = std::numeric_limits<double>::quiet_NaN();
@@ -152,7 +153,7 @@ bool TextScanner::real(double& value) {
   if (error == std::errc::invalid_argument) return false;
   if (error == std::errc::result_out_of_range) value = real_out_of_range(last);
   cur_ += last - cur_;
-  if (cur_ == end_) refill();  // thousands of digits: does the word end here?
+  if (cur_ == end_) refill();  // a word of thousands of digits may go on in the file
   if (*cur_ == '#' && skip_microsoft_nan(value)) return true;
   return ends_number(*cur_);
 }
@@ -172,7 +173,7 @@ bool TextScanner::count(std::int64_t& value) {
   need_word();
   char* const start = cur_;
   if (integer(value) && ends_number(*cur_)) return true;
-  cur_ = start;  // nothing was refilled: need_word() left enough
+  cur_ = start;  // nothing was refilled: need_word() has left enough
   double number = 0;
   if (!real(number) || !(std::abs(number) < 9e15) || number != std::floor(number)) return false;
   value = std::int64_t(number);

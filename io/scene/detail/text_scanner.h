@@ -5,8 +5,8 @@
 #include "io/scene/scene_file.h"
 #include "lib/core/error.h"
 
-/// Words and numbers of a text file of any size, one buffer at a time. A line ends with LF, CRLF or CR;
-/// a byte order mark of UTF-8 is passed over.
+/// Reads words and numbers of a text file of any size, one buffer at a time. A line ends with LF, CRLF or CR; a byte
+/// order mark of UTF-8 is skipped.
 namespace bp {
 
 struct TextMark {
@@ -24,7 +24,7 @@ class TextScanner {
   [[nodiscard]] std::uint64_t offset() const { return begin_ + std::uint64_t(cur_ - buffer_.get()); }
   [[nodiscard]] std::uint64_t remaining() const { return file_->size() - std::min(file_->size(), offset()); }
 
-  /// Skips blanks, and line ends after a backslash. True if a word follows on this line.
+  /// Skips blanks, and line ends after a backslash. Returns true if a word follows on this line.
   bool word_on_line() {
     for (;;) {
       while (*cur_ == ' ' || *cur_ == '\t') ++cur_;
@@ -33,27 +33,28 @@ class TextScanner {
       if (next != Next::blank) return next == Next::word;
     }
   }
-  /// Skips blanks, line ends and, if `comment` is not 0, from that character to the end of the line. False at the end.
+  /// Skips blanks, line ends and, if `comment` is not 0, from that character to the end of the line. Returns false at
+  /// the end.
   bool word_anywhere(char comment = 0);
   /// Moves behind the end of this line.
   void next_line();
 
-  /// The word here (word_on_line() or word_anywhere() was true); valid until the next call. Throws if it has more than
-  /// 4096 characters.
+  /// Returns the word at the cursor (word_on_line() or word_anywhere() has returned true); valid until the next call.
+  /// Throws if it has more than 4096 characters.
   std::string_view word();
-  /// The words from here to the end of the line, with one blank between them. Throws as word().
+  /// Returns the words from here to the end of the line, with one blank between them. Throws as word().
   std::string rest_of_line();
   [[nodiscard]] char peek() const { return *cur_; }
-  void step() { cur_ += cur_ != end_; }  ///< over the character that peek() showed
-  void skip_word();                      ///< of any length
+  void step() { cur_ += cur_ != end_; }  ///< moves over the character that peek() returned
+  void skip_word();                      ///< a word of any length
 
-  /// The number here; must end at a blank, a line end or a comment. Values out of range of a double become 0 or
-  /// infinite; "nan", "inf" and Microsoft's "1.#INF" are read. False if this is not a number.
+  /// Reads a number, which must end at a blank, a line end or a comment. Values out of range of a double become 0 or
+  /// infinite; "nan", "inf" and Microsoft's "1.#INF" are read. Returns false if there is no number.
   bool real(double& value);
-  /// The integer here; may end at anything ("3/4"). Out of range it is the nearest there is. False if this is not an
-  /// integer.
+  /// Reads an integer, which may end at anything ("3/4"). Out of range it becomes the nearest that fits. Returns false
+  /// if there is no integer.
   bool integer(std::int64_t& value);
-  /// An integer that may be written as a real ("3.0") and must end as one.
+  /// Reads an integer that may be written as a real ("3.0") and must end as one.
   bool count(std::int64_t& value);
 
   [[nodiscard]] bool at_end() { return cur_ == end_ && (eof_ || !refill()); }
@@ -70,8 +71,8 @@ class TextScanner {
 
   enum class Next { blank, word, line_end };
   Next look_ahead();
-  void line_end();  // cur_ stands on one: moves behind it
-  bool refill();    // keeps what is unread; false if nothing was added
+  void line_end();  // moves behind the line end at cur_
+  bool refill();    // keeps unread characters; returns false if nothing was added
   void need_word() {
     if (!eof_ && std::size_t(end_ - cur_) < kMaxWord) refill();
   }

@@ -6,7 +6,7 @@ VertexPool::VertexPool(std::uint64_t budget_bytes, std::string temp_dir)
     : budget_bytes_(budget_bytes), temp_dir_(std::move(temp_dir)) {}
 
 void VertexPool::open_chunk() {
-  // Once spilled, the cache takes the budget and every full chunk leaves at once.
+  // Once spilled, the cache gets the budget, and every full chunk is written at once.
   if (spilled() || (chunks_.size() + 1) * kChunk * sizeof(Vec3d) > budget_bytes_) spill();
   chunks_.emplace_back(new Vec3d[kChunk]);
 }

@@ -2,7 +2,7 @@
 #include "io/scene/detail/block_cache.h"
 #include "lib/core/coords.h"
 
-/// Vertices by index, in doubles: in memory up to a budget, beyond it in a scratch file behind a block cache.
+/// Vertices by index, in doubles: in memory up to a budget, then in a scratch file behind a block cache.
 namespace bp {
 
 class VertexPool {
@@ -13,7 +13,7 @@ class VertexPool {
     if (size_ % kChunk == 0) open_chunk();
     chunks_.back()[size_++ % kChunk] = p;
   }
-  /// i < size().
+  /// Returns a vertex; i < size().
   [[nodiscard]] Vec3d operator[](std::uint64_t i) {
     return i >= spilled_ ? chunks_[std::size_t((i - spilled_) / kChunk)][i % kChunk] : read_spilled(i);
   }

@@ -4,7 +4,7 @@
 #include "io/scene/points/scene_points.h"
 #include "io/scene/points/text_copy.h"
 
-// Wavefront OBJ: the three numbers of each line "v". The lines "vn" belong to no vertex, and stay.
+// Wavefront OBJ: the three numbers of each line "v". Lines "vn" belong to no vertex, and stay.
 
 namespace bp {
 
@@ -41,13 +41,13 @@ class ObjPoints final : public ScenePoints {
   }
 
  private:
-  static constexpr std::uint64_t kShort = 7;  // characters: a float says as much
+  static constexpr std::uint64_t kShort = 7;  // characters of a number: shorter ones have the precision of a float
 
   void next(TextScanner& text);
   SceneFilePtr file_;
   TextScanner text_;
   PointBatch batch_;
-  std::vector<NumberPlace> places_;  // three for each of the batch
+  std::vector<NumberPlace> places_;  // three for each vertex of the batch
   std::uint64_t taken_ = 0;
   bool has_normals_ = false;
 };

@@ -13,9 +13,9 @@ namespace bp {
 
 namespace {
 
-using Three = std::array<std::size_t, 3>;  // properties
+using Three = std::array<std::size_t, 3>;  // numbers of properties
 
-/// The vertices, and how many elements of how many records stand before them.
+/// The vertices, and the elements before them.
 struct VertexElement {
   PlyElement element;
   std::vector<PlyElement> before;
@@ -74,7 +74,7 @@ void encode_real(std::byte* to, PlyType type, bool swap, double value) {
   }
 }
 
-/// What both kinds share: batches of vertices, one after the other.
+/// Returns a cursor at the first vertex, for both kinds of file.
 template <class Cursor>
 Cursor cursor_at_vertices(const SceneFilePtr& file, const PlyHeader& header, const VertexElement& v) {
   Cursor cursor(file, header);

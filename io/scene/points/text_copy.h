@@ -11,7 +11,7 @@
 
 namespace bp {
 
-/// Where a number stands in a text, and its value.
+/// The position of a number in a text, and its value.
 struct NumberPlace {
   std::uint64_t begin = 0, end = 0;
   double value = 0;
@@ -28,7 +28,7 @@ class TextCopy {
     out_.write(text);
     at_ = end;
   }
-  /// A number that stays keeps its text. `digits_of_float`: those of a float are enough.
+  /// Replaces a number. A number whose value stays keeps its text. `digits_of_float`: the digits of a float suffice.
   void replace(const NumberPlace& place, double value, bool digits_of_float) {
     if (value != place.value) replace(place.begin, place.end, number_text(value, digits_of_float));
   }

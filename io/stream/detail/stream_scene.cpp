@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "io/stream/stream_format.h"
+#include "io/stream/stream_layout.h"
 #include "lib/core/error.h"
 
 namespace bp::detail {
@@ -13,13 +13,14 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kHashDigits = 32;
-constexpr std::uint64_t kMostSceneTriangles = std::uint64_t(1) << 40;  // a claim beyond is damage
+constexpr std::uint64_t kMostSceneTriangles = std::uint64_t(1) << 40;  // a larger claim is damage
 
 bool is_hash(const std::string& text) {
   return text.size() == kHashDigits && text.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 
-/// Stdin cannot be read again; and control characters in a message would speak to the terminal.
+/// Returns whether a name can be kept: stdin cannot be read again, and control characters in a message would reach the
+/// terminal.
 bool is_file_name(const std::string& name) {
   constexpr unsigned char kFirstPrintable = 0x20, kDelete = 0x7f;
   return !name.empty() && name != "-" &&
@@ -31,7 +32,7 @@ bool can_be_told(const SceneFiles& scene) {
   return !scene.files.empty() && is_hash(scene.hash) && std::all_of(scene.files.begin(), scene.files.end(), has_name);
 }
 
-/// Throws nlohmann's exceptions, and Error by `damaged`.
+/// Parses a text. Throws nlohmann's exceptions, and Error by `damaged`.
 template <class Damaged>
 SceneFiles parsed(const Json& json, const Damaged& damaged) {
   if (!json.is_object() || json.size() != 4 || !json.at("files").is_array() || json.at("files").empty()) damaged();

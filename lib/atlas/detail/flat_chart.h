@@ -1,5 +1,5 @@
 #pragma once
-#include "lib/atlas/charts.h"
+#include "lib/atlas/chart.h"
 #include "lib/atlas/detail/face_regions.h"
 
 namespace bp {

@@ -1,11 +1,10 @@
-// The triangle is cut along the planes of a part that holds a corner; what lies within the part goes, the rest is
-// looked at again. Why rounding does no harm: let s be the number that a cut found for an edge from p to q, rounded as
-// it may be. Then m* = p* + s (q* - p*) is a point of the edge p*q* that p and q stand for, and all pieces with corners
-// m* cover the triangle exactly, wherever m* is. The computed m is off from m* by no more than p or q were, and a
-// rounding. So it suffices that all computed corners of a piece lie within a part, by more than they can be off.
-//
-// All of this is relative to the triangle's first corner. The differences to it are rounded once, so that they are off
-// by a share of themselves, and not of the distance from the origin.
+// Cuts the triangle along the planes of a part that holds a corner; the piece within the part is dropped, the others
+// are tested again. Why rounding does no harm: let s be the number that a cut found for an edge from p to q, with any
+// rounding. Then m* = p* + s (q* - p*) is a point of the edge p*q* that p and q approximate, and all pieces with
+// corners m* cover the triangle exactly, wherever m* is. The computed m is off from m* by no more than p or q were, and
+// a rounding. So it suffices that all computed corners of a piece lie within a part, by more than their error.
+// Coordinates are relative to the triangle's first corner. The differences to it are rounded once, so their error is a
+// share of themselves, and not of the distance from the origin.
 #include "lib/check/detail/convex_cover.h"
 
 #include <algorithm>
@@ -19,10 +18,11 @@ namespace {
 
 constexpr std::uint32_t kNoPart = ~std::uint32_t(0);
 constexpr double kUnitRoundoff = 0x1p-53;
-// In units of a height's error: how deep a cut lies within a part, and a corner of which it is to hold more.
+// Depths in units of a height's error: the depth within a part at which a cut is made, and the least depth of a corner
+// for which a part is chosen.
 constexpr double kCutDepth = 4, kCornerDepth = 16;
 
-/// Of each part's box; the hierarchy asks for triangles.
+/// Returns two corners of each part's box as a triangle, since the hierarchy takes triangles.
 std::vector<TriangleD> boxes_of(const std::vector<std::vector<TriangleD>>& parts) {
   std::vector<TriangleD> boxes;
   for (const std::vector<TriangleD>& part : parts) {
@@ -44,13 +44,14 @@ double largest(const Vec3d& v) {
 
 }  // namespace
 
-/// Each cut may add 8 roundings and a corner; the middle of a piece adds one rounding for each corner. One bound serves
-/// a whole search: a corner that an early cut left as deep as was asked then must be deep enough after the last one.
+/// Returns the frame for corners after `cuts` cuts. Each cut may add 8 roundings and a corner; the middle of a piece
+/// adds one rounding for each corner. One bound serves a whole search: a corner that an early cut left at the required
+/// depth must be deep enough after the last cut.
 ConvexCover::Local ConvexCover::Local::after(int cuts) const {
   return {origin, far, off + 10 * (cuts + 1) * kUnitRoundoff * far};
 }
 
-/// Scene units: it holds the point that p stands for.
+/// Returns a box, scene units, that holds the point that p approximates.
 Bounds3d ConvexCover::box_around(const Vec3d& p, const Local& local) {
   Bounds3d box;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -72,8 +73,9 @@ ConvexCover::ConvexCover(const std::vector<std::vector<TriangleD>>& parts) : box
   }
 }
 
-/// Each term of the value is rounded at most 8 times (lib/exact/predicates.h), and `size` bounds what n is made of. The
-/// plane's point is rounded once when it is made relative.
+/// Returns the height of p above the plane, with a bound on its error. Each term of the value is rounded at most 8
+/// times (lib/exact/predicates.h), and `size` bounds the terms of n. The plane's point is rounded once when it is made
+/// relative.
 ConvexCover::Plane::Height ConvexCover::Plane::height(const Vec3d& p, const Local& local) const {
   const Vec3d from = a - local.origin, d = p - from, steepest = absolute(n) + 16 * kUnitRoundoff * size;
   const double off = local.off + kUnitRoundoff * largest(from);
@@ -88,7 +90,7 @@ bool ConvexCover::holds(std::uint32_t part, const Vec3d& p, const Local& local, 
   });
 }
 
-/// True only if the point that p stands for lies beyond a plane of the part.
+/// Returns true only if the point that p approximates lies beyond a plane of the part.
 bool ConvexCover::misses(std::uint32_t part, const Vec3d& p, const Local& local) const {
   return parts_[part].empty() || std::any_of(parts_[part].begin(), parts_[part].end(), [&](const Plane& plane) {
            const Plane::Height height = plane.height(p, local);
@@ -96,13 +98,13 @@ bool ConvexCover::misses(std::uint32_t part, const Vec3d& p, const Local& local)
          });
 }
 
-/// True only if no part holds the point that p stands for.
+/// Returns true only if no part holds the point that p approximates.
 bool ConvexCover::is_bare(const Vec3d& p, const Local& local) const {
   return !visit(box_around(p, local), [&](std::uint32_t part) { return !misses(part, p, local); });
 }
 
-/// True only if some point of the piece lies in no part: gaps are looked for at its corners, and from each of them
-/// towards its middle in steps that double.
+/// Returns true only if some point of the piece lies in no part. Gaps are searched for at its corners, and from each
+/// corner towards its middle in steps that double.
 bool ConvexCover::shows_bare(const Piece& piece, const Local& frame) const {
   constexpr int kMostHalvings = 48;
   Vec3d middle{};
@@ -117,7 +119,7 @@ bool ConvexCover::shows_bare(const Piece& piece, const Local& frame) const {
   return false;
 }
 
-/// Of those that hold the first corner well, one that holds most others.
+/// Returns, among the parts that hold the first corner well, the one that holds most other corners.
 std::uint32_t ConvexCover::best_part(const Piece& piece, const Local& frame) const {
   std::uint32_t best = kNoPart;
   std::size_t most = 0;
@@ -132,8 +134,8 @@ std::uint32_t ConvexCover::best_part(const Piece& piece, const Local& frame) con
   return best;
 }
 
-/// Takes the last piece away and puts back what of it is not within the part. False if the part does not take its
-/// first corner.
+/// Takes the last piece away and puts back its pieces outside of the part. Returns false if the part does not hold its
+/// first corner well.
 bool ConvexCover::take_from(std::vector<Piece>& pieces, std::uint32_t part, int most_cuts, const Local& frame) const {
   Piece piece = std::move(pieces.back());
   pieces.pop_back();
@@ -167,19 +169,19 @@ bool ConvexCover::take_from(std::vector<Piece>& pieces, std::uint32_t part, int 
 }
 
 Answer ConvexCover::covers(const TriangleD& t, double moved) const {
-  constexpr int kFewCuts = 32;  // the fewer may be made, the less is lost to rounding
+  constexpr int kFewCuts = 32;  // the fewer cuts are allowed, the less is lost to rounding
   double far = 0;
   for (const Vec3d& p : t) far = std::max(far, largest(p - t[0]));
   const Local local{t[0], far, moved};
   const auto holds_all = [&](std::uint32_t part) {
     return std::all_of(t.begin(), t.end(), [&](const Vec3d& p) { return holds(part, p - t[0], local.after(0), 1); });
   };
-  if (moved > 0 && visit(bounds_of(t), holds_all)) return Answer::proven;  // a cut would ask for more
+  if (moved > 0 && visit(bounds_of(t), holds_all)) return Answer::proven;  // a cut would need more depth
   const Answer answer = covers_by(t, kFewCuts, local.after(kFewCuts));
   return answer == Answer::undecided ? covers_by(t, kMostCuts, local.after(kMostCuts)) : answer;
 }
 
-/// With so many cuts of a piece, one after the other.
+/// Covers the triangle with at most so many cuts of a piece, one after the other.
 Answer ConvexCover::covers_by(const TriangleD& t, int most_cuts, const Local& frame) const {
   std::vector<Piece> pieces(1);
   for (const Vec3d& p : t) pieces[0].corners.push_back(p - t[0]);

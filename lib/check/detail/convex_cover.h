@@ -6,20 +6,20 @@
 #include "lib/core/box.h"
 #include "lib/geometry/triangle_bvh.h"
 
-/// Whether open convex solids cover a triangle together.
+/// Decides whether open convex solids together cover a triangle.
 namespace bp {
 
 class ConvexCover {
  public:
-  /// A part is what lies below the planes of all its triangles, which face outwards.
+  /// A part is the solid below the planes of all its triangles, which face outwards.
   explicit ConvexCover(const std::vector<std::vector<TriangleD>>& parts);
 
-  /// Whether each point of the triangle lies strictly within a part. In floating point, with bounds of all rounding:
-  /// both `proven` and `refuted` are certain. Not decided is what parts cover that overlap by less than some 1e-13 of
-  /// their size for each of a few cuts, and what must be cut into more than kMostPieces to see it. Coordinates are
-  /// taken relative to the triangle, so that its distance from the origin does not matter. Safe to call from several
-  /// threads. `moved`: so it is wherever the triangle's corners, and the planes of the parts, come to lie within that
-  /// distance.
+  /// Decides whether each point of the triangle lies strictly within a part. In floating point, with bounds on all
+  /// rounding: both `proven` and `refuted` are certain. Undecided are triangles whose parts overlap by less than some
+  /// 1e-13 of their size for each of a few cuts, and triangles that would need more than kMostPieces. Coordinates are
+  /// taken relative to the triangle, so that its distance from the origin does not matter. Thread-safe. `moved`: the
+  /// answer holds wherever the triangle's corners, and the planes of the parts, lie within this distance of their
+  /// places.
   [[nodiscard]] Answer covers(const TriangleD& t, double moved = 0) const;
 
   /// Calls f(part) for each part whose box meets `box`, until f returns true. Returns whether it did.
@@ -30,19 +30,19 @@ class ConvexCover {
 
  private:
   static constexpr std::size_t kMostPieces = 100'000;
-  static constexpr int kMostCuts = 500;  // one after the other
+  static constexpr int kMostCuts = 500;  // cuts of a piece, one after the other
 
   /// A frame of coordinates around a triangle. Points are relative to `origin`, and off by `off` along each axis.
   struct Local {
     Vec3d origin;
-    double far;  // the largest coordinate
+    double far;  // the largest coordinate in the frame
     double off = 0;
     [[nodiscard]] Local after(int cuts) const;  // of the corners of a piece, and of its middle
   };
-  /// l(p) = n . (p - a) is above 0 beyond the plane.
+  /// A plane: l(p) = n . (p - a) is above 0 beyond it.
   struct Plane {
-    Vec3d a, n, size;  // size: the sum of what n is the difference of
-    /// l(p), and how far it may be off.
+    Vec3d a, n, size;  // size: sums of the terms of n in absolute value
+    /// The height l(p), and a bound on its error.
     struct Height {
       double value, error;
     };
@@ -51,7 +51,7 @@ class ConvexCover {
   [[nodiscard]] static Bounds3d box_around(const Vec3d& p, const Local& local);
   struct Piece {
     std::vector<Vec3d> corners;
-    int cuts = 0;  // made before
+    int cuts = 0;  // cuts made before
   };
 
   [[nodiscard]] bool holds(std::uint32_t part, const Vec3d& p, const Local& local, double slack) const;

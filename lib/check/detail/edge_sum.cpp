@@ -30,7 +30,7 @@ struct SipState {
     rounds(2);
     v0 ^= word;
   }
-  /// `bytes`: all that were taken.
+  /// Returns the hash. `bytes`: the number of bytes taken.
   std::array<std::uint64_t, 2> finish(std::uint64_t bytes) {
     take(bytes << 56);
     v2 ^= 0xee;

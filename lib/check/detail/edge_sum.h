@@ -4,11 +4,11 @@
 
 #include "lib/core/coords.h"
 
-/// Is a set of triangles closed? Told without keeping it.
+/// Tells whether a set of triangles is closed, without keeping the set.
 namespace bp {
 
-/// A secret of 128 bits. Whoever knows the key can choose open sets of edges whose sum is zero, so that a key of one
-/// run must not be known when its scenes are made.
+/// A secret of 128 bits. Whoever knows the key can choose open sets of edges whose sum is zero, so the key of a run
+/// must be drawn after its scenes were made.
 struct EdgeKey {
   std::uint64_t words[2];
   [[nodiscard]] static EdgeKey drawn();  ///< from the system's source of random numbers
@@ -21,7 +21,7 @@ class EdgeSum {
  public:
   explicit EdgeSum(const EdgeKey& key) : key_(key) {}
   void add(const TriangleD& t);
-  void add(const EdgeSum& s) { low_ += s.low_, high_ += s.high_; }  ///< of the same key
+  void add(const EdgeSum& s) { low_ += s.low_, high_ += s.high_; }  ///< both sums must have the same key
   [[nodiscard]] bool zero() const { return low_ == 0 && high_ == 0; }
 
  private:

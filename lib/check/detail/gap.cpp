@@ -1,5 +1,5 @@
-// The points of two triangles that are nearest to each other are found as usual, corner to face and edge to edge, and
-// prove nothing. The direction between them does: both triangles lie beyond planes across it, so many units apart.
+// The nearest points of two triangles are found as usual, corner to face and edge to edge, and prove nothing. The
+// direction between them gives a proof: both triangles lie beyond planes across it, so many units apart.
 #include "lib/check/detail/gap.h"
 
 #include <algorithm>
@@ -13,7 +13,8 @@ namespace bp {
 
 namespace {
 
-constexpr double kRounding = 1e-14;  // of what is computed from some twenty products, in sizes of the triangles
+// Relative to the triangles' size: rounding of values computed from some twenty products.
+constexpr double kRounding = 1e-14;
 
 struct Nearest {
   Vec3d on_a{}, on_b{};
@@ -29,7 +30,7 @@ double clamped(double x) {
   return std::clamp(x, 0.0, 1.0);
 }
 
-/// Of the segments p + s u and q + t v.
+/// Offers the nearest points of the segments p + s u and q + t v.
 void offer_edges(const Vec3d& p, const Vec3d& u, const Vec3d& q, const Vec3d& v, Nearest& nearest) {
   const Vec3d w = p - q;
   const double uu = dot(u, u), vv = dot(v, v), uv = dot(u, v), uw = dot(u, w), vw = dot(v, w);
@@ -41,7 +42,7 @@ void offer_edges(const Vec3d& p, const Vec3d& u, const Vec3d& q, const Vec3d& v,
   nearest.offer(p + s * u, q + t * v);
 }
 
-/// Where the edge from p along u crosses the triangle.
+/// Offers the point where the edge from p along u crosses the triangle.
 void offer_crossing(const Vec3d& p, const Vec3d& u, const TriangleD& t, Nearest& nearest) {
   const double along = along_segment(p, u, t);
   const Vec3d x = p + along * u;
@@ -69,7 +70,7 @@ double size_around(const Vec3d& p, const TriangleD& a, const TriangleD& b) {
   return size;
 }
 
-/// All that is as near as `by`.
+/// Returns a box around all points nearer than `by`.
 Bounds3d box_around(const TriangleD& t, double by) {
   Bounds3d box = bounds_of(t);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -94,7 +95,7 @@ Answer keeps_gap(const TriangleD& a, const TriangleD& b, double margin) {
   for (const Vec3d& c : a) before = std::max(before, dot(n, c - p));
   for (const Vec3d& c : b) behind = std::min(behind, dot(n, c - p));
   const double between = (behind - before) / length(n);
-  // p is where the planes are measured from: wherever it is, they are so far apart.
+  // The planes are measured from p; wherever p is, they are this far apart.
   return between >= margin + kRounding * (size_around(p, a, b) + nearest.distance) ? Answer::proven : Answer::undecided;
 }
 
@@ -105,7 +106,7 @@ GapAnswer keeps_gap(const TriangleD& t, const TriangleBvh& surface, double margi
     if (answer == Answer::refuted ||
         (answer == Answer::undecided && (all.answer == Answer::proven || item.id < all.item)))
       all = {answer, item.id};
-    return answer == Answer::refuted;  // the next one would not change the answer
+    return answer == Answer::refuted;  // the next triangle would not change the answer
   });
   return all;
 }

@@ -20,15 +20,15 @@ namespace bp {
 
 namespace {
 
-constexpr std::int64_t kSetsAtOnce = 8;      // of voxels, while the hidden ones are told
-constexpr std::int32_t kTile = 192;          // voxels, of the closing
-constexpr double kMostScaleVox = 4000;       // of any closing
-constexpr double kMostVoxels = 1 << 20;      // along a side
-constexpr double kMostFineVoxels = 1 << 12;  // the same, where vertices are no lattice points: 2^28 units
+constexpr std::int64_t kSetsAtOnce = 8;      // sets of voxels in memory while the hidden ones are found
+constexpr std::int32_t kTile = 192;          // voxels; tiles of the closing
+constexpr double kMostScaleVox = 4000;       // largest scale of a closing, voxels
+constexpr double kMostWideVoxels = 1 << 20;  // along a side
+constexpr double kMostFineVoxels = 1 << 12;  // as kMostWideVoxels, if vertices are no lattice points: 2^28 units
 
 using Corners = std::array<LatticeCoord, 3>;
 
-/// out = f(a, b), word by word; boxes are the same.
+/// Sets a = f(a, b), word by word; the boxes must be equal.
 void combine(BitBox& a, const BitBox& b, std::uint64_t (*f)(std::uint64_t, std::uint64_t)) {
   for (std::int64_t i = 0; i < a.word_count(); ++i) a.data()[i] = f(a.data()[i], b.data()[i]);
 }
@@ -64,21 +64,21 @@ BitBox closing_of(const BitBox& voxels, const HidingRecipe& recipe) {
     ClosingScratch scratch;
     close_tile(around, field.sample(recipe.frame, tile.grown(halo.erosion_vox)), halo, {recipe.element}, tile, closed,
                scratch);
-    copy_voxels(closed, all);  // tiles of whole words
+    copy_voxels(closed, all);  // tiles consist of whole words
   });
   return all;
 }
 
-/// The definition, set by set. The border of the box is empty.
+/// Returns the hidden voxels by their definition, set by set. The border of the box is empty.
 BitBox hidden_voxels(const BitBox& touched, const HidingRecipe& recipe) {
   const BitBox closing = closing_of(touched, recipe);
   BitBox reached(touched.box());
   reached.set(touched.box().min);
-  grow_within(inverse(closing), reached);  // O
+  grow_within(inverse(closing), reached);  // the set O
   BitBox open = closing;
   combine(open, reached, either);
   combine(open, touched, less);
-  grow_within(open, reached);  // O'
+  grow_within(open, reached);  // the set O'
   BitBox seen = reached;
   for (int layer = 0; layer < 2; ++layer) {
     dilate(seen, 1);
@@ -113,7 +113,7 @@ class HiddenCheck {
     const GridFrame& frame = recipe_.frame;
     if (!(frame.voxel > 0) || !(recipe_.scale_world >= 0) || recipe_.scale_world > kMostScaleVox * frame.voxel)
       return undecided("the voxel or the scale that the file names is out of range");
-    if (round_corners(kMostVoxels)) {
+    if (round_corners(kMostWideVoxels)) {
       const bool exact = std::equal(corners_.begin(), corners_.end(), mesh_.points.begin(),
                                     [&](const LatticeCoord& l, const Vec3d& p) { return frame.world(l) == p; });
       if (exact) return true;
@@ -123,7 +123,8 @@ class HiddenCheck {
     return undecided("the proxy lies far from the voxels that the file names");
   }
 
-  /// To the nearest unit: by half of one, and by less than 2^-10 of one in the double arithmetic before.
+  /// Rounds corners to the nearest unit: by half of a unit, and by less than 2^-10 of one in the double arithmetic
+  /// before.
   bool round_corners(double most_voxels) {
     corners_.clear();
     for (const Vec3d& p : mesh_.points) {
@@ -138,7 +139,7 @@ class HiddenCheck {
     return true;
   }
 
-  /// Of the scene, with room for the closing and for the outside.
+  /// Finds the box of the scene, with room for the closing and for the outside.
   bool find_box(std::uint64_t memory_bytes) {
     Bounds3d bounds;
     walls_.rewind();
@@ -152,7 +153,7 @@ class HiddenCheck {
     double bytes = double(kSetsAtOnce) / 8;
     for (const Vec3d& p : {bounds.min, bounds.max}) {
       for (const double x : recipe_.frame.to_voxels(p))
-        if (!(std::abs(x) < kMostVoxels))
+        if (!(std::abs(x) < kMostWideVoxels))
           return undecided("the scene reaches far beyond the voxels that the file names");
     }
     box_ = voxel_bounds(recipe_.frame, bounds).grown(std::int32_t(std::ceil(reach)) + 2);
@@ -177,7 +178,7 @@ class HiddenCheck {
     return touched;
   }
 
-  /// No face of the proxy has a point in the open cube of a voxel that is not hidden.
+  /// Checks that no face of the proxy has a point in the open cube of a voxel that is not hidden.
   void check_faces(const BitBox& hidden) {
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
       Corners corners;
@@ -196,7 +197,7 @@ class HiddenCheck {
       undecided("the proxy comes as near to a voxel that is not hidden as its vertices are rounded");
   }
 
-  /// Those that the triangle may meet.
+  /// Calls f for the voxels that the triangle may meet.
   void for_each_voxel(const Corners& t, const std::function<void(VoxelCoord)>& f) const {
     VoxelBox box;
     for (int i = 0; i < 3; ++i) {
@@ -204,7 +205,7 @@ class HiddenCheck {
       box.min[i] = std::int32_t(floor_div<std::int64_t>(low, per_voxel_)) - 1;
       box.max[i] = std::int32_t(floor_div<std::int64_t>(high, per_voxel_)) + 2;
     }
-    for (std::int32_t z = box.min.z; z < box.max.z; ++z) {  // layer by layer: a large triangle's box is large
+    for (std::int32_t z = box.min.z; z < box.max.z; ++z) {  // layer by layer, as the box of a large triangle is large
       BitBox layer(VoxelBox{{box.min.x, box.min.y, z}, {box.max.x, box.max.y, z + 1}});
       const FixedTriangle one{fixed(t[0]), fixed(t[1]), fixed(t[2])};
       voxelize_surface({&one, 1}, layer);
@@ -212,9 +213,9 @@ class HiddenCheck {
     }
   }
 
-  /// No voxel that is not hidden lies within the proxy. The surface meets no open cube of one. So two of them that
-  /// share a face lie on one side, unless a triangle lies in the plane of that face: such voxels are looked at one by
-  /// one. Where vertices were rounded, the surface does not come near to such a face.
+  /// Checks that no voxel that is not hidden lies within the proxy. The surface meets no such open cube. So two of
+  /// these voxels that share a face lie on one side, unless a triangle lies in the plane of that face: such voxels are
+  /// tested one by one. If vertices were rounded, the surface does not come near to such a face.
   void check_swallowed(const BitBox& hidden) {
     if (report_.exposed.count > 0 || is_near_) return;  // the sides are not known
     const BitBox others = inverse(hidden), along = beside_level_faces(others.box());
@@ -232,7 +233,7 @@ class HiddenCheck {
     });
   }
 
-  /// Voxels that share a point with a triangle which lies in a plane between voxels.
+  /// Returns the voxels that share a point with a triangle in a plane between voxels.
   [[nodiscard]] BitBox beside_level_faces(const VoxelBox& box) const {
     BitBox beside(box);
     if (slack_ > 0) return beside;
@@ -275,9 +276,9 @@ class HiddenCheck {
   TriangleSource& walls_;
   const HidingRecipe& recipe_;
   const std::size_t max_examples_;
-  std::vector<LatticeCoord> corners_;  // in units of which a voxel has per_voxel_
+  std::vector<LatticeCoord> corners_;  // per_voxel_ units are a voxel
   std::int64_t per_voxel_ = kLatticePerVoxel;
-  std::int64_t slack_ = 0;  // units: that corners may be off
+  std::int64_t slack_ = 0;  // error of corners, units
   bool is_near_ = false;    // a face may meet a voxel that is not hidden
   VoxelBox box_;
   HiddenReport report_;
@@ -292,7 +293,7 @@ LatticeCoord lattice_cross(const LatticeCoord& a, const LatticeCoord& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// Whether the axis has the triangle on one side of the open cube (-half, half)^3.
+/// Returns whether the triangle lies on one side of the open cube (-half, half)^3 along the axis.
 bool parts(const Corners& t, const LatticeCoord& axis, std::int64_t half) {
   const Wide reach = half * (Wide(std::abs(axis.x)) + std::abs(axis.y) + std::abs(axis.z));
   if (reach == 0) return false;
@@ -303,7 +304,7 @@ bool parts(const Corners& t, const LatticeCoord& axis, std::int64_t half) {
 }  // namespace
 
 bool meets_open_voxel(const Corners& triangle, VoxelCoord voxel, std::int64_t per_voxel, std::int64_t grow) {
-  const std::int64_t half = per_voxel + 2 * grow;  // in halves of a unit
+  const std::int64_t half = per_voxel + 2 * grow;  // half a unit is 1 here
   Corners t;
   for (std::size_t k = 0; k < 3; ++k) {
     for (int i = 0; i < 3; ++i) t[k][i] = 2 * triangle[k][i] - (2 * std::int64_t(voxel[i]) + 1) * per_voxel;

@@ -13,17 +13,17 @@ namespace bp {
 
 namespace {
 
-constexpr std::uint64_t kBytesPerTriangle = 400;  // as read, and welded
+constexpr std::uint64_t kBytesPerTriangle = 400;  // bytes of a triangle as read, and welded
 constexpr int kWays = 6;
 
-/// `p` seen so that axis way / 2 points up; for odd ways, down.
+/// Turns p so that axis way / 2 points up; for odd ways, down.
 Vec3d turned(const Vec3d& p, int way) {
   const auto axis = std::size_t(way / 2);
   const Vec3d q{p[(axis + 1) % 3], p[(axis + 2) % 3], p[axis]};
   return way % 2 == 0 ? q : Vec3d{-q[0], -q[1], -q[2]};
 }
 
-/// Whether the triangle lies before the point, for one who looks at it against the way.
+/// Returns whether the triangle lies in front of the point for an eye that looks against the way.
 bool covers(const TriangleD& t, const Vec3d& point, int way) {
   const auto axis = std::size_t(way / 2);
   for (const std::size_t i : {(axis + 1) % 3, (axis + 2) % 3}) {
@@ -33,7 +33,7 @@ bool covers(const TriangleD& t, const Vec3d& point, int way) {
   return crossing_above({turned(t[0], way), turned(t[1], way), turned(t[2], way)}, turned(point, way)) != 0;
 }
 
-/// Closed shells, and how often each winds around the points.
+/// Closed shells, and their winding numbers around the points.
 class Shells {
  public:
   Shells(IndexedMesh soup, const std::vector<Vec3d>& points) {

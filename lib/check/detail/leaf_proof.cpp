@@ -8,8 +8,8 @@
 #include "lib/core/vec3.h"
 
 // A leaf's triangle lies within the error of a convex part if its corners do. In the plane of the part it is grown by
-// 3/2 errors, so that neighbours whose corners are rounded leave no gap: lines beside its edges, and across its sharp
-// corners. A point between these lines is farther than 1.5 * sqrt(2) errors from it nowhere, and 2.4 in space.
+// 3/2 errors, by lines along its edges and across its sharp corners, so that neighbours with rounded corners leave no
+// gap. A point between these lines is nowhere farther than 1.5 * sqrt(2) errors from it, and 2.4 in space.
 
 namespace bp {
 
@@ -20,7 +20,7 @@ using Polygon = std::vector<Flat>;
 using FlatTriangle = std::array<Flat, 3>;
 
 constexpr std::size_t kMostPieces = 200;
-constexpr int kMostDeep = 12;     // halves of halves
+constexpr int kMostDeep = 12;     // depth of halving
 constexpr double kGrowth = 1.5;   // errors
 constexpr double kThinReach = 3;  // errors
 
@@ -35,7 +35,7 @@ Flat unit(const Flat& a) {
   return {a[0] / l, a[1] / l};
 }
 
-/// The side of a line: normal · p <= most.
+/// A half-plane: the points p with normal · p <= most.
 struct HalfPlane {
   Flat normal;
   double most;
@@ -61,14 +61,14 @@ class Plane {
   Vec3d from_, u_, v_;
 };
 
-constexpr double kLine = 1e-12;  // of a square: a smaller area is none
+constexpr double kLine = 1e-12;  // relative to a square: a smaller area counts as none
 
 double doubled_area(const FlatTriangle& t) {
   const Flat a = minus(t[1], t[0]), b = minus(t[2], t[0]);
   return a[0] * b[1] - a[1] * b[0];
 }
 
-/// Seen from behind, and not by rounding of a thin triangle.
+/// Returns whether the triangle is seen from behind, not only by the rounding of a thin triangle.
 bool is_turned_over(const FlatTriangle& t, double error) {
   double around = 0;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -78,7 +78,7 @@ bool is_turned_over(const FlatTriangle& t, double error) {
   return -doubled_area(t) / 2 > error * around;
 }
 
-/// Between them lies what a triangle covers; nothing if it is a line there.
+/// Returns the half-planes whose common part a triangle covers; none if the triangle is a line there.
 std::vector<HalfPlane> sides_of(FlatTriangle t, double growth) {
   const Flat a = minus(t[1], t[0]), b = minus(t[2], t[0]);
   const double area = doubled_area(t);
@@ -96,7 +96,7 @@ std::vector<HalfPlane> sides_of(FlatTriangle t, double growth) {
   return sides;
 }
 
-/// What of a convex polygon lies on one side of a line, or strictly on the other.
+/// Returns the part of a convex polygon on one side of a line, or strictly on the other side.
 Polygon cut(const Polygon& polygon, const HalfPlane& side, bool inside) {
   Polygon kept;
   for (std::size_t k = 0; k < polygon.size(); ++k) {
@@ -111,7 +111,7 @@ Polygon cut(const Polygon& polygon, const HalfPlane& side, bool inside) {
   return kept;
 }
 
-/// Takes what lies between the sides out of a polygon; the rest goes to `rest`, in pieces.
+/// Removes the area between the sides from a polygon; the rest goes to `rest`, in pieces.
 void take_out(const std::vector<HalfPlane>& sides, const Polygon& polygon, std::vector<Polygon>& rest) {
   std::vector<Polygon> pieces;
   Polygon within = polygon;
@@ -121,10 +121,6 @@ void take_out(const std::vector<HalfPlane>& sides, const Polygon& polygon, std::
     if (within.empty()) return rest.push_back(polygon);
   }
   for (Polygon& piece : pieces) rest.push_back(std::move(piece));
-}
-
-double area_of(const TriangleD& t) {
-  return length(cross(t[1] - t[0], t[2] - t[0])) / 2;
 }
 
 using Cover = LeafProof::Cover;
@@ -143,7 +139,7 @@ Cover cover_at_once(const Polygon& polygon, const std::vector<FlatTriangle>& cov
   return Cover::missing;
 }
 
-/// In halves, if that takes too many pieces.
+/// Covers a polygon; if that takes too many pieces, each half of it.
 Cover cover(const Polygon& polygon, const std::vector<FlatTriangle>& covers, double growth, int depth) {
   const Cover at_once = cover_at_once(polygon, covers, growth);
   if (at_once != Cover::undecided || depth == kMostDeep) return at_once;
@@ -188,7 +184,8 @@ Bounds3d bounds_around(const std::vector<Vec3d>& part, double by) {
   return box;
 }
 
-/// All of it by one face: what is left there of a triangle that the neighbour shows.
+/// Returns whether all of the part lies along one face of the cell: it may be the edge of a triangle that the neighbour
+/// shows.
 bool is_along_face(const std::vector<Vec3d>& part, const Bounds3d& cell, double within) {
   for (std::size_t i = 0; i < 3; ++i) {
     for (const double at : {cell.min[i], cell.max[i]}) {
@@ -199,7 +196,7 @@ bool is_along_face(const std::vector<Vec3d>& part, const Bounds3d& cell, double 
   return false;
 }
 
-/// Whether its corners may lie on a line once each has moved by `error`. Then all are within two errors of the line
+/// Returns whether its corners may lie on a line once each moves by `error`. Then all are within two errors of the line
 /// through the two that are farthest apart.
 bool may_be_line(const std::vector<Vec3d>& part, double error) {
   Vec3d from = part[0], along{};
@@ -234,7 +231,7 @@ std::vector<Vec3d> part_within(const TriangleD& t, const Bounds3d& box) {
   return polygon;
 }
 
-/// The largest first: they leave the fewest pieces.
+/// Returns the triangles near a part, the largest first: they leave the fewest pieces.
 std::vector<const TriangleBvh::Item*> LeafProof::near(const std::vector<Vec3d>& part, double error) const {
   const Bounds3d box = bounds_around(part, error);
   const auto is_near = [&](const Vec3d& p) {

@@ -14,8 +14,8 @@ namespace {
 
 using Index = std::uint32_t;
 
-/// For each vertex of the input, the number of its position among the distinct ones, in the order of first appearance;
-/// -0 equals 0.
+/// Returns, for each vertex of the input, the number of its position among the distinct ones, in the order of first
+/// appearance; -0 equals 0.
 std::vector<Index> merge_positions(const IndexedMesh& mesh, WeldedMesh& welded, CheckReport& report) {
   std::vector<Index> order;
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
@@ -24,7 +24,7 @@ std::vector<Index> merge_positions(const IndexedMesh& mesh, WeldedMesh& welded, 
     const Vec3d &p = mesh.vertices[a], &q = mesh.vertices[b];
     return p < q || (!(q < p) && a < b);
   });
-  std::vector<Index> first(mesh.vertices.size());  // per vertex: the lowest at the same position
+  std::vector<Index> first(mesh.vertices.size());  // per vertex: the lowest vertex at the same position
   std::iota(first.begin(), first.end(), 0);
   for (std::size_t i = 1; i < order.size(); ++i)
     if (mesh.vertices[order[i]] == mesh.vertices[order[i - 1]]) first[order[i]] = first[order[i - 1]];
@@ -43,12 +43,12 @@ std::vector<Index> merge_positions(const IndexedMesh& mesh, WeldedMesh& welded, 
 }
 
 struct EdgeUse {
-  Index to;        // the other end; the lower end names the bucket
-  Index triangle;  // its number
+  Index to;        // the higher end of an edge; the lower end names the bucket
+  Index triangle;  // number of the triangle
   int direction;   // +1 from the lower to the higher end
 };
 
-/// All edges, grouped by their lower end, then by the other, then by triangle.
+/// All edges, grouped by their lower end, then by the higher end, then by triangle.
 struct EdgeTable {
   std::vector<std::size_t> begin;  // per vertex
   std::vector<EdgeUse> uses;
@@ -62,7 +62,7 @@ template <class F>
 void for_each_edge(const WeldedMesh& mesh, F&& f) {
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& c = mesh.triangles[t];
-    // A triangle with a repeated corner is an edge there and back: without it the rest is as closed as with it.
+    // A triangle with a repeated corner is an edge there and back: whether the rest is closed does not depend on it.
     if (has_repeated_corner(c)) continue;
     for (std::size_t e = 0; e < 3; ++e) f(Index(t), c[e], c[(e + 1) % 3]);
   }
@@ -87,7 +87,7 @@ EdgeTable collect_edges(const WeldedMesh& mesh) {
   return table;
 }
 
-/// Midpoint without overflow.
+/// Returns the midpoint without overflow.
 Vec3d middle(const Vec3d& a, const Vec3d& b) {
   return {a[0] / 2 + b[0] / 2, a[1] / 2 + b[1] / 2, a[2] / 2 + b[2] / 2};
 }
@@ -134,7 +134,7 @@ CornerTable collect_corners(const WeldedMesh& mesh) {
   return table;
 }
 
-/// Number of groups of triangles around a vertex that are connected by edges at it.
+/// Returns the number of groups of triangles around a vertex that are connected by edges at it.
 std::size_t count_fans(const CornerTable& table, std::size_t vertex, std::vector<std::array<Index, 2>>& ends) {
   const std::size_t begin = table.begin[vertex], n = table.begin[vertex + 1] - begin;
   ends.clear();  // (other end of an edge, corner)

@@ -56,7 +56,8 @@ class VolumeSign {
     }
     ++count_;
   }
-  /// 0: cannot tell. At most 3 (differences) + 2 (products) + 1 + 3 n (sums) roundings reach any term.
+  /// Returns the sign if it is certain; 0 if not. At most 3 (differences) + 2 (products) + 1 + 3 n (sums) roundings
+  /// reach any term.
   [[nodiscard]] int certain() const {
     const double bound = (3 * double(count_) + 16) * 0x1p-53 * permanent_;
     return sum_ > bound ? 1 : -sum_ > bound ? -1 : 0;
@@ -68,7 +69,7 @@ class VolumeSign {
   std::uint64_t count_ = 0;
 };
 
-/// The same, exactly: the sum of the determinants of the corners themselves.
+/// Returns the exact sign: that of the sum of the corners' determinants.
 int exact_volume_sign(const WeldedMesh& mesh, const std::vector<std::uint32_t>& triangles) {
   const auto sum = std::make_unique<Expansion<kAnyLength>>();
   for (const std::uint32_t number : triangles) {

@@ -11,7 +11,7 @@ namespace bp {
 
 namespace {
 
-/// Of boxes that meet.
+/// Returns the common part of two boxes that meet.
 Bounds3d common(Bounds3d a, const Bounds3d& b) {
   for (std::size_t i = 0; i < 3; ++i) {
     a.min[i] = std::max(a.min[i], b.min[i]);
@@ -64,7 +64,8 @@ TileBody::Side TileBody::side_of(const TriangleD& t, const Bounds3d& bounds, con
   return touches ? Side::touching : side_of_part(t, *cell, growth, known);
 }
 
-/// No face meets t in the grown cell, so all of t there lies on the side of any point of it.
+/// Returns the side of t in the cell. No face meets t in the grown cell, so each point of t there lies on the same
+/// side.
 TileBody::Side TileBody::side_of_part(const TriangleD& t, const Bounds3d& cell, double growth,
                                       KnownInside& known) const {
   std::array<Vec3d, 3> corners;
@@ -80,7 +81,7 @@ TileBody::Side TileBody::side_of_part(const TriangleD& t, const Bounds3d& cell, 
   return Side::undecided;
 }
 
-/// Of corners that all lie on one side. Those that the scene's triangles share are asked for once.
+/// Returns the side of corners that all lie on one side. Corners that triangles of the scene share are tested once.
 TileBody::Side TileBody::side_of_corners(std::span<const Vec3d> corners, KnownInside& known) const {
   const auto is_known = [&](const Vec3d& p) { return known.has(number_, p); };
   if (std::none_of(corners.begin(), corners.end(), is_known) && side_of_point(corners[0]) == Side::outside)
@@ -89,7 +90,7 @@ TileBody::Side TileBody::side_of_corners(std::span<const Vec3d> corners, KnownIn
   return Side::inside;
 }
 
-/// The side of a point of the triangle that lies within `radius` of `p`: the same, if the surface is farther.
+/// Returns the side of a point of the triangle that lies within `radius` of `p`: that of p, if the surface is farther.
 TileBody::Side TileBody::side_near(const Vec3d& p, double radius) const {
   if (surface_->bvh().nearest(p).distance_squared <= 16 * radius * radius) return Side::undecided;
   return side_of_point(p);

@@ -9,8 +9,8 @@
 
 namespace bp {
 
-/// Points that are known to lie inside of the content of a tile. It forgets: a table of 64 KiB in which the
-/// last comer stays.
+/// Points that are known to lie inside the content of a tile. Forgets: a table of 64 KiB in which the newest point
+/// stays.
 class KnownInside {
  public:
   [[nodiscard]] bool has(std::size_t tile, const Vec3d& p) const {
@@ -36,21 +36,21 @@ class KnownInside {
   std::vector<Entry> entries_ = std::vector<Entry>(kEntries);
 };
 
-/// The content of a tile that encloses what of the scene lies in its cell.
+/// The content of a tile, which must enclose the part of the scene in its cell.
 class TileBody {
  public:
   enum class Side { inside, touching, outside, undecided };
 
-  /// `number`: of the tile, for what is known of it.
+  /// `number`: the tile's, for the table of known points.
   TileBody(const IndexedMesh& content, std::size_t number);
 
-  /// A closed, oriented, embedded 2-manifold.
+  /// Returns whether the content is a closed, oriented, embedded 2-manifold.
   [[nodiscard]] bool sound() const { return sound_; }
-  /// Where t lies, of which only what is in the cell counts; in no cell: all of t. `bounds`: of t.
+  /// Returns the side of the part of t in the cell; without a cell, of all of t. `bounds`: those of t.
   [[nodiscard]] Side side_of(const TriangleD& t, const Bounds3d& bounds, const std::optional<Bounds3d>& cell,
                              KnownInside& known) const;
-  /// Of a triangle that lies inside: what is in the cell does so, too, in the file, where each of its points may be off
-  /// by `scene_off`, and the content's by as much as its reader says.
+  /// For a triangle that lies inside: returns whether its part in the cell lies inside in the file, too, where each of
+  /// its points may be off by `scene_off`, and those of the content by as much as its reader says.
   [[nodiscard]] bool keeps_clear(const TriangleD& t, const std::optional<Bounds3d>& cell, double scene_off) const;
 
  private:
@@ -63,7 +63,7 @@ class TileBody {
   WeldedMesh mesh_;
   std::optional<Surface> surface_;
   bool closed_ = false, sound_ = false;
-  double off_ = 0;  ///< of the content
+  double off_ = 0;  ///< error of the content's points
 };
 
 }  // namespace bp

@@ -4,18 +4,8 @@
 #include <bit>
 #include <limits>
 
-#include "lib/closing/closing.h"
 #include "lib/closing/detail/halves.h"
 #include "lib/closing/detail/rows.h"
-
-namespace bp {
-
-std::size_t turned_cubes_bytes(std::int32_t reach) {
-  constexpr std::size_t kEnough = 4 << 20;
-  return std::max(kEnough, 2 * detail::CubeRows::most_bytes(reach));
-}
-
-}  // namespace bp
 
 namespace bp::detail {
 
@@ -85,11 +75,15 @@ bool OrientedDilation::turns(const OrientationField& field, const VoxelBox& regi
   return cubes_.widest.turned;
 }
 
+std::size_t OrientedDilation::least_bytes(std::int32_t reach) {
+  constexpr std::size_t kEnough = 4 << 20;
+  return std::max(kEnough, 2 * CubeRows::most_bytes(reach));
+}
+
 void OrientedDilation::run(const BitBox& solid, const ScaleLattice& scale, BitBox& out, std::size_t most_bytes) {
   const ScaleRange range = scale_range(scale, out.box());
   const int coarse = coarsest(range);
-  most_bytes_ =
-      std::max(most_bytes, turned_cubes_bytes(cubes_.widest.reach(Scale(std::min(range.max + kStep, kMostScale)))));
+  most_bytes_ = std::max(most_bytes, least_bytes(cubes_.widest.reach(Scale(std::min(range.max + kStep, kMostScale)))));
   levels_.resize(std::max(levels_.size(), std::size_t(coarse) + 1));
   std::swap(levels_[0].in, out);
   find_kept_axis(solid, range, levels_[0].in.box());

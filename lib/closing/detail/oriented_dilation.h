@@ -13,6 +13,8 @@ namespace bp::detail {
 
 class OrientedDilation {
  public:
+  /// Returns the least memory for rows of cubes that reach so far along an axis.
+  [[nodiscard]] static std::size_t least_bytes(std::int32_t reach);
   /// Looks up the cubes over `region`, for run(). Returns false if no cube is turned there; then it is a dilation by
   /// upright cubes.
   bool turns(const OrientationField& field, const VoxelBox& region);
@@ -22,7 +24,7 @@ class OrientedDilation {
   /// turned ones, and the smallest around them, begin. Rows of a turned cube are looked up for 16 x 16 voxels at once,
   /// after blocks of 4 x 4 rows: some 5 cycles for each row and block. If the scale varies in a cell, its least and its
   /// largest cube are looked up; where they disagree, each voxel decides for itself. The solid is swept once for as
-  /// many cubes as most_bytes (or turned_cubes_bytes()) hold. Cubes are kept for the next call.
+  /// many cubes as most_bytes (or least_bytes()) hold. Cubes are kept for the next call.
   void run(const BitBox& solid, const ScaleLattice& scale, BitBox& out, std::size_t most_bytes = 0);
 
  private:

@@ -6,17 +6,17 @@
 
 namespace bp::detail {
 
-/// The bits first to last of 8, both included, and within 0 to 7.
+/// Returns a word with the bits `first` to `last` set, both included and clamped to 0 .. 7.
 [[nodiscard]] inline std::uint64_t bits_between(std::int64_t first, std::int64_t last) {
   first = std::max<std::int64_t>(first, 0);
   last = std::min<std::int64_t>(last, 7);
   return first > last ? 0 : (std::uint64_t(0xff) >> (7 - last + first)) << first;
 }
 
-/// Boxes of 8^3 cells, word z, bit 8 y + x: the bits of the cells that the box around a tetrahedron meets.
+/// The cells of a box of 8^3 cells that the box around a tetrahedron meets: bit 8 y + x of word z.
 class CellWindow {
  public:
-  /// `first`: the low corner of cell (0, 0, 0).
+  /// `first`: the low corner of cell (0, 0, 0); `edge`: edge of a cell.
   CellWindow(const LatticeBox& box, const LatticeCoord& first, std::int64_t edge) {
     const auto low = [&](int i) { return floor_div(box.min[i] - first[i], edge); };
     const auto high = [&](int i) { return floor_div(box.max[i] - 1 - first[i], edge); };
@@ -28,7 +28,7 @@ class CellWindow {
   }
   [[nodiscard]] std::int64_t low_z() const { return low_z_; }
   [[nodiscard]] std::int64_t high_z() const { return high_z_; }  ///< included
-  [[nodiscard]] std::uint64_t word() const { return word_; }     ///< of each z between
+  [[nodiscard]] std::uint64_t word() const { return word_; }     ///< the same word for each z between
 
  private:
   std::int64_t low_z_, high_z_;

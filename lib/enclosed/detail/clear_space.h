@@ -5,16 +5,17 @@
 #include <span>
 
 #include "lib/core/vec3.h"
-#include "lib/enclosed/enclosed_triangles.h"
+#include "lib/enclosed/eight_triangles.h"
 
 namespace bp {
 
-/// A half-space clear of a body: n . p > limit for a corner p as rounded. Whichever n, that proves it.
+/// A half-space that lies clear of a body: it holds the points p, as rounded, with n . p > limit. A triangle in it does
+/// not meet the body, whatever n is.
 struct ClearSpace {
   std::array<float, 3> n;
   float limit;
 
-  /// Bit k: it holds the corners of triangle k from the first to the last one asked for.
+  /// Bit k is set if the half-space holds the corners of triangle k, from the first to number `last`.
   [[nodiscard]] std::uint32_t holds(const EightTriangles& eight, std::size_t last) const {
     const auto beyond = [&](std::size_t half) {
       FourInts all{-1, -1, -1, -1};
@@ -28,9 +29,10 @@ struct ClearSpace {
   }
 };
 
-/// `body` relative to the tree's base. Floats: each of the three terms of n . p passes through at most 6 roundings (n,
-/// p, the product, two sums), the limit through 2, so with sizes of n that sum to 1 the height errs by less than 14
-/// roundings of reach or limit; to_voxels by less than 2^-14 lattice units.
+/// Returns the half-space beyond `body` in this direction. `body` is relative to the tree's base. Rounding, with sizes
+/// of n that sum to 1: each of the three terms of n . p passes through at most 6 roundings of floats (n, p, the
+/// product, two sums), the limit through 2, so the height errs by less than 14 roundings of reach or limit; to_voxels
+/// errs by less than 2^-14 lattice units.
 inline ClearSpace beyond(const Vec3d& direction, std::span<const Vec3d> body, double reach) {
   const double size = std::abs(direction[0]) + std::abs(direction[1]) + std::abs(direction[2]);
   if (!(size > 0)) return {{0, 0, 0}, 1};

@@ -13,17 +13,17 @@ namespace bp {
 namespace {
 
 constexpr std::int64_t kSortedAtOnce = 1024;
-constexpr double kGroup = 0.25;  // of the reach: radius of points that share a search
-constexpr double kSlack = 1e-6;  // lattice units, or squared ones: more than all rounding
+constexpr double kGroup = 0.25;  // radius of the ball of points that share a search, over the reach
+constexpr double kSlack = 1e-6;  // lattice units, or their squares: more than all rounding
 
-/// The search for some of the points.
+/// Searches the nearest faces of some of the points.
 class NearestFaces {
  public:
   NearestFaces(std::span<const Vec3d> points, const LatticeCoord& origin, const HalfEdgeMesh& mesh,
                const FaceTree& tree, double reach, std::vector<FaceId>& found)
       : points_(points), origin_(origin), mesh_(mesh), tree_(tree), reach_(reach), found_(found) {}
 
-  /// Numbers of points, those near in space near each other.
+  /// Finds the nearest face of each of these points. Points near in space share a search.
   void find(std::span<const std::uint32_t> numbers) {
     const Ball ball = around(numbers);
     if (numbers.size() > 1 && ball.radius > kGroup * reach_) {
@@ -41,7 +41,7 @@ class NearestFaces {
     double radius;
   };
   struct Candidate {
-    double distance;  // from the ball's middle
+    double distance;  // distance of the face from the ball's middle
     FaceId face;
     std::array<Vec3d, 3> corners;
   };
@@ -57,7 +57,7 @@ class NearestFaces {
     return {0.5 * (low + high), 0.5 * length(high - low)};
   }
 
-  /// All faces that may be the nearest of a point in the ball, the nearest to its middle first.
+  /// Gathers all faces that may be the nearest to a point of the ball, in the order of their distance to its middle.
   void gather(const Ball& ball) {
     const double more = 2 * ball.radius + kSlack;
     double least = reach_ + ball.radius;
@@ -109,7 +109,7 @@ class NearestFaces {
   const double reach_;
   std::vector<FaceId>& found_;
   std::vector<Candidate> candidates_;
-  FaceId last_ = kNoId;  // the nearest to the middle of the last ball that had any: few are nearer to the next one
+  FaceId last_ = kNoId;  // the face nearest to the middle of the last ball that had any: mostly near the next ball, too
 };
 
 }  // namespace

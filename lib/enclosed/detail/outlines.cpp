@@ -27,7 +27,7 @@ void Outlines::add_corners_to(std::vector<LatticeBox>& out) const {
   }
 }
 
-/// Corners of the outline as seen from low or high x, by y; in voxels.
+/// Returns the corners of the outline as seen from low or high x, by y; in voxels.
 std::vector<LatticeCoord> Outlines::side(std::int32_t plane, bool low) const {
   std::vector<LatticeCoord> chain;
   for (std::int32_t line = 0; line < lines_; ++line) {

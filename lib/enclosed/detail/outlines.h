@@ -6,15 +6,15 @@
 
 namespace bp::detail {
 
-/// Voxels of some layers z, of which the rows along x are known by their ends: in each plane between layers, the
-/// corners of the convex outline. Their hull is that of the voxels. Memory: 8 bytes a row.
+/// Convex outlines of voxels, one for each plane between layers of voxels, found from the two ends of each row along x.
+/// The outlines' convex hull is that of the voxels. Memory: 8 bytes a row.
 class Outlines {
  public:
-  /// For voxels `first`.y .. + `rows` and `first`.z .. + `layers`.
+  /// The voxels have y from first.y to first.y + rows - 1, and z from first.z to first.z + layers - 1.
   Outlines(VoxelCoord first, std::int32_t rows, std::int32_t layers);
-  /// Voxels (low .. high - 1, y, z).
+  /// Adds the voxels (low .. high - 1, y, z).
   void add(std::int32_t low, std::int32_t high, std::int32_t y, std::int32_t z);
-  /// As boxes of no size, lattice units.
+  /// Appends the corners of the outlines as boxes of no size, lattice units.
   void add_corners_to(std::vector<LatticeBox>& out) const;
 
  private:
@@ -24,8 +24,8 @@ class Outlines {
   [[nodiscard]] std::vector<LatticeCoord> side(std::int32_t plane, bool low) const;
 
   VoxelCoord first_;
-  std::int32_t lines_, planes_;  // between rows, and between layers
-  std::vector<Ends> ends_;       // of each line, plane by plane
+  std::int32_t lines_, planes_;  // lines between rows, and planes between layers
+  std::vector<Ends> ends_;       // the ends of each line, plane by plane
 };
 
 }  // namespace bp::detail

@@ -5,7 +5,7 @@
 
 #include "lib/grid/bit_box.h"
 
-// A row of 64 corners at a time: the voxels around each as eight words.
+// Works on a row of 64 corners at a time; the voxels around them are eight words.
 
 namespace bp::detail {
 
@@ -24,7 +24,7 @@ Around around(const BitBox& bits, std::int32_t y, std::int32_t z) {
   return w;
 }
 
-/// No voxel touches a corner of the row, of the brick that the middle words of the box hold.
+/// Returns true if no voxel touches a corner of the row; the middle words of the box hold the brick.
 bool nothing_around(const BitBox& bits, std::int32_t y, std::int32_t z) {
   std::uint64_t any = 0;
   for (const std::int32_t dz : {-1, 0}) {
@@ -36,7 +36,7 @@ bool nothing_around(const BitBox& bits, std::int32_t y, std::int32_t z) {
   return any == 0;
 }
 
-/// Corners inside a flat side across `axis`: occupied on one side of it, empty on the other.
+/// Returns the corners inside a flat side across `axis`: occupied on one side of it, empty on the other.
 std::uint64_t inside_side(const Around& w, std::size_t axis) {
   std::array<std::uint64_t, 2> all = {~std::uint64_t(0), ~std::uint64_t(0)}, any{};
   for (std::size_t i = 0; i < 8; ++i) {
@@ -46,7 +46,7 @@ std::uint64_t inside_side(const Around& w, std::size_t axis) {
   return (all[0] & ~any[1]) | (all[1] & ~any[0]);
 }
 
-/// Corners between two voxels that follow each other along `axis`.
+/// Returns the corners between two voxels that follow each other along `axis`.
 std::uint64_t between_two(const Around& w, std::size_t axis) {
   std::uint64_t both = 0;
   for (std::size_t i = 0; i < 8; ++i) {
@@ -55,9 +55,10 @@ std::uint64_t between_two(const Around& w, std::size_t axis) {
   return both;
 }
 
-/// Those corners of a row that the proxy may rest on; `sampled`: corners at a multiple of the spacing along each axis.
+/// Returns the corners of a row that the proxy may rest on. `sampled`: per axis, the corners at a multiple of the
+/// spacing.
 std::uint64_t resting_points(const Around& w, const std::array<std::uint64_t, 3>& sampled) {
-  std::uint64_t one = 0, two = 0, three = 0;  // or more voxels
+  std::uint64_t one = 0, two = 0, three = 0;  // corners with one, two, three or more voxels
   for (const std::uint64_t v : w) {
     three |= two & v;
     two |= one & v;

@@ -5,8 +5,9 @@
 
 namespace bp::detail {
 
-/// Corners of voxels that a proxy may rest on, those at the low sides of a brick's voxels: all convex ones; of straight
-/// edges and flat sides samples, without which nothing would tell a large face beside them where it rests.
+/// Returns the corners of the brick's voxels that a proxy may rest on: all convex corners, and samples of straight
+/// edges and flat sides, without which nothing would tell a large face beside them where it rests. Corners at the
+/// brick's high sides belong to the next bricks.
 [[nodiscard]] std::vector<VoxelCoord> resting_points_of(const BrickShelf& shelf, BrickCoord coord);
 
 }  // namespace bp::detail

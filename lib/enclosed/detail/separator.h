@@ -10,11 +10,11 @@
 
 namespace bp {
 
-/// Four axes side by side along which a tetrahedron is told from cubes, in floats: what they tell apart is apart.
-/// Coordinates are relative to the low corner of the tetrahedron's box.
+/// Four axes, tested side by side in floats, for whether a tetrahedron lies apart from cubes. A cube that is reported
+/// apart is apart; others may be, too. Coordinates are relative to the low corner of the tetrahedron's box.
 class FourAxes {
  public:
-  /// `normals`: one that is 0 tells nothing apart. `sides`: the sum of the sides of the tetrahedron's box.
+  /// `normals`: an axis of 0 separates nothing. `sides`: the sum of the sides of the tetrahedron's box.
   FourAxes(const std::array<LatticeCoord, 4>& normals, const Tetrahedron& corners, double sides) : sides_(sides) {
     for (std::size_t k = 0; k < 4; ++k) {
       const LatticeCoord& n = normals[k];
@@ -35,8 +35,8 @@ class FourAxes {
     }
   }
 
-  /// Of a layer of cubes that meet the box, bit 8 y + x the one at corner + (x, y, 0) edge, those that are not told
-  /// apart.
+  /// Returns those cubes of a layer that no axis separates. `layer`: bit 8 y + x stands for the cube at corner + (x, y,
+  /// 0) edge; the cubes meet the tetrahedron's box.
   [[nodiscard]] std::uint64_t left(std::uint64_t layer, const LatticeCoord& corner, std::int64_t edge) const {
     const auto e = float(edge);
     // No coordinate is larger than this reach R. Each term of the cube's side of a comparison passes through at most 10
@@ -59,9 +59,9 @@ class FourAxes {
   }
 
   std::array<FourFloats, 3> n_{};
-  FourFloats positive_{}, negative_{};  // sums of the components of either sign: extent of a unit cube
-  FourFloats min_, max_;                // of the tetrahedron
-  FourFloats slack_;                    // for a unit of reach
+  FourFloats positive_{}, negative_{};  // sums of the positive and of the negative components: extent of a unit cube
+  FourFloats min_, max_;                // extent of the tetrahedron along each axis
+  FourFloats slack_;                    // rounding error for a reach of 1
   double sides_;
 };
 
@@ -80,8 +80,8 @@ class Separator {
 
   [[nodiscard]] const LatticeBox& box() const { return box_; }
 
-  /// Of a layer of cubes that meet the box, bit 8 y + x the one at corner + (x, y, 0) edge, those that the
-  /// tetrahedron's faces do not surely tell from it: few.
+  /// Returns those cubes of a layer (as FourAxes::left()) that the face normals do not surely separate from the
+  /// tetrahedron: few.
   [[nodiscard]] std::uint64_t left(std::uint64_t layer, const LatticeCoord& corner, std::int64_t edge) const {
     return layer == 0 ? 0 : faces_.left(layer, corner - box_.min, edge);
   }
@@ -109,14 +109,14 @@ class Separator {
     return double(side.x + side.y + side.z);
   }
 
-  /// Coordinates are relative to the low corner of the tetrahedron's box. The doubles decide unless they are within
-  /// rounding, which those of all but huge tetrahedra are free of.
+  /// An axis. Coordinates are relative to the low corner of the tetrahedron's box. Doubles decide, unless the values
+  /// are within rounding, which happens only for huge tetrahedra.
   struct Axis {
     LatticeCoord n;
     double x, y, z;
     double negative, positive;  // sums of the negative and of the positive components: extent of a unit cube
-    double min, max;            // of the tetrahedron
-    double slack;               // a dozen roundings of terms below |n|_1 * reach_; 0: integers that doubles hold
+    double min, max;            // extent of the tetrahedron
+    double slack;  // a dozen roundings of terms below |n|_1 * reach_; 0: the values are integers that doubles hold
   };
 
   [[nodiscard]] bool separates_along(const Axis& axis, const LatticeCoord& c, std::int64_t edge) const {
@@ -137,7 +137,8 @@ class Separator {
     return low >= max || high <= min;
   }
 
-  /// The faces' normals tell nearly all cubes apart: the others wait until one asks.
+  /// Adds the axes of the edges. The faces' normals separate nearly all cubes, so these are made when a cube first
+  /// needs them.
   void add_edge_axes() {
     complete_ = true;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -161,7 +162,7 @@ class Separator {
       axis.max = i == 0 ? at : std::max(axis.max, at);
     }
     constexpr std::int64_t kLargestCube = std::int64_t(kBrickEdge) * kLatticePerVoxel;
-    // Above the sum of sizes of the coordinates of a corner, of either body.
+    // An upper bound for the sum of sizes of the coordinates of a corner, of either body.
     const double bound = (axis.positive - axis.negative) * (2 * sides_ + 4 * double(kLargestCube));
     axis.slack = bound < 0x1p52 ? 0 : 0x1p-49 * bound;
     axes_[count_++] = axis;

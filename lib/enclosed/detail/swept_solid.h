@@ -42,7 +42,8 @@ class Solid {
   std::array<Vec3d, 4> corners_;
 };
 
-/// A swept tetrahedron (a, b, c, q) has q on the inner side of its old face; a flat one holds nothing.
+/// Returns the solid of a swept tetrahedron (a, b, c, q), whose q is on the inner side of its old face; none for a flat
+/// one, which holds nothing.
 inline std::optional<Solid> solid_of(const GridFrame& frame, const Tetrahedron& t) {
   const int turn = orient3d(t[0], t[1], t[2], t[3]);
   if (turn == 0) return std::nullopt;
@@ -50,7 +51,7 @@ inline std::optional<Solid> solid_of(const GridFrame& frame, const Tetrahedron& 
   return Solid(frame, {t[3], t[second], t[3 - second], t[0]});
 }
 
-/// The face is the new one over a tetrahedron swept.
+/// Returns whether the face is the new face over the swept tetrahedron.
 inline bool closes(const NewFace& f, const Tetrahedron& t) {
   return f.corners[0] == t[3] && f.corners[1] == t[1] && f.corners[2] == t[2];
 }

@@ -23,7 +23,7 @@ void add_samples(const TriangleD& t, double voxel, std::vector<Vec3d>& points) {
   }
 }
 
-// By slabs of the first coordinate: few points each, and all threads have some.
+// Sorts by slabs of the first coordinate: each slab has few points, and all threads have slabs.
 std::vector<Vec3d> each_once(const std::vector<Vec3d>& points) {
   constexpr std::size_t kPointsPerSlab = 64;
   if (points.empty()) return {};

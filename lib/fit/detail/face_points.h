@@ -8,7 +8,7 @@
 #include "lib/mesh/lattice_geometry.h"
 #include "lib/mesh/quadric.h"
 
-/// Points of what a mesh stands for, each with the face that is nearest to it.
+/// The points of the scene that a mesh approximates, each with the face of the mesh that is nearest to it.
 namespace bp {
 
 class FacePoints {
@@ -16,14 +16,15 @@ class FacePoints {
   /// The points must outlive this.
   explicit FacePoints(std::span<const FitPlace> points) : points_(points) {}
 
-  /// For the mesh as it is now. One search for each point, parallel; the same result for any number of threads.
+  /// Finds the nearest face of the mesh, as it is now, for each point. One search for each point, in parallel; the
+  /// result does not depend on the number of threads.
   void assign(const HalfEdgeMesh& mesh);
 
   [[nodiscard]] std::span<const std::uint32_t> of(FaceId f) const {
     return {order_.data() + begin_[f], begin_[f + 1] - begin_[f]};
   }
   [[nodiscard]] const FitPlace& operator[](std::uint32_t i) const { return points_[i]; }
-  /// The nearest place of its face, by the shares of the face's corners.
+  /// Returns the place on the point's face that is nearest to the point, as shares of the face's corners.
   [[nodiscard]] const std::array<double, 3>& shares(std::uint32_t i) const { return pulls_[i].share; }
 
  private:
@@ -41,10 +42,11 @@ class FacePoints {
   return {to_double(mesh.corner(f, 0)), to_double(mesh.corner(f, 1)), to_double(mesh.corner(f, 2))};
 }
 
-/// Per vertex of the mesh and about it: the planes that its faces stand for, weighted by the areas of the faces. These
-/// are the planes at the points of a face; its own where it has none with a normal. So a face that cuts off an edge of
-/// the scene stands for the two sides of that edge. Where the scene ends, a face has no area of its own left: there a
-/// plane across the end counts with `point_area`, of the dense surface for each point. So plates keep their extent.
+/// Returns a quadric for each vertex of the mesh, relative to the vertex: the sum of the planes of its faces, weighted
+/// by the areas of the faces. A face's planes are those at the points assigned to it; without a point that has a
+/// normal, its own plane. So a face that cuts off an edge of the scene has the planes of both sides of that edge. At
+/// the rim of an open sheet, a plane across the rim is added with the weight `point_area` for each point there (the
+/// area of the dense surface that a point represents): it keeps plates from shrinking.
 [[nodiscard]] std::vector<Quadric> quadrics_of_points(const HalfEdgeMesh& mesh, std::span<const FitPlace> points,
                                                       double point_area);
 

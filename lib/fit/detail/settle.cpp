@@ -14,12 +14,14 @@ namespace bp {
 
 namespace {
 
-constexpr double kSlide = 0.1;  // weight of a point's distance along its face, against that across it
-constexpr double kStay = 0.02;  // of a vertex's own place, against that of its points together
-// A face stands for a plane of the scene if so many of its points lie in it, to this angle (cosine) and distance.
+// Weight of a point's distance along its face, over the weight of its distance across it.
+constexpr double kSlide = 0.1;
+constexpr double kStay = 0.02;  // weight of a vertex's old place, over the weight of all its points together
+// A face is held to a plane of the scene if this share of its points lies in the plane, within this angle (cosine) and
+// distance.
 constexpr double kMostPoints = 0.7, kSameNormal = 0.996, kSamePlane = 0.1 * kLatticePerVoxel;
 constexpr std::size_t kFewPoints = 4, kMostCandidates = 16;
-constexpr double kFlipGain = 0.1;  // of the squared distances of the points of two faces: a flip must save as much
+constexpr double kFlipGain = 0.1;  // a flip must save this share of the squared distances of the points of both faces
 constexpr int kRoundsPerFlips = 3;
 
 class Settler {
@@ -42,7 +44,7 @@ class Settler {
   }
 
  private:
-  /// So that they run along the edges of the scene; each face changes once at most.
+  /// Flips edges so that they run along the edges of the scene. Each face changes at most once.
   std::uint64_t flip_edges() {
     std::uint64_t flips = 0;
     std::vector<char> changed(mesh_.face_capacity(), 0);
@@ -81,7 +83,7 @@ class Settler {
     }
   }
 
-  /// The plane that most of the face's points lie in.
+  /// Returns the plane in which most of the face's points lie.
   [[nodiscard]] std::optional<FitPlace> plane_of(FaceId f) const {
     const std::span<const std::uint32_t> points = points_.of(f);
     if (points.size() < kFewPoints) return std::nullopt;
@@ -104,7 +106,7 @@ class Settler {
            std::abs(dot(plane.normal, p.at - plane.at)) < kSamePlane;
   }
 
-  /// Where v would be best, its neighbours standing still; from where it is.
+  /// Returns the step from v's place to the place where v is best while its neighbours stay where they are.
   [[nodiscard]] Vec3d wanted_step(VertexId v) const {
     Quadric q;
     mesh_.for_each_outgoing(v, [&](HalfEdgeId h) {
@@ -148,7 +150,7 @@ class Settler {
   VertexMover mover_;
   FacePoints points_;
   int rounds_ = 0;
-  std::vector<std::optional<FitPlace>> planes_;  // per face: that it stands for
+  std::vector<std::optional<FitPlace>> planes_;  // per face: the plane of the scene that it is held to
 };
 
 }  // namespace

@@ -4,9 +4,9 @@
 #include "lib/fit/fit_place.h"
 #include "lib/simplify/simplify.h"
 
-/// The last step of a fit: vertices settle where the surface is nearest to points of what it stands for, in the least
-/// squares sense ([HDD93]). By turns points are assigned to faces, edges flipped and vertices moved. A face most of
-/// whose points lie in one plane is held to that plane.
+/// The last step of a fit: vertices move to where the mesh is nearest to the points of the scene, in the least squares
+/// sense ([HDD93]). Three actions take turns: points are assigned to faces, edges are flipped, vertices are moved. A
+/// face most of whose points lie in one plane is held to that plane.
 namespace bp {
 
 /// `points`: lattice units, spread evenly over the surface that is wanted; some tens per face. Every move is checked:

@@ -6,13 +6,12 @@
 #include "lib/mesh/shells.h"
 #include "lib/simplify/shape_limits.h"
 
-/// Vertices that move freely, neither out nor in, while the mesh stays embedded and every shell of it the right way
-/// round.
+/// Moves vertices freely, outwards or inwards, while the mesh stays embedded and no shell turns inside out.
 namespace bp {
 
 class VertexMover {
  public:
-  /// `shape`: kept by every move; its reach is from `near`, which may be null.
+  /// `shape`: limits that every move keeps; `near`: what its reach is measured from; may be null.
   VertexMover(HalfEdgeMesh& mesh, const ShapeLimits& shape, const Enclosed* near)
       : mesh_(mesh),
         tree_(mesh),

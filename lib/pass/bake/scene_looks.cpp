@@ -8,7 +8,6 @@
 #include "lib/core/vec3.h"
 #include "lib/image/image_cache.h"
 #include "lib/pass/bake/detail/look_blocks.h"
-#include "lib/pass/bake/detail/scene_eye.h"
 #include "lib/pass/bake/detail/triangle_sorter.h"
 #include "lib/pass/bake/textured_triangle.h"
 #include "lib/store/content_hash.h"

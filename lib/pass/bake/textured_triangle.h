@@ -1,7 +1,10 @@
 #pragma once
+#include <cmath>
+
 #include "lib/core/box.h"
 #include "lib/core/color.h"
 #include "lib/core/texture.h"
+#include "lib/core/vec3.h"
 
 namespace bp {
 
@@ -15,6 +18,17 @@ struct TexturedTriangle {
   Vec3d p;
   for (std::size_t i = 0; i < 3; ++i) p[i] = t[0][i] / 3 + t[1][i] / 3 + t[2][i] / 3;
   return p;
+}
+
+/// Returns the texels of an image of this size along a length of 1 on a triangle; 0 if that is unknown.
+[[nodiscard]] inline double texels_per_unit(const TriangleD& t, const TriangleTexture& texture,
+                                            const std::array<int, 2>& size) {
+  const auto& [a, b, c] = texture.uv;
+  const double flat =
+      std::abs((double(b[0]) - a[0]) * (double(c[1]) - a[1]) - (double(c[0]) - a[0]) * (double(b[1]) - a[1]));
+  const double area = length(cross(t[1] - t[0], t[2] - t[0]));
+  const double texels = std::sqrt(flat * size[0] * size[1] / area);
+  return std::isfinite(texels) ? texels : 0;
 }
 
 /// Returns the place of a point of `bounds` along a curve that mostly goes from neighbour to neighbour (Morton order),

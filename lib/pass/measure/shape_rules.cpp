@@ -16,10 +16,10 @@ namespace bp {
 namespace {
 
 constexpr std::size_t kMostBoxes = 4096;
-constexpr double kMostCells = 1 << 28;      // bits of all levels: 32 MiB
-constexpr double kBoxesAtWork = 10;         // boxes at work in openings(), each of a tile and its halo
-constexpr double kLargestBelow = 15. / 16;  // the largest scale with a reach of r is r and this
-constexpr std::int32_t kMostReach = 4094;   // voxels; the largest reach of a scale
+constexpr double kMostCells = 1 << 28;          // bits of all levels: 32 MiB
+constexpr double kBoxesAtWork = 10;             // boxes at work in openings(), each of a tile and its halo
+constexpr double kLargestBelow = 15. / 16;      // the largest scale with a reach of r is r and this
+constexpr std::int32_t kMostScaleReach = 4094;  // voxels; the largest reach of a scale
 
 std::int32_t longest_side(const VoxelBox& box) {
   const VoxelCoord size = box.size();
@@ -46,7 +46,7 @@ struct Reaches {
 /// Returns a rule in voxels. `longest_side` is that of the scene.
 Reaches reaches_of(const ShapeRule& rule, const ScaleField& before, const GridFrame& frame, std::int32_t longest_side) {
   Reaches r;
-  const double length_vox = std::min(rule.length / frame.voxel, 4. * kMostReach);
+  const double length_vox = std::min(rule.length / frame.voxel, 4. * kMostScaleReach);
   std::int32_t least = 0, most = cube_radius(before.upper_bound(frame));
   if (rule.kind == ShapeRule::Kind::thickness) {
     // A part touches two voxels more than it is thick, and none is thicker than all.
@@ -56,9 +56,9 @@ Reaches reaches_of(const ShapeRule& rule, const ScaleField& before, const GridFr
     least = std::int32_t(std::max(length_vox - 1, 0.0) / 2);  // a gap leaves one free voxel less than it is wide
     const bool closed_anyway = before.constant() && before.base >= (least + kLargestBelow) * frame.voxel;
     if (rule.mode != ScaleMode::decrease && !closed_anyway) {
-      if (least >= kMostReach)
+      if (least >= kMostScaleReach)
         fail(ErrorCode::bad_argument, {Remedy::larger_voxels}, "a gap of {} is more than {} voxels", rule.length,
-             2 * kMostReach);
+             2 * kMostScaleReach);
       r.closes = least;
       most = std::max(most, least);
     }

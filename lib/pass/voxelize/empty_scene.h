@@ -5,7 +5,7 @@
 
 namespace bp {
 
-/// Of a scene without triangles: throws bad_input, and tells what was skipped.
+/// Throws bad_input for a scene without triangles, and tells what was skipped.
 [[noreturn]] void refuse_empty_scene(const std::string& name, const SceneCounts& counts);
 
 }  // namespace bp

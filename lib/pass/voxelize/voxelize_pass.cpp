@@ -30,13 +30,14 @@ std::int32_t default_tile(const VoxelBox& grid) {
   return longest <= 768 ? 128 : longest <= 8192 ? 256 : 512;  // small grids: enough tiles for the threads
 }
 
-/// A tile at work: its bits, those of its fill, the labels of its faces and runs; and a block of triangles.
+/// Returns the bytes of a tile at work: its bits, those of its fill, the labels of its faces and runs, and a block of
+/// triangles.
 std::uint64_t work_bytes(std::int32_t edge_vox) {
   const auto edge = std::uint64_t(edge_vox);
   return 3 * edge * edge * edge / 8 + (std::uint64_t(4) << 20);
 }
 
-/// Voxelizes a scene.
+/// The work of voxelize_stream() for one scene.
 class SceneVoxelizer {
  public:
   SceneVoxelizer(TriangleSource& source, Backends& backends, const VoxelizeOptions& options)
@@ -45,7 +46,7 @@ class SceneVoxelizer {
         chunks_(options.context.results != nullptr && options.fill != FillMode::winding
                     ? std::make_unique<ChunkedSurface>(*options.context.results, options.context.turn)
                     : nullptr),
-        // Their bins, half as large, then fit beside them.
+        // Three fifths for triangles: their bins, which are half as large, then fit in the rest.
         scene_(source, options.context.memory.bytes / 5 * 3, chunks_.get()) {
     for (int i = 0; backends.empty() && i < thread_count(); ++i) own_.push_back(std::make_unique<CpuBackend>());
     std::vector<Backend*> all;
@@ -89,26 +90,26 @@ class SceneVoxelizer {
 
   TriangleSource& source_;
   const VoxelizeOptions& options_;
-  Backends own_;  ///< if none were given
+  Backends own_;  ///< if the caller gave none
   std::unique_ptr<BackendPool> backends_;
   std::unique_ptr<TileWorks> works_;
   std::unique_ptr<BrickShelf> shelf_;
   std::unique_ptr<Scratch> store_;
   VoxelizeCounts counts_;
 
-  std::unique_ptr<ChunkedSurface> chunks_;  ///< instead of bins_, for all but large triangles
+  std::unique_ptr<ChunkedSurface> chunks_;  ///< used in place of bins_, except for large triangles
   ScenePasses scene_;
   StreamHeader header_;
   TileGrid tiles_;
-  std::unique_ptr<SurfaceBricks> bricks_;             ///< null: chunks have their own, or triangles are needed by tile
-  std::unique_ptr<TriangleBins> bins_;                ///< of triangles that bricks do not take
-  bool sorted_ = false;                               ///< all triangles are in these
-  std::unordered_map<std::uint64_t, bool> on_shelf_;  ///< tiles: some of their triangles were voxelized early
+  std::unique_ptr<SurfaceBricks> bricks_;  ///< null if chunks have their own bricks, or if triangles are needed by tile
+  std::unique_ptr<TriangleBins> bins_;     ///< for triangles that bricks do not take
+  bool sorted_ = false;                    ///< all triangles are in bricks_ and bins_
+  std::unordered_map<std::uint64_t, bool> on_shelf_;  ///< the tiles some of whose triangles were voxelized early
   std::unique_ptr<TileFill> fill_;                    ///< null: FillMode::none
   std::atomic<std::uint64_t> surface_voxels_{0};
 };
 
-/// A grid for the bounds that the source tells beforehand. Where they turn out to be right, the scene is read once.
+/// Makes a grid for the bounds that the source tells beforehand. If they turn out to be right, the scene is read once.
 bool SceneVoxelizer::guess_grid() {
   if (!options_.voxel_by_bounds || chunks_) return false;
   const std::optional<Bounds3d> bounds = source_.bounds();
@@ -116,7 +117,7 @@ bool SceneVoxelizer::guess_grid() {
   try {
     header_ = header_of(*bounds);
     cut_grid();
-  } catch (const Error&) {  // what is wrong is told when the bounds are known
+  } catch (const Error&) {  // the error is reported when the bounds are known
     return false;
   }
   return true;
@@ -143,7 +144,7 @@ StreamHeader SceneVoxelizer::header_of(const Bounds3d& bounds) {
   return solid_header(bounds, counts_.voxel_asked, up, options_);
 }
 
-/// Cuts the grid of the header into tiles, and makes empty places for triangles and voxels.
+/// Cuts the header's grid into tiles, and makes empty containers for triangles and voxels.
 void SceneVoxelizer::cut_grid() {
   const VoxelBox grid = voxels_of(header_.bricks);
   const std::int32_t edge = options_.tile_vox > 0 ? options_.tile_vox : default_tile(grid);
@@ -166,7 +167,7 @@ void SceneVoxelizer::cut_grid() {
   bins_ = std::make_unique<TriangleBins>(tiles_, *store_);
   if (!chunks_ && options_.fill != FillMode::winding)
     bricks_ = std::make_unique<SurfaceBricks>(options_.context.memory.bytes / 10 * 3);
-  // A GPU has few backends: the other threads load, label and shelve meanwhile.
+  // A GPU has few backends; the other threads load, label and shelve tiles meanwhile.
   const std::uint64_t fit = std::max<std::uint64_t>(1, options_.tile_memory_bytes / work_bytes(edge));
   std::vector<std::unique_ptr<TileWork>> works(
       std::min<std::uint64_t>(fit, std::uint64_t(std::max(thread_count(), backends_->count()))));
@@ -182,7 +183,7 @@ void SceneVoxelizer::lay_grid(bool guessed) {
   header_ = header_of(scene_.sums().bounds());
   sorted_ = guessed && scene_.sorted() && header_.frame == guess && header_.bricks == guessed_bricks;
   if (!sorted_) cut_grid();
-  if (!sorted_ && guessed) scene_.read_twice();  // none of the triangles stayed
+  if (!sorted_ && guessed) scene_.read_twice();  // no triangle stayed in memory
   counts_.read_twice = scene_.reads_twice();
   counts_.tiles = std::uint64_t(tiles_.total());
 }
@@ -195,7 +196,7 @@ void SceneVoxelizer::sort_triangles() {
   }
 }
 
-/// The triangles of chunks that are known are not looked at again; if all are, the scene is not read twice.
+/// Triangles of known chunks are not read again. If all chunks are known, the scene is not read twice.
 void SceneVoxelizer::look_up_chunks() {
   chunks_->look_up(header_.frame, header_.bricks, options_.context.memory.bytes / 10 * 3, *shelf_);
   counts_.chunks = chunks_->chunks();
@@ -214,7 +215,7 @@ void SceneVoxelizer::look_up_chunks() {
   counts_.chunks_kept = chunks_->kept();
 }
 
-/// Sets the voxels of the triangles that bricks take; the others, by tile.
+/// Sets the voxels of the triangles that bricks take; sorts the others by tile.
 TriangleBatch SceneVoxelizer::sort(std::span<const TriangleD> triangles) const {
   std::vector<FixedTriangle> rest;
   if (bricks_) {
@@ -232,7 +233,7 @@ void SceneVoxelizer::bin(TriangleBatch&& batch) {
   if (waiting_bytes() > options_.context.memory.bytes) make_room();
 }
 
-/// Triangles into bricks, or into the bins of their tiles.
+/// Puts triangles into bricks, or into the bins of their tiles.
 void SceneVoxelizer::bin(const NextPortion& next) {
   struct Item {
     Portion portion;
@@ -255,15 +256,16 @@ void SceneVoxelizer::bin(const NextPortion& next) {
       });
 }
 
-/// What fills memory_bytes. Were more than half of it put aside, the bins would have nothing to grow in.
+/// Returns the bytes that count against memory_bytes. The store and the shelf count at most as half of it: with more,
+/// the bins would have nothing to grow in.
 std::uint64_t SceneVoxelizer::waiting_bytes() const {
   const std::uint64_t aside = store_->memory_bytes() + shelf_->memory_bytes() + bins_->table_bytes();
   return bins_->memory_bytes() + (bricks_ ? bricks_->memory_bytes() : 0) +
          std::min(aside, options_.context.memory.bytes / 2);
 }
 
-/// Tiles with many triangles are voxelized now: their bits are far smaller. The triangles of the others go to the
-/// store; so do all while chunks still add to their bricks.
+/// Voxelizes tiles with many triangles now, since their bits are far smaller. The triangles of the other tiles go to
+/// the store; all do while chunks still add to their bricks.
 void SceneVoxelizer::make_room() {
   const std::uint64_t tile_bytes =
       std::uint64_t(tiles_.edge_vox) * std::uint64_t(tiles_.edge_vox) * std::uint64_t(tiles_.edge_vox) / 8;
@@ -314,7 +316,7 @@ void SceneVoxelizer::voxelize() {
   counts_.surface_voxels = surface_voxels_;
 }
 
-/// Adds the tile's waiting triangles to its voxels; `last`: there will be no more of them.
+/// Adds the tile's waiting triangles to its voxels. `last`: the tile gets no more triangles.
 void SceneVoxelizer::voxelize_tile(std::uint64_t tile, bool& on_shelf, bool last) {
   const TileWorks::Lease work(*works_);
   const VoxelBox box = tile_box(tile);

@@ -6,7 +6,7 @@ namespace bp {
 
 namespace {
 
-/// One round of repairs; the cells are their own image in the plane before and after.
+/// Does one round of repairs. The cells are their own mirror image before and after it.
 bool repair_once(Grid& cells, int mirrored_axis, std::int32_t last) {
   std::vector<VoxelCoord> added;
   VoxelBox blocks = cells.box();

@@ -6,10 +6,10 @@
 #include "lib/core/box.h"
 #include "lib/grid/mirror_plane.h"
 
-/// Boxes between planes across the axes, some of which are solid.
+/// Grids of boxes between axis-aligned planes; some of the boxes are solid.
 namespace bp {
 
-/// A dense box of flags, with a rim of empty ones.
+/// A dense box of flags, with a rim of empty ones around it.
 class Grid {
  public:
   Grid() = default;
@@ -28,7 +28,7 @@ class Grid {
   std::vector<char> bits_;
 };
 
-/// visit(q, axis, high) for the six.
+/// Calls visit(q, axis, high) for each of the six neighbours q of p.
 template <class Visit>
 void for_each_neighbour(const VoxelCoord& p, const Visit& visit) {
   for (int axis = 0; axis < 3; ++axis) {
@@ -40,8 +40,8 @@ void for_each_neighbour(const VoxelCoord& p, const Visit& visit) {
   }
 }
 
-/// Boxes between planes across the axes, and which of them are solid. Box i of an axis lies between its planes i and
-/// i + 1, in units.
+/// A grid of boxes between axis-aligned planes, with a flag for the solid ones. Box i of an axis lies between planes i
+/// and i + 1; planes are given in units.
 struct BoxGrid {
   std::array<std::vector<std::int32_t>, 3> planes;
   Grid solid;
@@ -56,7 +56,7 @@ struct BoxGrid {
   }
 };
 
-/// Of what is solid.
+/// The size of the solid part of a grid.
 struct Size {
   double volume = 0, area = 0;  // in units
   std::uint64_t faces = 0;
@@ -64,11 +64,11 @@ struct Size {
 
 [[nodiscard]] Size size_of(const BoxGrid& cells);
 
-/// Makes solid what the outside does not reach.
+/// Makes every empty cell solid that the outside does not reach.
 void fill(Grid& solid);
 
-/// Repairs the solid (lib/surface/repair.h) and fills it, until neither adds a box. With a plane, which is in the
-/// middle, it stays its own mirror image.
+/// Repairs the solid (lib/surface/repair.h) and fills its hollows, until neither adds a box. With a mirror plane, which
+/// lies in the middle of the grid, the solid stays its own mirror image.
 void mend(BoxGrid& cells, const std::optional<MirrorPlane>& plane);
 
 }  // namespace bp

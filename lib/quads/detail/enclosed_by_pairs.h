@@ -8,7 +8,7 @@
 
 namespace bp {
 
-/// What must stay inside under either diagonal of each pair.
+/// Allows a change only if the enclosed set stays inside under either diagonal of each pair of triangles.
 class EnclosedByPairs final : public Enclosed {
  public:
   EnclosedByPairs(const HalfEdgeMesh& mesh, const Enclosed& enclosed)
@@ -18,7 +18,7 @@ class EnclosedByPairs final : public Enclosed {
     partner_[f] = g;
     partner_[g] = f;
   }
-  /// Flips are refused but while this is set: they would break pairs.
+  /// Flips are refused unless this is set, since they would break pairs.
   void allow_flips(bool on) { flips_ = on; }
 
   [[nodiscard]] bool allows(std::span<const NewFace> star, std::span<const Tetrahedron> swept,
@@ -33,7 +33,7 @@ class EnclosedByPairs final : public Enclosed {
   [[nodiscard]] std::uint64_t bytes() const override { return enclosed_.bytes(); }
 
  private:
-  /// The pairs around v, drawn the other way.
+  /// Tests the pairs around v with their other diagonals.
   [[nodiscard]] bool across_allows(VertexId v, const LatticeCoord& to, Blocker* blocker) const {
     std::vector<NewFace> faces;
     std::vector<Tetrahedron> swept;
@@ -47,7 +47,7 @@ class EnclosedByPairs final : public Enclosed {
     mesh_.for_each_outgoing(v, [&](HalfEdgeId h) {
       const FaceId partner = partner_[HalfEdgeMesh::face(h)];
       if (partner == kNoId) return;
-      std::array<VertexId, 4> quad;  // from v on
+      std::array<VertexId, 4> quad;  // corners, beginning with v
       const HalfEdgeId beyond = mesh_.twin(HalfEdgeMesh::next(h));
       if (HalfEdgeMesh::face(mesh_.twin(h)) == partner) {  // the diagonal ends here: once for both faces
         quad = {v, mesh_.opposite(mesh_.twin(h)), mesh_.to(h), mesh_.opposite(h)};

@@ -14,7 +14,7 @@ namespace {
 
 constexpr float kNever = std::numeric_limits<float>::infinity();
 constexpr float kUnknown = -1;
-constexpr std::uint64_t kLittle = 20;  // a sweep that takes less than one in so many faces is the last with its bound
+constexpr std::uint64_t kLittle = 20;  // a sweep that removes less than one in so many faces is the last with its bound
 
 float rounded_down(double cost) {
   return float(cost) * (1 - 0x1p-22f);
@@ -71,13 +71,13 @@ bool BulkOrder::try_edge(HalfEdgeId h, double bound) {
   return true;
 }
 
-/// For a larger bound.
+/// Notes that the edge must wait for a larger bound.
 bool BulkOrder::wait(HalfEdgeId h) {
   some_wait_ |= worth_[h] != kNever;
   return false;
 }
 
-/// The edges of u cost something else now, and those refused in the two-ring get another chance.
+/// Reconsiders the edges of u, whose costs have changed, and the refused edges in its two-ring.
 void BulkOrder::reconsider_around(VertexId u) {
   mesh_.for_each_outgoing(u, [&](HalfEdgeId g) {
     worth_[mesh_.edge(g)] = kUnknown;
@@ -106,7 +106,7 @@ void collapse_bulk(std::span<BulkOrder* const> parts, BulkRange range, std::uint
     const std::uint64_t all = std::accumulate(taken.begin(), taken.end(), std::uint64_t(0));
     if (all == 0 && std::none_of(parts.begin(), parts.end(), [](const BulkOrder* part) { return part->some_wait(); }))
       return;
-    bool some_have_much = false;  // for this bound, where not much is left to take
+    bool some_have_much = false;  // a part still has much to take within this bound, when little is left to take in all
     for (std::size_t i = 0; i < parts.size(); ++i) some_have_much |= taken[i] > 0 && 2 * taken[i] >= shares[i];
     if (all * kLittle < faces() && !some_have_much) bound *= 4;
   }

@@ -6,7 +6,7 @@ namespace bp {
 
 namespace {
 
-/// About each corner itself, where the plane's offset is zero.
+/// Returns the quadric of a face's plane, relative to any of its corners, where the plane's offset is zero.
 Quadric quadric_of_face(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoord& c) {
   const Vec3d n = to_double(normal_of(a, b, c));
   const double size = length(n);

@@ -57,7 +57,7 @@ void StrictOrder::plan_wave(double next) {
   });
 }
 
-/// Refusals first: what changes beside an edge gives it another chance.
+/// Handles the refused members first: changes beside an edge give it another chance.
 void StrictOrder::take_wave() {
   const std::vector<CostEntry>& members = wave_.members();
   for (std::size_t i = 0; i < members.size(); ++i) {
@@ -68,7 +68,7 @@ void StrictOrder::take_wave() {
 }
 
 void StrictOrder::take(const CostEntry& entry, const CollapsePlan& plan) {
-  if (plan.outcome == CollapsePlan::Outcome::too_dear) {  // not the best after all
+  if (plan.outcome == CollapsePlan::Outcome::too_dear) {  // the edge turned out not to be the cheapest
     queue_.push({plan.cost, entry.edge, entry.serial});
     return;
   }
@@ -88,7 +88,7 @@ void StrictOrder::renew(HalfEdgeId h) {
   renewed_.push_back({e, ++serial_[e]});
 }
 
-/// New entries for the edges at u, and another chance for refused edges one step further out.
+/// Makes new entries for the edges at u, and gives refused edges one step further out another chance.
 void StrictOrder::renew_around(VertexId u) {
   mesh_.for_each_outgoing(u, [&](HalfEdgeId g) {
     renew(g);

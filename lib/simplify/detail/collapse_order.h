@@ -6,10 +6,10 @@ namespace bp {
 
 constexpr std::uint64_t kBulkFactor = 8;  ///< the strict order begins at this many times the wanted faces
 
-/// The strict order: least cost first. Candidates are solved lazily, from a lower bound (the unconstrained minimum of
-/// the summed quadrics), not eagerly for the two-ring as in [CB17]. Shells that others have swallowed are erased on the
-/// way (shells.h). A whole mesh is worked on in waves (waves.h): of what costs least, a small share of all edges,
-/// those that leave each other alone are planned on all threads, and then taken in this order.
+/// The strict order: the cheapest collapse first. Costs are computed late, starting from a lower bound (the
+/// unconstrained minimum of the summed quadrics), not at once for the two-ring as in [CB17]. Shells that others have
+/// swallowed are erased on the way (shells.h). On a whole mesh, collapses are taken in waves (waves.h): edges that
+/// leave each other alone, among the cheapest few percent, are planned on all threads and then taken in order.
 class StrictOrder : public CostOrder {
  public:
   explicit StrictOrder(Collapser& collapser);
@@ -17,7 +17,7 @@ class StrictOrder : public CostOrder {
   void add_costs(std::vector<double>& costs) const override;
   bool run(double most, std::uint64_t enough) override;
 
-  /// Sets the counts that tell why edges are left.
+  /// Adds the counts that tell why the remaining edges were refused.
   void count(SimplifyCounts& counts) const;
 
  private:
@@ -38,13 +38,13 @@ class StrictOrder : public CostOrder {
   WaveWorkers<CollapsePlanner> planners_;
   CostWave wave_;
   WaveBoxes boxes_;
-  std::vector<std::uint32_t> serial_;  // per half-edge: the one valid entry of its edge
-  std::vector<Refusal> refusal_;       // per half-edge: why its edge must wait until its neighbourhood changes
+  std::vector<std::uint32_t> serial_;  // per half-edge: number of the valid entry of its edge
+  std::vector<Refusal> refusal_;       // per half-edge: why its edge waits until its neighbourhood changes
   CostQueue queue_;
-  // Of the wave:
+  // Buffers of a wave.
   std::vector<CollapsePlan> plans_;  // of the members
-  std::vector<Renewal> renewed_;     // edges that cost something else now
-  std::vector<double> costs_;        // of these
+  std::vector<Renewal> renewed_;     // edges whose cost has changed
+  std::vector<double> costs_;        // their new costs
 };
 
 }  // namespace bp

@@ -15,16 +15,16 @@ namespace bp {
 namespace {
 
 constexpr double kLeastTurn = 0.1;  // cosine between a face's normal before and after
-constexpr int kPlaces = 2;          // places tried before the growing one: the free minimum, and halfway between them
-constexpr int kFreePlaces = 4;      // of what keeps nothing inside
-constexpr int kNoOther = 4;         // the attempt after which there are no others
+constexpr int kPlaces = 2;      // number of places tried before the growing one: the free minimum, and halfway between
+constexpr int kFreePlaces = 4;  // the same, if nothing must stay inside
+constexpr int kNoOther = 4;     // number of the last attempt
 
 }  // namespace
 
 CollapsePlanner::CollapsePlanner(const CollapseGround& ground)
     : ground_(ground), mesh_(ground.mesh), params_(ground.params), guard_(ground.mesh, ground.tree) {}
 
-/// Both quadrics, about the position of from(h).
+/// Returns the sum of both ends' quadrics, relative to from(h).
 Quadric CollapsePlanner::summed(HalfEdgeId h) const {
   const VertexId u = mesh_.from(h), w = mesh_.to(h);
   Quadric q = ground_.quadrics[w].about(to_double(mesh_.position(u) - mesh_.position(w)));
@@ -61,7 +61,7 @@ std::optional<CollapsePlanner::Candidate> CollapsePlanner::solve(HalfEdgeId h, i
   return place_growing(q, prior);
 }
 
-/// At the free minimum; where that does not do, at an end of the edge or in its middle.
+/// Tries the free minimum, then the ends of the edge and its middle.
 std::optional<CollapsePlanner::Candidate> CollapsePlanner::place_free(const Quadric& q, const Vec3d& prior,
                                                                       int first_attempt) {
   const std::array<Vec3d, kFreePlaces> places{minimum(q, prior), Vec3d{}, prior, 2.0 * prior};
@@ -73,7 +73,7 @@ std::optional<CollapsePlanner::Candidate> CollapsePlanner::place_free(const Quad
   return std::nullopt;
 }
 
-/// The best place that keeps all constraints.
+/// Returns the best place that keeps all constraints.
 std::optional<CollapsePlanner::Candidate> CollapsePlanner::place_growing(const Quadric& q, const Vec3d& prior) {
   for (const double margin : {0.0, 0.9}) {  // 0.9 > sqrt(3)/2: rounding cannot leave the half-spaces then
     for (PlaneConstraint& s : constraints_) s.d += margin;
@@ -89,8 +89,8 @@ std::optional<CollapsePlanner::Candidate> CollapsePlanner::place_growing(const Q
   return std::nullopt;
 }
 
-/// Between the free minimum, which may cut into the solid, and the constrained one, which only grows it: the first
-/// point that keeps inside what must stay inside.
+/// Tries places between the free minimum, which may cut into the solid, and the constrained minimum, which only grows
+/// it. Returns the first one that keeps the enclosed set inside.
 std::optional<CollapsePlanner::Candidate> CollapsePlanner::place_enclosing(const Quadric& q, const Vec3d& prior,
                                                                            int first_attempt) {
   const Vec3d free = minimum(q, prior);
@@ -106,7 +106,7 @@ std::optional<CollapsePlanner::Candidate> CollapsePlanner::place_enclosing(const
   return std::nullopt;
 }
 
-/// Where the constraints contradict each other: along the mean normal until most of them hold.
+/// If the constraints contradict each other: moves the place along the mean normal until most of them hold.
 Vec3d CollapsePlanner::pushed_out(const Vec3d& x) const {
   Vec3d mean{};
   for (const StarFace& f : star_) {
@@ -163,13 +163,14 @@ void CollapsePlanner::fill(const Candidate& candidate, CollapsePlan& plan) const
   }
 }
 
-/// Asked only of what is about to be taken: faces are long, and what is enclosed has many voxels.
+/// Tested last, since faces are long and the enclosed set has many voxels.
 bool CollapsePlanner::stays_near() const {
   if (params_.enclosed == nullptr || params_.reach == 0) return true;
   return (!params_.free || leaves_near()) && params_.enclosed->is_near(new_faces_, params_.reach);
 }
 
-/// What keeps nothing inside keeps both ends of the edge within its reach.
+/// Returns true if both ends of the edge stay within reach of the new faces, as they must for a free collapse, which
+/// encloses nothing.
 bool CollapsePlanner::leaves_near() const {
   const auto is_near = [&](const LatticeCoord& end) {
     return std::any_of(new_faces_.begin(), new_faces_.end(), [&](const NewFace& f) {
@@ -180,8 +181,8 @@ bool CollapsePlanner::leaves_near() const {
   return is_near(origin_) && is_near(origin_ + star_.back().apex);
 }
 
-/// The guard. Where other parts of the surface end up between the old faces and the new ones, they go (as in shells.h),
-/// so that the surface bounds a solid from outside all the time.
+/// Asks the guard. Parts of the surface that end up between the old faces and the new ones are erased (as in shells.h),
+/// so that the surface bounds a solid from outside at any time.
 bool CollapsePlanner::is_free(const LatticeCoord& p) {
   swallowed_.clear();
   if (!ground_.only_grows) return guard_.star_is_free(new_faces_, replaced_) && !turns_over(p);
@@ -200,12 +201,13 @@ bool CollapsePlanner::is_free(const LatticeCoord& p) {
   return swallowed_.empty() || guard_.rest_is_free(new_faces_);
 }
 
-/// What keeps nothing inside may not turn: what bounds nothing any more is found at the end (shells.h).
+/// Returns whether a free collapse would turn its shell inside out, which is not allowed. Shells that bound nothing any
+/// more are found at the end (shells.h).
 bool CollapsePlanner::turns_over(const LatticeCoord& p) const {
   return params_.free && ground_.sense->turns(replaced_.front(), fan_gain6(mesh_, replaced_, origin_ + p));
 }
 
-/// The centre of a face, which is on neither of them, lies between the old star and the new one.
+/// Returns whether face f lies between the old star and the new one, as its centre does, which is on neither of them.
 bool CollapsePlanner::swallows(FaceId f, const LatticeCoord& p) const {
   const LatticeCoord sum = mesh_.corner(f, 0) + mesh_.corner(f, 1) + mesh_.corner(f, 2);
   const LatticeCoord centre = sum - origin_ * 3;  // three times as far from the origin
@@ -253,7 +255,8 @@ bool CollapsePlanner::link_holds() const {
   return common == 2 && !(ring_split_ == 3 && ring_.size() == 5);  // neighbours: 3 and 2, less from(h)
 }
 
-/// The half-spaces outside the planes of the star. Faces of a flat region follow each other: one for all of them.
+/// Gathers the half-spaces outside the planes of the star. Faces of a flat region follow each other and give one
+/// half-space.
 void CollapsePlanner::gather_constraints() {
   constraints_.clear();
   for (const StarFace& f : star_) {
@@ -267,7 +270,7 @@ void CollapsePlanner::gather_constraints() {
   }
 }
 
-/// The lattice point near x, on or outside all planes exactly, that costs least.
+/// Returns the cheapest lattice point near x that is exactly on or outside all planes.
 std::optional<LatticeCoord> CollapsePlanner::round_inside(const Vec3d& x, const Quadric& q) const {
   const LatticeCoord near = rounded(x);
   if (outside_all(near)) return near;
@@ -286,7 +289,7 @@ std::optional<LatticeCoord> CollapsePlanner::round_inside(const Vec3d& x, const 
   return best;
 }
 
-/// Exact: p is on or outside the plane of every face of the star.
+/// Returns whether p is on or outside the plane of every face of the star; exact.
 bool CollapsePlanner::outside_all(const LatticeCoord& p) const {
   return std::all_of(star_.begin(), star_.end(),
                      [&](const StarFace& f) { return side_along(f.normal, p - f.apex) >= 0; });
@@ -301,7 +304,7 @@ bool CollapsePlanner::acceptable(const LatticeCoord& p, double cost) {
   return true;
 }
 
-/// No face flips, vanishes or becomes a needle.
+/// Returns whether no face flips, vanishes or becomes a needle.
 bool CollapsePlanner::shape_is_fine(const LatticeCoord& p) const {
   double after = 1;  // least |cross product|^2 / (sum of squared edges)^2
   for (const StarFace& f : star_) {
@@ -333,7 +336,7 @@ bool CollapsePlanner::edges_are_short(const LatticeCoord& p) const {
                      [&](const StarFace& f) { return f.lost || params_.edge_limit(origin_ + p, origin_ + f.pa); });
 }
 
-/// The merged planes are further than the allowed error, in the root mean square over their area.
+/// Returns whether the merged planes are farther than the allowed error, in the root mean square over their area.
 bool CollapsePlanner::too_far(double cost) const {
   if (params_.error_vox <= 0) return false;
   const double error = params_.error_vox * kLatticePerVoxel;
@@ -350,7 +353,7 @@ bool CollapsePlanner::keeps_inside(const LatticeCoord& p) {
   return params_.enclosed->allows(new_faces_, swept_, &blocker_) || refuse(Refusal::enclosed);
 }
 
-/// The fan that replaces the star if the edge collapses to p.
+/// Gathers the fan that replaces the star if the edge collapses to p.
 void CollapsePlanner::gather_new_faces(const LatticeCoord& p) {
   new_faces_.clear();
   replaced_.clear();

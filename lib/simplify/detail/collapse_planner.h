@@ -6,69 +6,71 @@
 #include "lib/mesh/face_tree.h"
 #include "lib/mesh/guard.h"
 #include "lib/mesh/shells.h"
-#include "lib/simplify/simplify.h"
+#include "lib/simplify/simplify_params.h"
 #include "lib/simplify/waves.h"
 
-/// What a single edge collapse costs, where its vertex goes, whether it may be taken.
+/// Plans a single edge collapse: its cost, the place of the merged vertex, and whether it is allowed.
 namespace bp {
 
-/// What collapses are planned on. It changes only between plans.
+/// The data that collapses are planned on. It changes only between plans.
 struct CollapseGround {
   const HalfEdgeMesh& mesh;
   const FaceTree& tree;
   const SimplifyParams& params;
-  const std::vector<Quadric>& quadrics;    ///< per vertex, about its position
+  const std::vector<Quadric>& quadrics;    ///< per vertex, relative to it
   const std::optional<ShellSense>& sense;  ///< none while collapses only grow the solid
-  LatticeBox room{};        ///< new vertices are strictly inside: of the cell, and near enough to multiply exactly
-  double volume6 = 0;       ///< of the mesh as it was given, where growth is limited
-  bool only_grows = false;  ///< so the surface bounds a solid from outside all the time
+  /// New vertices lie strictly inside this box, which is in the cell and small enough for exact products.
+  LatticeBox room{};
+  double volume6 = 0;       ///< volume of the mesh at the beginning, times 6; set if growth is limited
+  bool only_grows = false;  ///< collapses only grow the solid, so the surface bounds a solid from outside at any time
 };
 
 struct CollapsePlan {
   enum class Outcome { refused, too_dear, allowed };
   HalfEdgeId edge = kNoId;
   Outcome outcome = Outcome::refused;
-  Refusal refusal = Refusal::none;  ///< of the attempt that came furthest
+  Refusal refusal = Refusal::none;  ///< reason of the attempt that passed most tests
   double cost = 0;                  ///< lattice units^4, unless refused
-  // If allowed:
+  // The fields below are set if the collapse is allowed.
   LatticeCoord position;
   Quadric quadric;                ///< of the merged vertex
-  FaceId face = kNoId;            ///< one of those replaced
-  int128 gain6 = 0;               ///< of the volume
-  std::vector<FaceId> swallowed;  ///< between the old star and the new one
-  EditBoxes boxes;                ///< of the new faces, or around all faces if parts may be swallowed
+  FaceId face = kNoId;            ///< one of the replaced faces
+  int128 gain6 = 0;               ///< growth of the volume, times 6
+  std::vector<FaceId> swallowed;  ///< faces between the old star and the new one
+  EditBoxes boxes;                ///< boxes of the new faces, or one around all faces if parts may be swallowed
 };
 
-/// Plans collapses, and changes nothing. Planners of one ground may work at the same time, unless it has limits.
+/// Plans collapses, and changes nothing. Planners of the same data may work at the same time, unless there are limits.
 class CollapsePlanner {
  public:
   explicit CollapsePlanner(const CollapseGround& ground);
 
-  /// No collapse of the edge costs less: the minimum of its summed quadrics.
+  /// Returns a lower bound for the cost of collapsing the edge: the minimum of its summed quadrics.
   [[nodiscard]] double lower_bound(HalfEdgeId h) const;
 
-  /// The first place where the guard lets the edge merge; not sought if the first of all costs more than `most`.
+  /// Plans the collapse of an edge: finds the first place that the guard allows. Gives up early if the first place
+  /// costs more than `most`.
   void plan(HalfEdgeId h, double most, CollapsePlan& plan);
 
-  std::uint64_t solved = 0;  ///< quadratic programs
+  std::uint64_t solved = 0;  ///< quadratic programs solved
 
  private:
-  /// A place that passed every test but the guard.
+  /// A place that has passed every test but the guard.
   struct Candidate {
     LatticeCoord position;
     double cost = 0;  // of the summed quadrics at `position`, lattice units^4
-    int attempt = 0;  // which of the places to try it is
+    int attempt = 0;  // number of the attempt
   };
   /// A face around one of the edge's ends; coordinates relative to from(edge).
   struct StarFace {
     FaceId face;
     VertexId a, b;              // its corners besides the end, counter-clockwise
-    LatticeCoord apex, pa, pb;  // of the end, a, b
+    LatticeCoord apex, pa, pb;  // positions of the end, of a and of b
     LatticeCoord normal;
-    bool lost;  // one of the edge's own two faces
+    bool lost;  // one of the two faces at the edge, which vanish
   };
 
-  /// The first place from number `first_attempt` on for the vertex that the edge merges into; nothing if there is none.
+  /// Returns the first place for the merged vertex, from attempt `first_attempt` on; nothing if there is none.
   [[nodiscard]] std::optional<Candidate> solve(HalfEdgeId h, int first_attempt);
   [[nodiscard]] bool may_be_taken(const LatticeCoord& p);
   void fill(const Candidate& candidate, CollapsePlan& plan) const;
@@ -95,7 +97,7 @@ class CollapsePlanner {
   [[nodiscard]] bool is_free(const LatticeCoord& p);
   [[nodiscard]] bool turns_over(const LatticeCoord& p) const;
   [[nodiscard]] bool swallows(FaceId f, const LatticeCoord& p) const;
-  /// Keeps the refusal of the attempt that came furthest.
+  /// Keeps the refusal of the attempt that passed most tests.
   bool refuse(Refusal why) {
     refusal_ = std::max(refusal_, why);
     return false;
@@ -106,20 +108,20 @@ class CollapsePlanner {
   const SimplifyParams& params_;
   Guard guard_;
   Refusal refusal_ = Refusal::none;
-  // Of the edge that solve() was last called with:
+  // The fields below belong to the edge that solve() was last called with.
   LatticeCoord origin_;  // position of from(h)
   VertexId kept_ = kNoId;
-  double weight_ = 0;           // area of its quadrics
-  std::vector<StarFace> star_;  // around from(h), then around to(h) but for the edge's own two
-  std::vector<VertexId> ring_;  // neighbours of from(h), then those of to(h) but from(h)
-  std::size_t ring_split_ = 0;  // where the second ones begin
+  double weight_ = 0;           // area that its quadrics are weighted by
+  std::vector<StarFace> star_;  // faces around from(h), then those around to(h) without the edge's own two
+  std::vector<VertexId> ring_;  // neighbours of from(h), then those of to(h) without from(h)
+  std::size_t ring_split_ = 0;  // where the neighbours of to(h) begin
   std::vector<PlaneConstraint> constraints_;
   std::vector<NewFace> new_faces_;
   std::vector<FaceId> replaced_;
   std::vector<Tetrahedron> swept_;
-  Blocker blocker_;  // of the last place for the edge
+  Blocker blocker_;  // what refused the last place for the edge
   std::vector<LatticeCoord> normals_before_;
-  std::vector<FaceId> swallowed_;  // faces between the old star and the new one, then their connected parts
+  std::vector<FaceId> swallowed_;  // faces between the old star and the new one, then the parts connected to them
 };
 
 }  // namespace bp

@@ -54,7 +54,7 @@ double area_of(const std::array<std::array<float, 2>, 3>& t) {
   return (double(t[1][0] - t[0][0]) * (t[2][1] - t[0][1]) - double(t[2][0] - t[0][0]) * (t[1][1] - t[0][1])) / 2;
 }
 
-/// How many texel centres lie in two faces, by rasterising; those on an edge are in neither.
+/// Returns how many texel centres lie in two faces, by rasterising; those on an edge are in neither.
 std::size_t covered_twice(const Atlas& atlas) {
   constexpr int kFine = 4;  // points along a texel
   std::vector<bool> taken(std::size_t(kFine * kFine) * std::size_t(atlas.width) * std::size_t(atlas.height));
@@ -88,7 +88,7 @@ std::size_t shared_squares(const Atlas& atlas) {
     const auto& t = atlas.corners[i];
     const auto [left, right] = std::minmax({t[0][0], t[1][0], t[2][0]});
     const auto [top, bottom] = std::minmax({t[0][1], t[1][1], t[2][1]});
-    // The face with half a texel around it, which a look at the image between texels takes.
+    // The face with half a texel around it, which interpolation between texels reads.
     for (int y = int(std::floor((top - 0.5F) / 4)); y <= int(std::floor((bottom + 0.5F) / 4)); ++y)
       for (int x = int(std::floor((left - 0.5F) / 4)); x <= int(std::floor((right + 0.5F) / 4)); ++x)
         charts[{x, y}].insert(atlas.chart[i]);

@@ -1,4 +1,4 @@
-// The proxy alone: each finding has a mesh where it is found and nothing else is wrong (or what follows from it).
+// The proxy alone: each finding has a mesh that has this fault only (or faults that follow from it).
 #include <random>
 
 #include "lib/exact/predicates.h"

@@ -49,7 +49,7 @@ std::vector<TileContent> contents() {
   return {content_of({{10, 10, -10}, {0, 0, 0}}), content_of({{-10, 5, 5}}), content_of({{-0.5, -5, 5}})};
 }
 
-/// Those that are not decided begin with "? ".
+/// Returns the findings; undecided ones begin with "? ".
 std::vector<std::string> findings(const Tileset& t, const std::vector<TileContent>& c) {
   std::size_t next = 0;
   std::vector<std::string> lines;
@@ -58,7 +58,7 @@ std::vector<std::string> findings(const Tileset& t, const std::vector<TileConten
   return lines;
 }
 
-/// The only finding.
+/// Returns the only finding.
 std::string finding(const Tileset& t, const std::vector<TileContent>& c = contents()) {
   const std::vector<std::string> all = findings(t, c);
   return all.size() == 1 ? all[0] : std::to_string(all.size()) + " findings";

@@ -13,7 +13,7 @@ using namespace bp::test;
 
 namespace {
 
-/// Between the segments from p to p + u and from q to q + v.
+/// Returns the distance between the segments from p to p + u and from q to q + v.
 double segment_distance(const Vec3d& p, const Vec3d& u, const Vec3d& q, const Vec3d& v) {
   const Vec3d w = p - q;
   const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w), det = uu * vv - uv * uv;
@@ -28,7 +28,7 @@ double segment_distance(const Vec3d& p, const Vec3d& u, const Vec3d& q, const Ve
   return least;
 }
 
-/// Of triangles that do not meet: between edges, or from a corner.
+/// Returns the distance of triangles that do not meet: it is between edges, or from a corner.
 double distance_between(const TriangleD& a, const TriangleD& b) {
   double least = HUGE_VAL;
   for (std::size_t i = 0; i < 3; ++i) {

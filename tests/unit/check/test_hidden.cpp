@@ -8,9 +8,9 @@ using namespace bp::test;
 
 namespace {
 
-/// A room with walls of 3 around (0,0,0)..(32,24,24), open at x = 32 by a door of 6 x 13: 4 voxels wide, since those
-/// that the walls touch count. Voxels have an edge of 1. What a closing adds in the room's edges is reached from the
-/// door.
+/// Returns a room with walls of 3 around (0,0,0)..(32,24,24), open at x = 32 by a door of 6 x 13: 4 voxels wide, since
+/// voxels that the walls touch count. Voxels have an edge of 1. Voxels that a closing adds in the room's edges are
+/// reached from the door.
 IndexedMesh room() {
   IndexedMesh m = box({-3, -3, -3}, {35, 27, 0});
   for (const auto& [lo, hi] : std::vector<std::pair<Vec3d, Vec3d>>{{{-3, -3, 24}, {35, 27, 27}},
@@ -24,7 +24,7 @@ IndexedMesh room() {
   return m;
 }
 
-/// Of a proxy in the room, or with `scene` elsewhere.
+/// Checks a proxy in the room, or with `scene` elsewhere.
 CheckReport hidden_in(const IndexedMesh& scene, const IndexedMesh& proxy, double scale,
                       std::uint64_t memory_bytes = 1 << 28) {
   VectorSource source(triangles_of(scene)), walls(triangles_of(scene));
@@ -72,7 +72,7 @@ TEST_CASE("a proxy that comes a voxel out of what is hidden is refuted, with a p
 
 TEST_CASE("a proxy around the scene swallows what is not hidden", "[quick][check][occluder]") {
   CHECK(hidden_in(room(), box({-7, -7, -7}, {40, 40, 40}), 4.0625).answer() == Answer::refuted);
-  // One that touches no open voxel: the proxy is around all that the box of voxels holds.
+  // A proxy that touches no open voxel: it is around the whole box of voxels.
   CHECK(hidden_in(room(), box({-200, -200, -200}, {200, 200, 200}), 4.0625).answer() == Answer::refuted);
 }
 

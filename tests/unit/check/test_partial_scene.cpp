@@ -1,4 +1,4 @@
-// What of a scene is left out, or may be drawn in another way.
+// Tests of parts of a scene that are left out, or may be drawn in another way.
 #include "tests/catch.h"
 #include "tests/unit/check/meshes.h"
 
@@ -7,7 +7,7 @@ using namespace bp::test;
 
 namespace {
 
-/// A scene of which its reader counts one surface that it does not deliver.
+/// A scene whose reader counts one surface that it does not deliver.
 class PartialSource final : public VectorSource {
  public:
   PartialSource(std::vector<TriangleD> triangles, std::uint64_t SceneCounts::*left_out)

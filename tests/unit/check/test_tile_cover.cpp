@@ -53,7 +53,7 @@ std::vector<std::string> texts(const CoverReport& report) {
   return lines;
 }
 
-/// What `count` parts find, each of which knows nothing of the contents of the others' tiles, sorted.
+/// Returns the findings of `count` parts, sorted. No part knows the contents of the others' tiles.
 std::vector<std::string> findings_of_parts(const std::vector<CoverTile>& tiles, const CoverContents& content,
                                            TriangleSource& scene, std::uint64_t count) {
   std::vector<std::string> lines;
@@ -71,7 +71,7 @@ std::vector<std::string> findings_of_parts(const std::vector<CoverTile>& tiles, 
   return lines;
 }
 
-/// The same, whether all contents are looked at together, one after the other, or in parts.
+/// Returns the findings, the same for contents checked together, one after the other, or in parts.
 std::vector<std::string> findings(const std::vector<MeshTile>& tiles, const Triangles& scene = bar()) {
   std::vector<CoverTile> cover;
   for (const MeshTile& t : tiles) {

@@ -1,3 +1,4 @@
+#include "lib/check/tile_cover.h"
 #include "lib/check/tile_drawn.h"
 #include "tests/catch.h"
 #include "tests/support/memory_scene.h"
@@ -22,7 +23,7 @@ std::vector<CoverTile> drawn_tiles() {
 
 const Bounds3d kDrawnScene{{0, 0, 0}, {3, 4, 12}};  // a diagonal of 13
 
-/// Of each finding its tile; "?" before those that are not decided.
+/// Returns the tile of each finding; "?" before undecided ones.
 std::string undrawn(const std::vector<CoverTile>& tiles, double error = 13) {
   std::string all;
   for (const TileFinding& f : check_drawn(tiles, error, kDrawnScene))

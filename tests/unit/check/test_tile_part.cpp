@@ -9,7 +9,8 @@ using namespace bp;
 
 namespace {
 
-/// How many of one depth, with or without a content, each part has: differences of two at most.
+/// Checks that parts have equal shares: the number of tiles of one depth, with or without a content, differs by two at
+/// most.
 void check_shares(const std::vector<CoverTile>& tiles, std::uint64_t count) {
   std::vector<int> depths(tiles.size());
   for (std::size_t i = 0; i < tiles.size(); ++i) {
@@ -30,7 +31,7 @@ void check_shares(const std::vector<CoverTile>& tiles, std::uint64_t count) {
   }
 }
 
-/// A tile and those below it, depth first, each with a content or not.
+/// Grows a tile and those below it, depth first, each with a content or not.
 void grow(std::vector<CoverTile>& tiles, int depth, std::mt19937& chance) {
   const std::size_t mine = tiles.size();
   tiles.push_back({"", chance() % 8 > 0 ? "uri" : "", {}, {}, {}});

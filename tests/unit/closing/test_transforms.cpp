@@ -36,7 +36,7 @@ bool test(const detail::ColumnBits& bits, VoxelCoord p) {
          1;
 }
 
-/// Whether some ball reaches p, from the pairs.
+/// Returns whether some ball reaches p, by trying all pairs.
 bool reached(const detail::BallRule& rule, const std::vector<VoxelCoord>& seeds, VoxelCoord p) {
   return std::any_of(seeds.begin(), seeds.end(), [&](VoxelCoord q) {
     const VoxelCoord d = p - q;

@@ -87,8 +87,8 @@ Vec3d affine(const Vec3d& p) {
   return {2 * p[0] - p[1] + 3, p[1] + 0.5 * p[2], 0.25 * p[0] - 3 * p[2]};
 }
 
-/// Coordinates before they are made to sum to 1 and to reproduce the point; empty next to a face. `slow`: how many
-/// needed extended precision.
+/// Returns coordinates before they are made to sum to 1 and to reproduce the point; empty next to a face. `slow`: how
+/// many needed extended precision.
 std::vector<double> raw_row(const CageCoordinates& coordinates, const Vec3d& p, std::size_t& slow) {
   static detail::CoordinateScratch scratch;
   const Cage& cage = coordinates.cage();

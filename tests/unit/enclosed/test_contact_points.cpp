@@ -20,7 +20,7 @@ LatticeMesh cube() {
   return mesh;
 }
 
-/// Points alone.
+/// An enclosed set of points only.
 class PointsInside final : public Enclosed {
  public:
   explicit PointsInside(std::vector<Vec3d> points) : points_(std::move(points)) {}

@@ -11,7 +11,7 @@ using bp::test::RandomLattice;
 
 namespace {
 
-/// The definition: the new faces meet no triangle, be it a segment or a point, and no closed tetrahedron of positive
+/// The definition: the new faces meet no triangle (segments and points included), and no closed tetrahedron of positive
 /// volume holds a first corner.
 bool allowed(const std::vector<TriangleD>& triangles, const GridFrame& frame, const std::vector<NewFace>& star,
              const std::vector<Tetrahedron>& swept) {

@@ -111,7 +111,7 @@ void check_edges(std::size_t n, const Cut& triangles) {
   CHECK(left == n);
 }
 
-/// What PolygonCutter promises of an outline that does not cross itself, seen along the axis.
+/// Checks the promises of PolygonCutter for an outline that does not cross itself, seen along the axis.
 void check_cut(const Outline& p, std::size_t axis = 2) {
   const Cut triangles = cut(p);
   REQUIRE(triangles.size() == p.size() - 2);

@@ -38,7 +38,7 @@ TEST_CASE("distances of points are exact above what is enough", "[quick][check]"
   }
 }
 
-// Halves alone would be as small as the limit along all edges below: millions.
+// Halves would have to be as small as the limit along all edges below: millions of them.
 TEST_CASE("a triangle over a mosaic is near within any limit", "[quick][check]") {
   std::vector<TriangleD> mosaic;
   const int n = 12;

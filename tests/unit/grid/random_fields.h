@@ -14,7 +14,7 @@ inline Vec3d random_point(Random& random, double reach) {
   return {uniform(random, -reach, reach), uniform(random, -reach, reach), uniform(random, -reach, reach)};
 }
 
-/// What files of earlier versions hold: boxes, then strokes.
+/// Returns fields as files of earlier versions have them: boxes, then strokes.
 inline ScaleField random_strokes(std::uint32_t seed) {
   Random random(seed);
   ScaleField field;

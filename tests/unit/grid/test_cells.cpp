@@ -36,7 +36,7 @@ Bounds3d bounds_at(const Vec3d& low, const Vec3d& size) {
   return bounds;
 }
 
-/// Of a scene with voxels of 0.5.
+/// Returns the frame of a scene with voxels of 0.5.
 GridFrame frame_of(const Bounds3d& bounds, std::int32_t edge, UpAxis up = UpAxis::z) {
   return aligned_to_cells(make_frame(bounds, 0.5, up), bounds, edge);
 }

@@ -129,7 +129,7 @@ double reach_of(const ConvexParts& parts, const LatticeMesh& mesh) {
   return double(reach) / double(side);
 }
 
-/// As bpcheck --convex says it: of `scene`, and of the hulls as such.
+/// Returns the proof of bpcheck --convex for `scene` and for the hulls.
 CheckReport proof(const ConvexParts& parts, const std::vector<TriangleD>& scene) {
   VectorSource source(scene);
   CheckOptions options;

@@ -15,7 +15,7 @@ namespace bp::test {
 
 namespace {
 
-/// Of so many faces at most, around the scene's triangles.
+/// Returns a level of at most so many faces around the scene's triangles.
 LodLevel level_around(const Triangles& scene, double voxel, std::uint64_t faces) {
   Backends backends = plain_backends(2);
   Voxelized solid = voxelized(scene, voxel);
@@ -25,7 +25,7 @@ LodLevel level_around(const Triangles& scene, double voxel, std::uint64_t faces)
   return LodChain(solid.header, std::move(solid.shelf), backends, options).make({faces, 0, {}});
 }
 
-/// Without a mesh, on voxels of a size by chance.
+/// Returns a level without a mesh, on voxels of a random size.
 LodLevel level_to_replace(const Triangles& scene, RandomLattice& random) {
   Bounds3d bounds;
   for (const TriangleD& t : scene) bounds.merge(bp::bounds_of(t));

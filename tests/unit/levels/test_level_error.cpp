@@ -13,7 +13,7 @@ namespace bp::test {
 
 namespace {
 
-/// Where the house of town() stands on its slab: nobody sees what is there.
+/// Returns whether a point lies where the house of town() stands on its slab, which nobody sees.
 bool is_hidden(const Vec3d& p) {
   return p[1] == 2 && p[0] > 60 && p[0] < 75 && p[2] > 70 && p[2] < 82;
 }

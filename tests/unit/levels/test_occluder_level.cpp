@@ -22,7 +22,7 @@ VoxelizedScene voxels(const Solid& touched) {
   return scene;
 }
 
-/// What a scene hides, its occluder, and what was shown meanwhile.
+/// The hidden voxels of a scene, its occluder, and the progress that was shown.
 struct Run {
   HiddenScene hidden;
   MadeOccluder made;
@@ -68,7 +68,7 @@ bool cut_box(VoxelCoord p) {
   return p.x + p.y + p.z >= 7;
 }
 
-/// The count that the definition gives at a scale.
+/// Returns the number of hidden voxels that the definition gives at a scale.
 std::uint64_t hidden_at(const Solid& touched, double scale) {
   VoxelizedScene scene = voxels(touched);
   HiddenOptions options;

@@ -21,7 +21,7 @@ Design design(const std::string& json) {
   return {json, "rules.json", context(), frame()};
 }
 
-/// What the file that would be saved means.
+/// Returns the plan of the file that would be saved.
 ScalePlan saved(const Design& d) {
   return parse_scale_rules(d.json(), "saved", context());
 }

@@ -42,7 +42,7 @@ RuleContext context_of(const StreamHeader& header) {
   return c;
 }
 
-/// What bpscale and bpclose make of a file of rules: through the JSON of a stream's header.
+/// Returns the voxels that bpscale and bpclose make with a file of rules: through the JSON of a stream's header.
 std::unique_ptr<BrickShelf> by_the_pipe(const std::string& rules, const LiveScene& scene, BrickShelf& solid) {
   CloseOptions options;
   options.context.make_shelf = test::memory_shelves();
@@ -90,7 +90,7 @@ void random_edit(Design& design, Random& random) {
   }
 }
 
-/// All pieces, made one after the other, against those made anew.
+/// Compares all pieces, made one after the other, with pieces that are made at once.
 void check_pieces(const std::map<BrickCoord, LiveClosing::Piece>& shown, const LiveClosing& live,
                   const ScaleField& field) {
   std::size_t faces = 0, expected = 0;

@@ -25,7 +25,7 @@ bool body(VoxelCoord p) {
   return std::hypot(x, y) < 13 - std::abs(z - 38) / 2 || x * x + y * y + (z - 51) * (z - 51) < 40;
 }
 
-/// Over the other diagonals.
+/// Draws the other diagonals.
 LatticeMesh turned(LatticeMesh mesh) {
   for (const auto& pair : mesh.quads) {
     const auto other = across(quad_of(mesh.triangles[pair[0]], mesh.triangles[pair[1]]));

@@ -24,7 +24,7 @@ bool bent_pipe(VoxelCoord p) {
   return ring * ring + (p.z - 18.0) * (p.z - 18.0) < 20 || (p.z >= 8 && p.z < 12 && p.x > 4 && p.x < 30 && p.y > 9);
 }
 
-/// Diagonals drawn the other way where `turned` says so.
+/// Draws the other diagonals where `turned` says so.
 IndexedMesh with_diagonals(const LatticeMesh& mesh, const std::function<bool(std::size_t)>& turned) {
   const PolygonFaces faces = polygon_faces(mesh);
   IndexedMesh out = indexed(mesh);

@@ -4,6 +4,7 @@
 #include "lib/mesh/lattice_geometry.h"
 #include "lib/mesh/shells.h"
 #include "lib/simplify/detail/bulk_order.h"
+#include "lib/simplify/simplify.h"
 #include "lib/surface/repair.h"
 #include "lib/surface/surface.h"
 #include "tests/support/proxy_checks.h"

@@ -52,7 +52,7 @@ IndexedMesh in_world(const LatticeMesh& mesh) {
   return out;
 }
 
-/// Embedded, and around the voxels that are asked for, a sample of all.
+/// Checks that the proxy is embedded, and around a sample of the voxels.
 void check_large_proxy(const LatticeMesh& proxy, const Solid& solid) {
   CheckReport report;
   WeldedMesh welded = weld(in_world(proxy), 3, report);

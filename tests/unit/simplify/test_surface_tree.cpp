@@ -34,7 +34,7 @@ std::int64_t volume6(const std::vector<LatticeCoord>& v, const std::vector<Trian
   return sum;
 }
 
-/// Refuses nothing; but limits are kept by the whole surface, so no cell collapses anything.
+/// Limits that refuse nothing. Limits are kept by the whole surface, so no cell collapses anything.
 class NoLimits final : public StepLimits {
  public:
   void begin(int128) override {}
@@ -55,7 +55,7 @@ double share_along_walls(const std::vector<LatticeCoord>& vertices) {
   return double(near) / double(vertices.size());
 }
 
-/// Vertices of bricks simplified far, each by itself.
+/// Returns the vertices of bricks that were simplified far, each separately.
 std::vector<LatticeCoord> with_seams(const SurfaceSource& surface) {
   std::vector<LatticeCoord> vertices;
   for (const BrickCoord& b : surface.bricks()) {

@@ -20,7 +20,7 @@ std::vector<TriangleD> triangles_of(const std::vector<Quad>& quads) {
   return out;
 }
 
-/// What a proxy around triangles of the scene holds, in voxels.
+/// Returns the volume, in voxels, of a proxy around triangles of the scene.
 double volume_around(const Solid& solid, const VoxelBox& box, const std::vector<TriangleD>& scene, std::uint64_t faces,
                      StopReason& stop) {
   GridFrame frame;

@@ -43,7 +43,7 @@ HalfEdgeMesh merged_surface(const BrickShelf& shelf) {
   return mesh;
 }
 
-/// A fit of a slab's surface.
+/// A fit with points on a slab's surface.
 struct OnSlab {
   Slab shelf;
   HalfEdgeMesh mesh = merged_surface(shelf);

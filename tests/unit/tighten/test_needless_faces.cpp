@@ -22,7 +22,7 @@ std::vector<TriangleD> octahedron() {
   return out;
 }
 
-/// The same in voxels, which touch it.
+/// Returns whether a voxel touches the octahedron.
 bool in_octahedron(VoxelCoord v) {
   const auto near = [](int c) { return c >= 0 ? c : -c - 1; };
   return near(v.x) + near(v.y) + near(v.z) <= kRadius;
@@ -35,7 +35,7 @@ double farthest(const LatticeMesh& mesh) {
   return (double(most) / kLatticePerVoxel - kRadius) / std::sqrt(3.0);
 }
 
-/// Around the octahedron; a vertex near the middle of an edge, and one of three faces above it that stands far out.
+/// A proxy around the octahedron, with a vertex near the middle of an edge, one of whose three faces above is far out.
 LatticeMesh octahedron_with_spike() {
   LatticeMesh mesh;
   mesh.vertices = {{-kTip, 0, 0}, {0, -kTip, 0},    {0, 0, -kTip},    {0, 0, kTip},
@@ -45,8 +45,8 @@ LatticeMesh octahedron_with_spike() {
   return mesh;
 }
 
-/// The same where the vertex lies in the plane of a side, and so has next to no volume; the one below is a little
-/// higher, so that a cut adds some.
+/// A proxy whose vertex lies in the plane of a side, so that it has next to no volume; the vertex below is a little
+/// higher, so that a cut adds volume.
 LatticeMesh octahedron_with_tongue() {
   LatticeMesh mesh = octahedron_with_spike();
   mesh.vertices[6] = {5096, -20, 3119};

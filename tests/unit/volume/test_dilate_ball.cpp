@@ -13,7 +13,7 @@ namespace {
 
 const std::vector<VoxelCoord> kSeeds = {{0, 0, 0}, {63, 5, -64}, {64, 7, -61}, {-1, -1, 40}};
 
-/// By the definition: a cube at p, and those of the seeds.
+/// The definition: whether the cube at p is within `reach` of a seed's cube.
 bool is_near(const VoxelCoord& p, double reach) {
   return std::any_of(kSeeds.begin(), kSeeds.end(), [&](const VoxelCoord& s) {
     double squared = 0;

@@ -68,7 +68,7 @@ struct Plain {
   }
 };
 
-/// All of it, and the part that is asked about: what the functions see of it is cut to the context that they ask for.
+/// A whole solid, and the part that is asked about: functions see only the part with the context that they ask for.
 struct Scene {
   explicit Scene(std::uint32_t seed, std::int32_t context)
       : tile({{3, -3, 3}, {8, 3, 6}}),

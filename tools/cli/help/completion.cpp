@@ -6,7 +6,7 @@ namespace bp {
 
 namespace {
 
-/// What a shell completes a value with, in addition to its words. Folders and files are told by the name of the value.
+/// The kinds of names that a shell completes a value with, in addition to words. The value's name tells the kind.
 enum class Kind { none, file, folder };
 
 Kind kind_of(const Declaration& d) {
@@ -14,7 +14,7 @@ Kind kind_of(const Declaration& d) {
   return d.value_name.find("FILE") != std::string::npos ? Kind::file : Kind::none;
 }
 
-/// A flag that may carry a word, as `--progress [json]`, needs none.
+/// Returns whether an option needs a value. A flag that may carry a word, as `--progress [json]`, does not.
 bool needs_value(const Declaration& d) {
   return !d.value_name.empty() && d.value_name.front() != '[';
 }
@@ -25,8 +25,8 @@ std::string words_of(const Declaration& d) {
   return all;
 }
 
-/// With a backslash before each of `marks`, and as the inside of a text in single quotes. `quote`: how the shell writes
-/// a single quote there.
+/// Returns a text for the inside of single quotes, with a backslash before each of `marks`. `quote`: how the shell
+/// writes a single quote there.
 std::string quoted(const std::string& text, const std::string& marks, const std::string& quote) {
   std::string out;
   for (const char c : text) {
@@ -36,7 +36,7 @@ std::string quoted(const std::string& text, const std::string& marks, const std:
   return out;
 }
 
-/// What bash completes after an option, and the names of all.
+/// Adds an option to the script for bash: its name, and a case that completes its value.
 void add_bash_case(const Declaration& d, std::string& cases, std::string& names) {
   std::string pattern;
   for (const std::string& name : parts_of(d.names, ',')) {
@@ -79,7 +79,7 @@ complete -F _{0} {0}
                      tool.tool, cases, names);
 }
 
-/// What zsh completes a value with: an action of _arguments.
+/// Returns the action of zsh's _arguments that completes a value.
 std::string zsh_action(const Declaration& d) {
   const Kind kind = kind_of(d);
   const std::string files = kind == Kind::file ? "_files" : kind == Kind::folder ? "_files -/" : "";

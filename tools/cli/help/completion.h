@@ -5,7 +5,7 @@
 
 namespace bp {
 
-/// A script that completes the tool's options, their words and the names of files. shell: bash, zsh or fish.
+/// Returns a script that completes the tool's options, their words and the names of files. shell: bash, zsh or fish.
 [[nodiscard]] std::string completion(const ToolDeclaration& tool, const std::string& shell);
 
 }  // namespace bp

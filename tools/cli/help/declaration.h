@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-/// What a tool declares of its command line: help, manuals and completion are made of it.
+/// The declaration of a tool's command line, from which help, manuals and completion are made.
 namespace bp {
 
 /// A word that an option takes as its value.
@@ -12,12 +12,12 @@ struct Word {
 };
 
 struct Declaration {
-  std::string names;            ///< "-s,--scale"; of an argument its name
+  std::string names;            ///< "-s,--scale"; the name of an argument
   std::string value_name = {};  ///< "LENGTH"; empty: a flag
   std::string help = {}, shown_default = {}, group = {};
-  std::vector<Word> words = {};  ///< all values, or those of many that have a name
-  bool often = false;            ///< most people need it: `--help` shows it, and not only `--help all`
-  bool needed = false;           ///< no command line is without it: the line "Usage" shows it
+  std::vector<Word> words = {};  ///< all values, or those of many that are words
+  bool often = false;            ///< an option that most people need: `--help` shows it, not only `--help all`
+  bool needed = false;           ///< every command line needs it: the line "Usage" shows it
 };
 
 struct ToolDeclaration {
@@ -25,7 +25,7 @@ struct ToolDeclaration {
   std::vector<Declaration> arguments, options;
 };
 
-/// "a|b|c", or "-s,--scale", in its parts.
+/// Returns the parts of "a|b|c" or "-s,--scale".
 [[nodiscard]] inline std::vector<std::string> parts_of(const std::string& text, char separator) {
   std::vector<std::string> parts;
   for (std::size_t begin = 0; begin <= text.size();) {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kHelpColumn = 28, kWordColumn = 8, kHelpWidth = 80;
 
-/// Words of `text`, as many to a line as fit, from `column` on; the first line is already begun.
+/// Returns the words of `text` broken into lines, from `column` on; the first line is already begun.
 std::string wrapped(const std::string& text, std::size_t column) {
   std::string out;
   std::size_t at = column;
@@ -31,7 +31,7 @@ std::string wrapped(const std::string& text, std::size_t column) {
   return out;
 }
 
-/// "-s,--scale" and its value as people write it: "-s, --scale LENGTH".
+/// Returns "-s,--scale" and its value as people write it: "-s, --scale LENGTH".
 std::string signature(const Declaration& d) {
   std::string out;
   for (const char c : d.names) out += c == ',' ? std::string(", ") : std::string(1, c);
@@ -42,12 +42,13 @@ std::string text_of(const Declaration& d) {
   return d.help + (d.shown_default.empty() ? "" : " (default: " + d.shown_default + ")");
 }
 
-/// Whether the words need more than their names.
+/// Returns whether some word has a help text.
 bool has_word_help(const Declaration& d) {
   return std::any_of(d.words.begin(), d.words.end(), [](const Word& word) { return !word.help.empty(); });
 }
 
-/// Names on the left, text in the right-hand column; below it a line for each word that has a text.
+/// Returns the lines of an option: names on the left, text in the right-hand column; below it a line for each word that
+/// has a text.
 std::string entry(const Declaration& d) {
   std::string out = "  " + signature(d);
   if (out.size() + 2 > kHelpColumn) out += "\n" + std::string(kHelpColumn, ' ');
@@ -63,7 +64,7 @@ std::string entry(const Declaration& d) {
   return out;
 }
 
-/// f(group, its options) for each group in the order of declaration; options without a group come last.
+/// Calls f(group, its options) for each group in the order of declaration; options without a group come last.
 void for_each_group(const std::vector<Declaration>& options,
                     const std::function<void(const std::string&, const std::vector<Declaration>&)>& f) {
   std::vector<std::string> groups;
@@ -98,12 +99,12 @@ std::string help_of(const ToolDeclaration& tool, const std::vector<Declaration>&
   return text;
 }
 
-/// Up to the first semicolon, colon or bracket.
+/// Returns the text up to the first semicolon, colon or bracket.
 std::string first_clause(const std::string& text) {
   return text.substr(0, std::min({text.find("; "), text.find(": "), text.find(" (")}));
 }
 
-/// With the names of options as code: "`--temp`".
+/// Returns the text with the names of options as code: "`--temp`".
 std::string with_code(const std::string& text) {
   static const std::regex option("(^|[ (])(--[a-z][a-z-]*)");
   return std::regex_replace(text, option, "$1`$2`");

@@ -5,11 +5,11 @@
 
 namespace bp {
 
-/// The options that most people need, by group; about 25 lines of at most 80 columns.
+/// Returns the options that most people need, by group; about 25 lines of at most 80 columns.
 [[nodiscard]] std::string short_help(const ToolDeclaration& tool);
-/// All options, by group.
+/// Returns all options, by group.
 [[nodiscard]] std::string full_help(const ToolDeclaration& tool);
-/// The same as the section "Options" of the tool's manual: Markdown, without its heading.
+/// Returns the section "Options" of the tool's manual: Markdown, without its heading.
 [[nodiscard]] std::string markdown_help(const ToolDeclaration& tool);
 
 }  // namespace bp

@@ -9,7 +9,7 @@ namespace bp {
 
 namespace {
 
-/// Changes that make `b` of `a`: the optimal string alignment distance.
+/// Returns the number of changes that make `b` of `a`: the optimal string alignment distance.
 std::size_t distance(const std::string& a, const std::string& b) {
   std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
   for (std::size_t i = 0; i <= a.size(); ++i) {
@@ -43,14 +43,15 @@ constexpr std::array<Synonym, 20> kSynonyms = {
      {"impostor", "gltf"},     {"cesium", "3dtiles"},     {"cesiumjs", "3dtiles"}, {"tileset", "3dtiles"},
      {"culling", "occluder"},  {"occlusion", "occluder"}, {"deform", "cage"},      {"lattice", "cage"}}};
 
-/// The word among `words` that does what `text` means in other programs; empty if there is none.
+/// Returns the word among `words` that means here what `text` means in other programs; empty if there is none.
 std::string synonym(const std::string& text, const std::vector<std::string>& words) {
   for (const Synonym& s : kSynonyms)
     if (s.foreign == text && std::find(words.begin(), words.end(), s.own) != words.end()) return std::string(s.own);
   return "";
 }
 
-/// A word that holds the other, as "3dtiles" does "tiles"; letters of options without their dashes.
+/// Returns a word that holds the text, as "3dtiles" does "tiles", or lies in it; names of options are compared without
+/// their dashes.
 std::string containing(const std::string& text, const std::vector<std::string>& words) {
   constexpr std::size_t kFewest = 4;
   const auto letters = [](const std::string& word) {
@@ -75,7 +76,7 @@ std::string nearest_word(const std::string& slip, const std::vector<std::string>
   if (letters < 2 || text.size() > kLongest) return "";
   std::string nearest = synonym(text, words);
   if (!nearest.empty()) return nearest;
-  std::size_t least = letters / kLettersPerChange + 1;  // exclusive
+  std::size_t least = letters / kLettersPerChange + 1;  // changes must be fewer
   for (const std::string& word : words) {
     if (word.starts_with(text)) return word;
     const std::size_t changes = distance(text, word);

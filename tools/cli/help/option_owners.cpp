@@ -11,7 +11,7 @@ namespace bp {
 
 namespace {
 
-/// Which tools have an option, of those that not all of the pipe's tools have. A golden case (manuals) holds it against
+/// An option of some of the pipe's tools, and the names of these tools. A golden case (manuals) compares the table with
 /// the tools.
 struct OptionOfTools {
   const char *option, *tools;

@@ -3,11 +3,11 @@
 
 namespace bp {
 
-/// "; --faces is an option of bpmesh and bplod", if another tool of the pipe has this option and `tool` belongs to the
-/// pipe, too; else nothing. `similar`: also finds misspelt names.
+/// Returns "; --faces is an option of bpmesh and bplod" if `tool` belongs to the pipe and other tools of the pipe have
+/// this option; else nothing. `similar`: also finds misspelt names.
 [[nodiscard]] std::string owner_of(const std::string& tool, const std::string& name, bool similar);
 
-/// False if `tool` belongs to the pipe and has no such option.
+/// Returns false if `tool` belongs to the pipe and has no such option.
 [[nodiscard]] bool may_have_option(const std::string& tool, const std::string& name);
 
 }  // namespace bp

@@ -15,7 +15,7 @@ std::vector<Length> parse_error_list(const std::string& text) {
     if (last.unit != all.front().unit) fail(ErrorCode::bad_argument, "{}: mixes units", text);
     if (all.size() == 1) return;
     const double before = all[all.size() - 2].value;
-    const bool pixels = last.unit == Length::Unit::pixels;  // the larger on screen, the smaller the error
+    const bool pixels = last.unit == Length::Unit::pixels;  // a larger error on screen is a coarser level
     if (pixels ? last.value >= before : last.value <= before)
       fail(ErrorCode::bad_argument, "{}: each level must have {} than the one before", text,
            pixels ? "fewer pixels" : "a larger one");

@@ -6,22 +6,22 @@
 
 #include "tools/cli/args.h"
 
-/// How fine the proxies are: bpmesh and bplod declare the same options.
+/// The options that tell how fine proxies are, as bpmesh and bplod declare them.
 namespace bp {
 
 struct LevelOptions {
-  std::vector<std::uint64_t> faces;  ///< of each level, finest first
-  std::vector<double> shares;        ///< the same in percent of the scene's triangles; either this or faces
-  std::vector<Length> errors;        ///< of each level, finest first
+  std::vector<std::uint64_t> faces;  ///< faces of each level, finest first
+  std::vector<double> shares;  ///< the same as percentages of the scene's triangles; only one of both lists is used
+  std::vector<Length> errors;  ///< errors of each level, finest first
   std::optional<std::uint64_t> levels;
 
-  /// Of a stream, whose triangles nobody has counted: --faces without percentages, and one --error.
+  /// Declares them for a stream, whose triangles are not counted: --faces without percentages, and one --error.
   void add_of_stream(Args& args);
-  /// Of a scene: --levels, too. faces_default, levels_default: texts for help.
+  /// Declares them for a scene: with --levels. faces_default, levels_default: help texts.
   void add_of_scene(Args& args, const std::string& levels_default, const std::string& faces_default);
 };
 
-/// "0.1,0.2,0.4": lengths above 0 that rise. Throws bad_argument otherwise, and for voxels as a unit.
+/// Parses "0.1,0.2,0.4": lengths above 0 that rise. Throws bad_argument otherwise, and for voxels as a unit.
 [[nodiscard]] std::vector<Length> parse_error_list(const std::string& text);
 
 }  // namespace bp

@@ -21,7 +21,7 @@ constexpr Args::Choice<MeshMode> kFit = {"fit", MeshMode::fit, "the proxy follow
 constexpr const char* kModeHelp = "where the proxy lies";
 constexpr const char* kEncloseHelp = "what stays inside while the proxy is made tighter";
 
-/// The word for it; files if it is none.
+/// Returns the kind for a word of --enclose; Kind::files if it is no such word.
 Kind kind_of(const std::string& word) {
   if (word == "auto") return Kind::automatic;
   if (word == "scene") return Kind::scene;

@@ -7,35 +7,35 @@
 #include "tools/cli/args.h"
 #include "tools/run/origin.h"
 
-/// What a proxy is to what it is made of: bpmesh and bplod declare the same options.
+/// The options that tell how a proxy relates to its scene (mode, enclosed set), as bpmesh and bplod declare them.
 namespace bp {
 
-/// What stays inside while a proxy is tightened, and the surface that a fit follows.
+/// The value of --enclose: the set that stays inside while a proxy is tightened, and the surface that a fit follows.
 struct EncloseOption {
   enum class Kind { automatic, scene, input, closing, files };
   Kind kind = Kind::automatic;
   std::vector<std::string> files;  ///< for Kind::files
 
-  /// As given, but files by their names only: a path is nobody's business in a report or a provenance chain.
+  /// Returns the option's text, with names of files only: paths do not belong in a report or a provenance chain.
   [[nodiscard]] std::string text() const;
-  /// scene, input or closing; empty: automatic, or files.
+  /// Returns scene, input or closing; empty for automatic and files.
   [[nodiscard]] std::optional<Enclose> what() const;
 };
 
-/// Of the words given to --enclose; none: automatic. Throws bad_argument if they are a mixture.
+/// Parses the words given to --enclose; without words: automatic. Throws bad_argument for a mixture.
 [[nodiscard]] EncloseOption parse_enclose(const std::vector<std::string>& given);
 
 struct ProxyOptions {
   MeshMode mode = MeshMode::bounding;
-  bool mode_given = false;  ///< of a stream
+  bool mode_given = false;  ///< --mode was given (streams only)
   EncloseOption enclose;
   OriginOption origin;
 
-  /// Of a stream: every mode, and --enclose may name files.
+  /// Declares them for a stream: every mode, and --enclose may name files.
   void add_of_stream(Args& args);
-  /// Of a scene: the modes bounding and fit, and --enclose takes no files.
+  /// Declares them for a scene: the modes bounding and fit, and --enclose takes no files.
   void add_of_scene(Args& args);
-  /// After args.parse(), of a stream: reads the words given to --enclose.
+  /// Parses the words given to --enclose. For a stream, after args.parse().
   void check();
 
  private:

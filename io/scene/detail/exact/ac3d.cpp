@@ -3,7 +3,7 @@
 
 #include "io/scene/detail/exact/exact_scene.h"
 
-// AC3D (Inivis, "The AC3D file format"): lines of words. An object's corners are those of its surfaces, sorted by
+// AC3D (Inivis, "The AC3D file format"): lines of words. The corners of an object are those of its surfaces, sorted by
 // material, with its `loc` added; `loc` of a group moves its kids.
 
 namespace bp {
@@ -24,7 +24,7 @@ struct Ac3dObject {
   std::vector<Ac3dObject> kids;
 };
 
-/// Throws NotUnderstood where the text is anything else.
+/// Thrown where the text is anything else.
 struct NotUnderstood {};
 
 class Ac3dText {
@@ -41,11 +41,11 @@ class Ac3dText {
     return all;
   }
   [[nodiscard]] std::uint64_t materials() const { return std::max<std::uint64_t>(materials_, 1); }
-  /// Assimp computes the vertices of some objects, and they are not known here.
+  /// Returns whether Assimp computes vertices of some objects, which are not known here.
   [[nodiscard]] bool has_subdivision() const { return has_subdivision_; }
-  /// Lists that Assimp reads in another way, without a word. A line of a vertex that begins with neither a digit nor a
-  /// sign, such as ".5 0 0", is the end of the list for it; the number of a vertex that does not exist is that of the
-  /// first one.
+  /// Returns the number of lists that Assimp silently reads in another way. For Assimp, a vertex line that begins with
+  /// neither a digit nor a sign, such as ".5 0 0", ends the list, and the number of a missing vertex means the first
+  /// vertex.
   [[nodiscard]] std::uint64_t unlike() const { return unlike_; }
 
  private:
@@ -69,7 +69,7 @@ class Ac3dText {
     found.resize(n);
     return found;
   }
-  /// Of what follows on lines of at least two characters each.
+  /// Reads the number of entries that follow, each on a line of at least two characters.
   [[nodiscard]] std::uint64_t count() const {
     const std::uint64_t n = integer(rest());
     if (n > text_.size()) throw NotUnderstood();
@@ -146,7 +146,7 @@ Ac3dObject Ac3dText::object(int depth) {
         if (next_line() && word() == "OBJECT") {
           object.kids.push_back(this->object(depth + 1));
         } else {
-          at_ = here;  // there are fewer kids than the file says
+          at_ = here;  // the file has fewer kids than it says
           break;
         }
       }
@@ -156,7 +156,7 @@ Ac3dObject Ac3dText::object(int depth) {
   throw NotUnderstood();
 }
 
-/// The corners of one object, as Assimp's meshes have them: those of polygons, of each triangle of strips, of lines.
+/// The corners of one object in the order of Assimp's meshes: those of polygons, of each triangle of strips, of lines.
 class Ac3dMeshes {
  public:
   Ac3dMeshes(ExactScene& scene, std::uint64_t materials) : scene_(scene), materials_(materials) {}
@@ -197,7 +197,7 @@ class Ac3dMeshes {
         add(k % 2 == 0 ? k - 1 : k - 2);
         add(k);
       }
-    } else if (s.type == kClosedLine || s.type == kOpenLine) {  // they are no triangles, and not moved
+    } else if (s.type == kClosedLine || s.type == kOpenLine) {  // lines are no triangles, and are not moved
       for (std::size_t k = 0; k + (s.type == kOpenLine ? 1 : 0) < n; ++k) {
         mesh.positions.push_back(object.vertices[s.corners[k]]);
         mesh.positions.push_back(object.vertices[s.corners[(k + 1) % n]]);
@@ -232,7 +232,7 @@ std::optional<ExactScene> exact_ac3d(const std::string& text) {
     if (objects.size() != 1 || reader.has_subdivision()) return scene;
     scene.root = Ac3dMeshes(scene, reader.materials()).add(objects[0]);
     return scene;
-  } catch (const NotUnderstood&) {  // nobody knows what Assimp makes of it
+  } catch (const NotUnderstood&) {  // it is not known how Assimp reads it
     ExactScene nothing;
     nothing.unfollowed.vertices = 1;
     return nothing;

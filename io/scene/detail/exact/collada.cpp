@@ -58,7 +58,7 @@ class PositionSource {
   std::string vertices_;
 };
 
-/// Numbers of vertices, one for each corner that <p> lists.
+/// Reads numbers of vertices, one for each corner that <p> lists.
 class CornerList {
  public:
   CornerList(const ColladaXml& primitive, const std::string& vertices) {
@@ -88,7 +88,7 @@ class CornerList {
   bool found_ = false;
 };
 
-/// In the order of Assimp's faces. A strip is not taken apart here.
+/// Adds the corners in the order of Assimp's faces. Strips are not cut here.
 void add_corners(const ColladaXml& primitive, const PositionSource& source, std::vector<Vec3d>& positions) {
   const bool plain =
       is_element(primitive, "triangles") || is_element(primitive, "polylist") || is_element(primitive, "polygons");
@@ -112,7 +112,7 @@ void add_geometry(const ColladaXml& geometry, ExactScene& scene) {
       try {
         add_corners(primitive, source, out.positions);
       } catch (const ColladaUnfit&) {
-        continue;  // lines, strips, and what is broken
+        continue;  // lines, strips, and broken primitives
       }
       if (!out.name.empty()) scene.meshes.push_back(std::move(out));
     }

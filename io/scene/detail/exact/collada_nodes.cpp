@@ -10,9 +10,9 @@
 #include "io/scene/detail/exact/collada_xml.h"
 #include "lib/core/vec3.h"
 
-// The nodes of a COLLADA document (1.4.1, chapter "Core elements": node, and the transforms), in double. Where the
-// document says something that Assimp leaves out, or reads in another way, it is counted: nothing is proven of such a
-// scene. Assimp 5 stops at <skew>, and finds no mesh of a <morph>.
+// The nodes of a COLLADA document (1.4.1, chapter "Core elements": node, and the transforms), in double. Parts of the
+// document that Assimp leaves out, or reads in another way, are counted: nothing is proven of such a scene. Assimp 5
+// stops at <skew>, and finds no mesh of a <morph>.
 
 namespace bp {
 
@@ -36,7 +36,7 @@ void set_linear(Affine& a, const std::array<Vec3d, 3>& rows) {
   }
 }
 
-constexpr double kTurnRounding = 0x1p-46;  // a sine, a cosine, a unit vector, and products of three
+constexpr double kTurnRounding = 0x1p-46;  // rounding of a sine, a cosine, a unit vector, and products of three of them
 
 void blur_linear(Affine& a, double off = kTurnRounding) {
   for (std::size_t i = 0; i < 3; ++i) {
@@ -49,7 +49,7 @@ struct SineCosine {
   bool exact;
 };
 
-/// Whole quarter turns are exact.
+/// Returns the sine and cosine; whole quarter turns are exact.
 SineCosine sine_cosine(double degrees) {
   if (!(std::abs(degrees) <= 1e6)) throw ColladaUnfit();
   const double quarters = std::remainder(degrees, 360) / 90;
@@ -74,14 +74,14 @@ Affine rotation(const ColladaXml& element) {
   set_linear(a, {Vec3d{d * n[0] * n[0] + c, d * n[0] * n[1] - s * n[2], d * n[0] * n[2] + s * n[1]},
                  Vec3d{d * n[1] * n[0] + s * n[2], d * n[1] * n[1] + c, d * n[1] * n[2] - s * n[0]},
                  Vec3d{d * n[2] * n[0] - s * n[1], d * n[2] * n[1] + s * n[0], d * n[2] * n[2] + c}});
-  // An axis of a few decimals is no unit vector, and programs may turn about it as it is: numbers of the matrix are
+  // An axis with few decimals is no unit vector, and some programs turn about it as it is: the matrix's numbers are
   // products of two of its numbers at most, times 2.
   const double stretch = std::abs(length(Vec3d{r[0], r[1], r[2]}) - 1);
   if (!turn.exact || !is_axis({r[0], r[1], r[2]})) blur_linear(a, kTurnRounding + 8 * std::min(stretch, 1.0));
   return a;
 }
 
-/// From where the eye is, to where it looks.
+/// Returns the transform of <lookat>: from the eye to the point that it looks at.
 Affine look_at(const ColladaXml& element) {
   const std::vector<double> r = transform_numbers(element, 9);
   const Vec3d eye{r[0], r[1], r[2]}, to{r[3], r[4], r[5]}, up = unit({r[6], r[7], r[8]});
@@ -95,7 +95,7 @@ Affine look_at(const ColladaXml& element) {
   return a;
 }
 
-/// None for an element that is no transform.
+/// Returns the transform of an element; none if the element is no transform.
 std::optional<Affine> transform_of(const ColladaXml& element) {
   Affine a;
   if (is_element(element, "matrix")) {
@@ -115,7 +115,8 @@ std::optional<Affine> transform_of(const ColladaXml& element) {
   return {};
 }
 
-/// The larger magnitude of two numbers that a float32 reader sums: where they cancel, its error is a share of it.
+/// The larger magnitude of two numbers that a float32 reader adds: if they cancel, its error is a share of that
+/// magnitude.
 class TermSizes {
  public:
   void multiply(const Affine& next) {
@@ -189,7 +190,7 @@ class NodeTree {
     ColladaXml(parent).traverse(walker);
   }
 
-  /// Counts the shapes of a node that Assimp leaves out, and those that a controller moves. Bones are looked at when
+  /// Counts the shapes of a node that Assimp leaves out, and those that a controller moves. Bones are checked when
   /// Assimp has read them (assimp_bones.h).
   void note_shapes(const ColladaXml& node) {
     for (const ColladaXml instance : node.children("instance_geometry")) {
@@ -210,7 +211,8 @@ class NodeTree {
       ++unfollowed_.skins;
     }
   }
-  /// Programs differ on where a vertex without a joint stays. A skin of these alone has no bones for Assimp.
+  /// Returns whether all vertices of a skin are without a joint. Programs differ on where such vertices stay. A skin of
+  /// these alone has no bones for Assimp.
   static bool has_no_joints(const ColladaXml& skin) {
     const std::vector<double> joints = numbers_in(collada_text(skin.child("vertex_weights").child("vcount")));
     return std::all_of(joints.begin(), joints.end(), [](double n) { return !(n > 0); });
@@ -222,7 +224,7 @@ class NodeTree {
   bool sheared_ = false;
 };
 
-/// What follows the visual scene's own transform: its unit in metres, and which axis is up.
+/// Returns the transform after that of the visual scene: its unit in metres, and the axis that is up.
 Affine to_metres(const ColladaXml& asset) {
   Affine a;
   const double metre =
@@ -255,7 +257,7 @@ void read_collada_nodes(const ColladaXml& document, ExactScene& scene) {
       scene.root->transform = to_metres(document.child("asset"));
     }
   } catch (const ColladaUnfit&) {
-    scene.root = {};  // its nodes are taken from Assimp
+    scene.root = {};  // Assimp's nodes are taken
   } catch (const std::out_of_range&) {
     scene.root = {};
   }

@@ -5,7 +5,7 @@
 
 #include "io/scene/detail/exact/exact_scene.h"
 
-/// What the two halves of the COLLADA reader share: meshes (collada.cpp) and nodes (collada_nodes.cpp).
+/// The parts that both halves of the COLLADA reader share: meshes (collada.cpp) and nodes (collada_nodes.cpp).
 namespace bp {
 
 using ColladaXml = pugi::xml_node;
@@ -16,7 +16,7 @@ inline std::string_view collada_text(const ColladaXml& node) {
   return node.child_value();
 }
 
-/// The id that a URI names, if it is one of this document: "#id".
+/// Returns the id that a URI names within this document, "#id"; else "".
 inline std::string collada_target(const char* uri) {
   return uri[0] == '#' ? uri + 1 : "";
 }
@@ -30,8 +30,8 @@ inline bool is_element(const ColladaXml& node, std::string_view name) {
   return name == node.name();
 }
 
-/// The nodes of the visual scene that the document shows, under one root; and what they hold that no reader follows.
-/// A document that cannot be understood gives a root without children, unlike Assimp's.
+/// Reads the nodes of the visual scene that the document shows, under one root, and counts their content that no reader
+/// follows. A document that cannot be understood gives a root without children, unlike Assimp's.
 void read_collada_nodes(const ColladaXml& document, ExactScene& scene);
 
 }  // namespace bp

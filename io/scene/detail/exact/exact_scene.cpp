@@ -10,7 +10,7 @@ namespace bp {
 
 namespace {
 
-// Importers round, and compute in float32: 2^-24 of a number each time.
+// The relative difference that float32 explains: importers round, and compute in float32: 2^-24 of a number each time.
 constexpr double kExplained = 0x1p-18;
 
 bool is_near(double exact, float rounded, double size) {

@@ -10,22 +10,23 @@
 struct aiMesh;
 struct aiNode;
 
-/// What Assimp rounds to float32, read once more in double from text formats of everyday use. Assimp says which meshes
-/// and nodes there are, and which vertices they have, in which order. A reader here gives the same lists in double.
-/// A list is taken only if it has as many entries as Assimp's and none differs by more than float32 explains: whatever
-/// Assimp understands in another way stays as it was, with a bound of its rounding.
+/// Numbers that Assimp rounds to float32, read once more in double from common text formats. Assimp tells which meshes
+/// and nodes there are, and which vertices they have, in which order. A reader here gives the same lists in double. A
+/// list is used only if it has as many entries as Assimp's and none differs by more than float32 explains: parts that
+/// Assimp reads in another way stay as they were, with a bound on their rounding.
 namespace bp {
 
-/// Positions of one of Assimp's meshes, a corner of a face each, before any node places them.
+/// The positions of one of Assimp's meshes, one for each corner of a face, before nodes place them.
 struct ExactMesh {
-  std::string name;  ///< of the mesh; empty: the lists are in the order of the meshes
+  std::string name;  ///< name of the mesh; empty: the lists are in the order of the meshes
   std::vector<Vec3d> positions;
-  double off = 0;  ///< along each axis, scene units of the mesh
+  double off = 0;  ///< bound on the error along each axis, scene units of the mesh
 };
 
 struct ExactNode {
   Affine transform;
-  /// Terms of the sums that its matrix is made of: of the 3 x 3 numbers, and of the translation. Float32 rounds those.
+  /// The largest terms of the sums that its matrix is made of: those of the 3 x 3 numbers, and of the translation.
+  /// Float32 rounds them.
   double largest = 0, farthest = 0;
   std::vector<ExactNode> children;
 };
@@ -33,23 +34,23 @@ struct ExactNode {
 struct ExactScene {
   std::vector<ExactMesh> meshes;
   std::optional<ExactNode> root;  ///< none: the nodes are not known
-  /// The format's nodes are always understood: a node of Assimp's that differs is read in two ways.
+  /// All nodes of the format are understood: a node of Assimp's that differs is read in two ways.
   bool knows_nodes = false;
   Unfollowed unfollowed;
   const char* unread = nullptr;  ///< why Assimp must not read the file
 };
 
-/// A list that fits the mesh: number `i` of those without names, else one of its name. Null if there is none, or if two
-/// that fit differ.
+/// Returns a list that fits the mesh: number `i` if lists have no names, else one of its name. Null if none fits, or if
+/// two that fit differ.
 [[nodiscard]] const ExactMesh* exact_mesh(const ExactScene& scene, const aiMesh& mesh, std::size_t i);
-/// The transform is that of Assimp's node.
+/// Returns whether Assimp's node has this transform, apart from rounding.
 [[nodiscard]] bool is_rounded(const ExactNode& exact, const aiNode& node);
 
-/// Nothing if the text is not what these understand. Linear in time and memory.
+/// Read a text; nothing if it is not understood. Linear in time and memory.
 [[nodiscard]] std::optional<ExactScene> exact_collada(std::string text);
 [[nodiscard]] std::optional<ExactScene> exact_ac3d(const std::string& text);
 
-/// The numbers of a text with blanks between them; ends before a word that is none.
+/// Returns the numbers of a text with blanks between them; ends before a word that is no number.
 [[nodiscard]] std::vector<double> numbers_in(std::string_view text);
 
 }  // namespace bp

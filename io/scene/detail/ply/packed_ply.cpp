@@ -13,15 +13,15 @@ namespace bp {
 
 namespace {
 
-/// Where numbers stand in the file.
+/// The positions of numbers in the file.
 struct Layout {
   bool swap = false;
   std::uint64_t vertices = 0, vertex_count = 0, stride = 0;
   PlyType type[3]{};      // of x, y, z
-  std::size_t at[3]{};    // in the record
-  bool together = false;  // floats side by side, as they lie in memory
+  std::size_t at[3]{};    // offsets in the record
+  bool together = false;  // floats side by side, as in memory
   std::uint64_t faces = 0, face_count = 0;
-  std::size_t before = 0, after = 0;  // bytes of a face's record around the list
+  std::size_t before = 0, after = 0;  // bytes of a face's record before and after the list
   PlyType count_type = PlyType::u8, index_type = PlyType::i32;
 
   [[nodiscard]] std::size_t record_bytes(std::uint64_t corners) const {
@@ -64,7 +64,7 @@ bool lay_out_faces(const PlyElement& face, Layout& layout) {
   return found && is_integer(layout.count_type) && is_integer(layout.index_type);
 }
 
-/// Nothing unless the file is as packed_ply.h says.
+/// Returns nothing unless the file is as packed_ply.h describes.
 std::optional<Layout> layout_of(const PlyHeader& header, std::uint64_t file_bytes) {
   Layout layout;
   layout.swap = (header.format == PlyHeader::Format::big_endian) != (std::endian::native == std::endian::big);
@@ -104,7 +104,7 @@ class PackedPly final : public RawSource {
 
   [[nodiscard]] std::uint64_t points() const override { return layout_.vertex_count; }
 
-  /// Of all vertices: faces seldom leave out those that are farthest out.
+  /// Returns the bounds of all vertices: faces seldom leave out the outermost ones.
   [[nodiscard]] std::optional<Bounds3d> bounds() override {
     Bounds3d all;
     std::mutex mutex;
@@ -137,13 +137,13 @@ class PackedPly final : public RawSource {
       batch.bytes.resize(file_->read_at(at_, batch.bytes));
       const std::size_t first_bytes = walk(batch);
       if (batch.records == 0 && batch.bytes.size() < want) fail_truncated();
-      want = std::max(want + 1, first_bytes);  // a record of many corners
+      want = std::max(want + 1, first_bytes);  // a record with many corners
     }
     return true;
   }
 
   void complete(RawBatch& batch) const override {
-    batch.triangles.resize(batch.count);  // no fewer than there will be; those of the batch before are not cleared
+    batch.triangles.resize(batch.count);  // keeps at least the final number; old triangles are not cleared
     batch.inner_edges.clear();
     if (layout_.index_type == PlyType::u32 && !layout_.swap) {
       complete(batch, [](const std::byte* from) { return std::uint64_t(load_bits<std::uint32_t>(from, false)); });
@@ -185,7 +185,7 @@ class PackedPly final : public RawSource {
   }
 
   /// Counts the whole records at the front of the block, up to kBatch triangles, and moves on behind them. Returns the
-  /// size of the first, as far as the block tells.
+  /// size of the first record, as far as the block tells.
   std::size_t walk(RawBatch& batch) {
     const std::size_t count_bytes = bytes_of(layout_.count_type), index_bytes = bytes_of(layout_.index_type);
     const std::size_t empty_bytes = layout_.record_bytes(0), end = batch.bytes.size();
@@ -219,7 +219,7 @@ class PackedPly final : public RawSource {
     return first_bytes;
   }
 
-  /// body(list, n) for each record of a batch: its list of n indices.
+  /// Calls body(list, n) for each record of a batch: its list of n indices.
   template <class Body>
   void for_each_face(const RawBatch& batch, const Body& body) const {
     const std::size_t count_bytes = bytes_of(layout_.count_type), index_bytes = bytes_of(layout_.index_type);
@@ -233,8 +233,8 @@ class PackedPly final : public RawSource {
     }
   }
 
-  /// Vertices that follow each other in space do so in most files: then one read gets those of a batch, and as they lie
-  /// in the caches of this core, holding all of them would be no faster.
+  /// Completes a batch. Vertices that follow each other in the file are mostly neighbours in space: then one read gets
+  /// those of a batch. They lie in the caches of this core, so holding all vertices would be no faster.
   template <class Index>
   void complete(RawBatch& batch, const Index& index) const {
     const std::size_t index_bytes = bytes_of(layout_.index_type);
@@ -262,7 +262,7 @@ class PackedPly final : public RawSource {
     });
   }
 
-  /// `records`: of the vertices from number `first` on.
+  /// `records`: those of the vertices from number `first` on.
   template <class Index>
   void expand(RawBatch& batch, const Index& index, const std::byte* records, std::uint64_t first) const {
     const std::uint64_t stride = layout_.stride;
@@ -274,7 +274,7 @@ class PackedPly final : public RawSource {
     }
   }
 
-  /// As PolygonSource makes them.
+  /// Makes triangles as PolygonSource does.
   template <class Index, class Vertex>
   void expand(RawBatch& batch, const Index& index, const Vertex& vertex) const {
     const std::size_t index_bytes = bytes_of(layout_.index_type);
@@ -308,13 +308,13 @@ class PackedPly final : public RawSource {
     batch.triangles.resize(made);
   }
 
-  /// Records of the vertices [begin, end).
+  /// Reads the records of the vertices [begin, end).
   void read_vertices(std::uint64_t begin, std::uint64_t end, std::vector<std::byte>& out) const {
     out.resize(std::size_t((end - begin) * layout_.stride));
     if (file_->read_at(layout_.vertices + begin * layout_.stride, out) < out.size()) fail_truncated();
   }
 
-  /// Reads all vertices, or, if there are too many, makes ready to read them one by one.
+  /// Reads all vertices, or, if there are too many, prepares to read them one by one.
   void hold_vertices() const {
     const std::uint64_t bytes = layout_.vertex_count * layout_.stride;
     if (bytes > budget_) {

@@ -7,7 +7,7 @@
 #include "io/scene/detail/ply/ply_values.h"
 #include "lib/core/error.h"
 
-/// Where a PLY file is read: one cursor for each kind of file, with the same functions.
+/// Cursors that read a PLY file: one for each kind of file, with the same functions.
 namespace bp {
 
 class PlyBinaryCursor {
@@ -25,7 +25,7 @@ class PlyBinaryCursor {
     if (n > bytes_.remaining() / bytes_of(type)) bytes_.fail_truncated();
     bytes_.skip(n * bytes_of(type));
   }
-  /// False for a record with lists, whose size is not known.
+  /// Skips records; returns false for a record with lists, whose size is not known.
   bool skip_records(const PlyElement& element) {
     if (element.has_lists()) return false;
     const std::uint64_t size = element.fixed_bytes();
@@ -82,14 +82,15 @@ class PlyAsciiCursor {
     }
   }
   bool skip_records(const PlyElement&) { return false; }
-  /// A number takes two characters at least; the last one may lack its line end.
+  /// Throws if the file cannot hold that many records: a number takes at least two characters; the last one may lack
+  /// its line end.
   void check_count(const PlyElement& element) const {
     const std::uint64_t size = 2 * element.properties.size();
     if (size == 0 || element.count <= (text_.remaining() + 1) / size) return;
     text_.fail_here("promises {} records '{}', but has {} bytes left; the file is truncated", element.count,
                     element.name, text_.remaining());
   }
-  /// A record ends with its line. Words beyond what the header declares occur, and are passed over.
+  /// Ends a record, which ends with its line. Words beyond those that the header declares occur, and are skipped.
   void end_record() { text_.next_line(); }
   [[noreturn]] void fail_here(const std::string& what) const { text_.fail_here("{}", what); }
   [[nodiscard]] Mark mark() const { return text_.mark(); }

@@ -73,7 +73,7 @@ PlyProperty property_of(TextScanner& text) {
   return p;
 }
 
-/// One line; true at "end_header".
+/// Reads one line; returns true at "end_header".
 bool header_line(TextScanner& text, PlyHeader& header, bool& has_format) {
   const std::string key = word_of(text);
   if (key == "format") {

@@ -10,7 +10,7 @@ struct PlyProperty {
   std::string name;
   PlyType type = PlyType::f32;
   bool is_list = false;
-  PlyType count_type = PlyType::u8;  ///< of a list
+  PlyType count_type = PlyType::u8;  ///< type of a list's count
 };
 
 struct PlyElement {
@@ -19,7 +19,7 @@ struct PlyElement {
   std::vector<PlyProperty> properties;
 
   [[nodiscard]] bool has_lists() const;
-  [[nodiscard]] std::uint64_t fixed_bytes() const;                        ///< of a binary record, lists left out
+  [[nodiscard]] std::uint64_t fixed_bytes() const;  ///< bytes of a binary record without its lists
   [[nodiscard]] std::size_t index_of(const std::string& property) const;  ///< properties.size() if there is none
 };
 
@@ -30,7 +30,7 @@ struct PlyHeader {
   TextScanner::Mark data;  ///< first byte behind the header
 };
 
-/// Throws bad_input with the line of the header that is wrong.
+/// Reads a header. Throws bad_input with the line of the header that is wrong.
 [[nodiscard]] PlyHeader read_ply_header(SceneFilePtr file);
 
 }  // namespace bp

@@ -19,7 +19,7 @@ Bits load_bits(const std::byte* from, bool swap) {
   return bits;
 }
 
-/// An index from a list of floats; negative if it is none.
+/// Returns an index from a list of floats; negative if the value is no index.
 inline std::int64_t to_integer(double x) {
   return std::abs(x) < 9e15 && x == std::floor(x) ? std::int64_t(x) : std::numeric_limits<std::int64_t>::min();
 }
@@ -57,7 +57,7 @@ inline std::int64_t decode_integer(const std::byte* from, PlyType type, bool swa
     case PlyType::u32:
       return load_bits<std::uint32_t>(from, swap);
     case PlyType::i64:
-    case PlyType::u64:  // beyond 2^63: negative, which names no vertex either
+    case PlyType::u64:  // beyond 2^63: negative, which is no index either
       return std::int64_t(load_bits<std::uint64_t>(from, swap));
     default:
       return to_integer(decode_real(from, type, swap));

@@ -10,12 +10,12 @@
 #include "lib/core/coords.h"
 #include "lib/core/error.h"
 
-/// Which properties of PLY elements are coordinates and colours, and vertices that are read where they stand.
+/// Finds the properties of PLY elements that are coordinates and colours, and reads vertices in place.
 namespace bp {
 
 struct PlyPosition {
   std::size_t property[3];  // x, y, z among the element's properties
-  /// Which of the three numbers a property is; 3: none.
+  /// Returns which of the three numbers a property is; 3: none.
   [[nodiscard]] std::size_t axis_of(std::size_t k) const {
     std::size_t axis = 0;
     while (axis < 3 && property[axis] != k) ++axis;
@@ -23,9 +23,9 @@ struct PlyPosition {
   }
 };
 
-/// Where red, green and blue of a vertex or a face stand, if they do.
+/// The positions of red, green and blue in a vertex or a face, if it has them.
 struct PlyColors : PlyPosition {
-  double full = 255;  // of their type
+  double full = 255;  // full value of their type
 
   static std::optional<PlyColors> of(const PlyElement& e) {
     PlyColors c{};
@@ -61,7 +61,7 @@ struct PlyColors : PlyPosition {
   return position;
 }
 
-/// Vertices of fixed size, read where they stand in the file.
+/// Vertices of fixed size, read from their places in the file.
 class PlyPackedVertices {
  public:
   PlyPackedVertices(SceneFilePtr file, std::uint64_t budget, std::uint64_t offset, const PlyElement& vertex,
@@ -94,7 +94,7 @@ class PlyPackedVertices {
   std::uint64_t offset_, stride_;
   bool swap_, together_ = false;
   PlyType type_[3]{};
-  std::uint64_t at_[3]{};  // of x, y, z in the record
+  std::uint64_t at_[3]{};  // offsets of x, y, z in the record
 };
 
 }  // namespace bp

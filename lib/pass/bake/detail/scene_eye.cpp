@@ -53,15 +53,6 @@ Vec3d bent(const Vec3d& normal, const TriangleD& t, const TriangleTexture& textu
 
 }  // namespace
 
-double texels_per_unit(const TriangleD& t, const TriangleTexture& texture, const std::array<int, 2>& size) {
-  const auto& [a, b, c] = texture.uv;
-  const double flat =
-      std::abs((double(b[0]) - a[0]) * (double(c[1]) - a[1]) - (double(c[0]) - a[0]) * (double(b[1]) - a[1]));
-  const double area = length(cross(t[1] - t[0], t[2] - t[0]));
-  const double texels = std::sqrt(flat * size[0] * size[1] / area);
-  return std::isfinite(texels) ? texels : 0;
-}
-
 SceneEye::Block SceneEye::block(std::uint32_t number) {
   return held(blocks_, number, [&](std::uint32_t i) { return looks_.blocks_->get(i); });
 }

@@ -74,8 +74,4 @@ class SceneEye {
   Place near_;  // the place found last
 };
 
-/// Returns the texels of an image of this size along a length of 1 on a triangle; 0 if that is unknown.
-[[nodiscard]] double texels_per_unit(const TriangleD& t, const TriangleTexture& texture,
-                                     const std::array<int, 2>& size);
-
 }  // namespace bp

@@ -46,7 +46,7 @@ bool CoarseStarts::has_flat_sides(std::uint64_t faces) const {
 
 CoarseStart CoarseStarts::first(std::uint64_t faces) const {
   constexpr std::uint64_t kDenseOfFlat = 200000;
-  const std::uint64_t dense = kDensePerFace * faces;
+  const std::uint64_t dense = kCoarseDensePerFace * faces;
   return coarse_start(meshed, header, has_flat_sides(faces) ? std::max(dense, kDenseOfFlat) : dense, make_shelf);
 }
 

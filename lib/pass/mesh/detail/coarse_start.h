@@ -13,7 +13,8 @@ struct CoarseStart {
   double voxel = 0;                        ///< edge, scene units
 };
 
-constexpr std::uint64_t kDensePerFace = 40;  ///< dense faces for each of a proxy: with more it is as tight, but slower
+constexpr std::uint64_t kCoarseDensePerFace =
+    40;  ///< dense faces for each of a proxy: with more it is as tight, but slower
 
 /// What grows in place of the surface of `meshed`: a quarter of the dense faces or less, but at least so many. What
 /// that adds is taken back by tightening. Outside of a closing every point lies in a ball of radius S, or a cube, that

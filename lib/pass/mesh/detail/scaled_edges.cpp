@@ -8,7 +8,7 @@
 #include <unordered_map>
 
 #include "lib/core/vec3.h"
-#include "lib/grid/scale_part.h"
+#include "lib/grid/scale_field.h"
 
 namespace bp {
 

@@ -13,7 +13,8 @@ namespace {
 
 constexpr const char* kMetJob = "a chunk was voxelized";
 
-/// Of a mark beside the voxels, which knows of no frame.
+/// Returns the key of the mark that a chunk was voxelized. It lies beside the chunk's voxels and does not depend on the
+/// frame.
 ResultKey met_key(const ChunkCutter::Chunk& chunk) {
   return KeyHash(kMetJob).add(chunk.content).key();
 }
@@ -24,18 +25,18 @@ ResultKey met_key(const ChunkCutter::Chunk& chunk) {
 
 }  // namespace
 
-/// A chunk to be made.
+/// A chunk to be voxelized.
 struct ChunkedSurface::Item {
   std::size_t chunk = 0;
-  std::uint64_t count = 0;  // of its triangles, and of those before it, of chunks that are known
+  std::uint64_t count = 0;  // triangles of the item and of the known chunks before it
   std::vector<TriangleD> triangles;
 };
 
-/// Triangles by number, one batch at a time.
+/// Reads triangles in order, one batch at a time.
 class ChunkedSurface::Reader {
  public:
   explicit Reader(const NextPortion& next) : next_(next) {}
-  /// Appends the next n to `out`, unless it is null; false if there are fewer.
+  /// Appends the next n triangles to `out` (null: skips them); returns false if there are fewer.
   bool take(std::uint64_t n, std::vector<TriangleD>* out) {
     while (n > 0) {
       if (at_ == portion_.count) {
@@ -100,13 +101,14 @@ void ChunkedSurface::look_up(const GridFrame& frame, const BrickBox& grid, std::
   kept_ = std::uint64_t(std::count(found_.begin(), found_.end(), 1));
 }
 
-/// The chunk's voxels are among the results, and are added.
+/// Adds the chunk's voxels if they are among the results; returns whether they are.
 bool ChunkedSurface::take_kept(std::size_t chunk) {
   std::string bytes;
   return results_.get(chunk_key(chunks_[chunk], frame_), bytes) && bricks_->add(bytes);
 }
 
-/// The next missing chunks, last one first: one, or in a turn as many as there is room for. False if there are no more.
+/// Reads the next missing chunks into `window`, in reverse order: one, or in a turn as many as there is room for.
+/// Returns false if there are no more.
 bool ChunkedSurface::read_window(Reader& reader, std::uint64_t bytes, std::vector<Item>& window) {
   Item item;
   for (std::uint64_t held = 0; read_ < chunks_.size() && (window.empty() || (turn_ != 0 && held < bytes)); ++read_) {
@@ -143,7 +145,7 @@ void ChunkedSurface::add_missing(const NextPortion& next, std::uint64_t work_byt
       [&](Item& item) { done(item.count, std::move(item.triangles)); });
 }
 
-/// Leaves the triangles of a chunk that cannot be kept.
+/// Voxelizes a chunk and keeps it. The triangles of a chunk that cannot be kept stay in the item.
 void ChunkedSurface::make(Item& item) {
   if (turn_ != 0 && take_kept(item.chunk)) {
     ++kept_;

@@ -10,15 +10,15 @@ namespace bp {
 
 namespace {
 
-/// The tiles, and then the bricks, of one step across the slab axis.
+/// The tiles, and then the bricks, of one step along the slab axis.
 struct Slab {
   std::vector<std::uint64_t> tiles;
-  std::vector<BrickCoord> bricks;  // not empty, in slab order
+  std::vector<BrickCoord> bricks;  // bricks with voxels, in slab order
 };
 
 void list_bricks(const ShelvedTiles& tiles, int slab_axis, Slab& slab) {
   for (const std::uint64_t tile : slab.tiles) {
-    // Most tiles of a wide grid hold nothing: their bricks are not asked one by one.
+    // Most tiles of a wide grid hold nothing, so bricks are asked only in tiles that hold something.
     if (!tiles.holds(tile)) continue;
     for_each_brick(tiles.grid.box(tiles.grid.coord(tile)), [&](BrickCoord c) {
       if (tiles.shelf.fill(c) != BrickFill::empty) slab.bricks.push_back(c);

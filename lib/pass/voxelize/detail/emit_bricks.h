@@ -7,7 +7,7 @@
 
 namespace bp {
 
-/// What is known of the tiles whose bricks lie on a shelf.
+/// Tiles whose bricks lie on a shelf, and two functions that the caller knows about them.
 struct ShelvedTiles {
   const TileGrid& grid;
   BrickShelf& shelf;
@@ -19,7 +19,7 @@ struct EmittedBricks {
   std::uint64_t solid_voxels = 0, bricks = 0, full_bricks = 0;
 };
 
-/// Fills the tiles, writes their bricks in slab order and drops them from the shelf: the next slab is filled while one
+/// Fills the tiles, writes their bricks in slab order, and drops them from the shelf. The next slab is filled while one
 /// is written.
 EmittedBricks emit_bricks(const ShelvedTiles& tiles, int slab_axis, BrickSink& sink, const PassProgress& progress);
 

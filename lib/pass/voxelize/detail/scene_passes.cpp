@@ -74,7 +74,7 @@ void ScenePasses::keep(std::vector<TriangleD>&& triangles) {
   release();
 }
 
-/// Triangles whose voxels are probably known do not stay.
+/// Drops triangles whose voxels are probably among the results.
 void ScenePasses::drop_met() {
   for (; dropped_ < kept_.size(); ++dropped_) {
     Portion& portion = kept_[dropped_];

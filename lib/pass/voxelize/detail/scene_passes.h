@@ -14,40 +14,40 @@
 
 namespace bp {
 
-/// The two passes over the triangles of a scene: one for its bounds, one for the triangles. They stay in between as
-/// long as they fit in memory; else the scene is read a second time, which must give the same triangles.
+/// The two passes over the triangles of a scene: the first for its bounds, the second for the triangles. Triangles stay
+/// in memory in between as long as they fit; else the scene is read a second time, and must give the same triangles.
 class ScenePasses {
  public:
   using Portion = ChunkedSurface::Portion;
   using NextPortion = ChunkedSurface::NextPortion;
 
-  /// Keeps references. `memory_bytes`: for triangles that stay. `chunks`: null, or told all triangles of the first
-  /// pass; those that it has met do not stay.
+  /// Keeps references. `memory_bytes`: for triangles that stay. `chunks`: null, or gets all triangles of the first
+  /// pass; triangles that it has met do not stay.
   ScenePasses(TriangleSource& source, std::uint64_t memory_bytes, ChunkedSurface* chunks)
       : source_(source), memory_bytes_(memory_bytes), chunks_(chunks) {}
 
-  /// What is done with the triangles in the first pass already, if they lie in these bounds.
+  /// Work on the triangles that is done in the first pass already, if they lie in `bounds`.
   struct Sorter {
     Bounds3d bounds;
     std::function<TriangleBatch(std::span<const TriangleD>)> sort;  ///< on any thread
     std::function<void(TriangleBatch&&)> add;                       ///< in order
   };
-  /// First pass. With a sorter no triangles stay. Throws bad_input if there is no triangle.
+  /// First pass. With a sorter no triangles stay in memory. Throws bad_input if there is no triangle.
   void measure(const PassProgress& progress, const std::optional<Sorter>& sorter);
-  /// Whether the sorter was given all triangles.
+  /// Returns whether the sorter was given all triangles.
   [[nodiscard]] bool sorted() const { return sorted_; }
-  [[nodiscard]] const SurfaceSums& sums() const { return sums_; }              ///< of all triangles
-  [[nodiscard]] const std::string& input_hash() const { return input_hash_; }  ///< of VoxelizeCounts
+  [[nodiscard]] const SurfaceSums& sums() const { return sums_; }              ///< sums over all triangles
+  [[nodiscard]] const std::string& input_hash() const { return input_hash_; }  ///< as in VoxelizeCounts
   [[nodiscard]] bool reads_twice() const { return reads_twice_; }
 
-  /// Memory for triangles that portions are done with.
+  /// Takes the memory of a portion's triangles back for the next portion.
   void give_back(std::vector<TriangleD>&& triangles) { spare_.give(std::move(triangles)); }
-  /// Those that did not stay are needed after all.
+  /// Says that triangles which did not stay are needed: the second pass reads the scene again.
   void read_twice() { reads_twice_ = true; }
-  /// Second pass, once: calls body with what gives all portions, and those that did not stay without triangles, unless
-  /// the scene is read twice. Throws bad_input if it is not what it was.
+  /// Second pass, once: calls `body` with a function that gives all portions. Triangles that did not stay are missing
+  /// in them, unless the scene is read twice. Throws bad_input if the scene has changed.
   void again(const std::function<void(const NextPortion&)>& body);
-  /// Forgets the triangles that stayed, and memory for others.
+  /// Frees the triangles that stayed, and the memory kept for others.
   void release() {
     std::vector<Portion>().swap(kept_);
     spare_.clear();
@@ -65,8 +65,8 @@ class ScenePasses {
   std::string input_hash_;
   bool reads_twice_ = false;
   std::vector<Portion> kept_;
-  std::size_t dropped_ = 0;                         // first of kept_ that drop_met() has not settled
-  std::uint64_t dropped_end_ = 0, kept_bytes_ = 0;  // triangles before it; of those that stay
+  std::size_t dropped_ = 0;                         // first portion of kept_ that drop_met() has not decided on
+  std::uint64_t dropped_end_ = 0, kept_bytes_ = 0;  // triangles before that portion; bytes of those that stay
   std::atomic<bool> sorted_{false};
   Spares<std::vector<TriangleD>> spare_;
 };

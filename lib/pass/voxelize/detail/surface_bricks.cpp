@@ -10,7 +10,7 @@ namespace bp {
 
 namespace {
 
-constexpr std::size_t kTogether = 256;  // triangles whose boxes are found at once: they stay in the nearest cache
+constexpr std::size_t kTogether = 256;  // triangles whose boxes are found at once: they stay in the first-level cache
 
 bool is_longer_than_brick(const VoxelBox& box) {
   std::int64_t longest = 0;
@@ -20,7 +20,7 @@ bool is_longer_than_brick(const VoxelBox& box) {
 
 }  // namespace
 
-/// Bricks that a thread has met lately: neighbours in a file are neighbours in space.
+/// Remembers bricks that a thread has used lately: neighbours in a file are neighbours in space.
 class SurfaceBricks::Finder {
  public:
   explicit Finder(SurfaceBricks& bricks) : bricks_(bricks) {}
@@ -36,7 +36,7 @@ class SurfaceBricks::Finder {
     BrickBits* bits = nullptr;
   };
   SurfaceBricks& bricks_;
-  std::array<Slot, 64> slots_;  // of a block of 4^3 bricks
+  std::array<Slot, 64> slots_;  // one for each brick of a block of 4^3
 };
 
 void SurfaceBricks::add(std::span<const TriangleD> triangles, const GridFrame& frame,

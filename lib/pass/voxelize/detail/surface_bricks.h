@@ -14,29 +14,29 @@
 
 namespace bp {
 
-/// Surface voxels of a scene in bricks that all threads add to at once, as long as there is room for them. A surface of
-/// 2048 voxels a side lies in some thousand bricks: 32 KiB for some ten thousand triangles of a large scene.
+/// Surface voxels of a scene, in bricks that all threads add to at once while there is room for them. A surface of 2048
+/// voxels a side lies in some thousand bricks: 32 KiB for some ten thousand triangles of a large scene.
 class SurfaceBricks {
  public:
   explicit SurfaceBricks(std::uint64_t memory_bytes) : most_(memory_bytes / sizeof(BrickBits)) {}
 
-  /// Sets the voxels that the triangles touch (voxelize_surface). Appends to `rest` those whose boxes are longer than a
-  /// brick: they are few, and one may be work for many threads; and those that meet a brick that there is no room for.
-  /// Thread-safe.
+  /// Sets the voxels that the triangles touch (voxelize_surface). Appends to `rest` triangles with a box longer than a
+  /// brick, since they are few and one may be work for many threads, and triangles that meet a brick for which there is
+  /// no room. Thread-safe.
   void add(std::span<const TriangleD> triangles, const GridFrame& frame, std::vector<FixedTriangle>& rest);
 
-  /// The bits of a brick, made if it was not there; null: there is no room. Thread-safe.
+  /// Returns the bits of a brick, which is made if it is new; null if there is no room. Thread-safe.
   [[nodiscard]] BrickBits* find(BrickCoord c);
   [[nodiscard]] std::uint64_t memory_bytes() const { return count_ * sizeof(BrickBits); }
-  /// Bricks with voxels, in no order.
+  /// Returns the bricks with voxels, in no order.
   [[nodiscard]] std::vector<BrickCoord> coords() const;
-  /// Sets the voxels of the box, one of whole bricks, which are then forgotten. After the last add(). Thread-safe for
-  /// boxes without common bricks.
+  /// Sets the voxels of the box, which consists of whole bricks, in `out`, and forgets them. To be called after the
+  /// last add(). Thread-safe for boxes without common bricks.
   void take(BitBox& out);
 
  private:
   class Finder;
-  /// False if the triangle belongs to the rest.
+  /// Adds a triangle's voxels; returns false if it belongs to the rest.
   [[nodiscard]] bool add(const TriangleD& t, const VoxelBox& touched, const FixedFrame& to_fixed, Finder& find);
   static constexpr std::size_t kShards = 64;  // more than threads, so that few wait for another
   struct Shard {

@@ -32,14 +32,14 @@ bool is_place(const TriangleD& t) {
   return h >> (64 - ChunkCutter::kMeanBits) == 0;
 }
 
-/// A brick among the bytes of a chunk.
+/// A brick in the bytes of a chunk.
 struct PackedBrick {
   BrickCoord coord{};
-  std::uint64_t mask[kMaskWords];  ///< words that are not 0
-  const char* words = nullptr;     ///< these
+  std::uint64_t mask[kMaskWords];  ///< a bit for each word that is not 0
+  const char* words = nullptr;     ///< the words that are not 0
 };
 
-/// Takes one off the front of `in`; false if it is none.
+/// Takes a brick off the front of `in`; returns false if the bytes are no brick of the grid.
 bool take_brick(std::string_view& in, const BrickBox& grid, PackedBrick& out) {
   std::int32_t at[3];
   if (in.size() < sizeof at + sizeof out.mask) return false;
@@ -55,7 +55,7 @@ bool take_brick(std::string_view& in, const BrickBox& grid, PackedBrick& out) {
   return true;
 }
 
-/// Other threads may add to the bits at the same time.
+/// Adds the brick's voxels. Other threads may add to the bits at the same time.
 void add_brick(const PackedBrick& brick, BrickBits& bits) {
   const char* from = brick.words;
   for (std::size_t i = 0; i < kMaskWords; ++i) {
@@ -146,7 +146,8 @@ std::optional<std::string> chunk_voxels(std::span<const TriangleD> triangles, co
   const TileGrid bricks(voxels_of(grid), kBrickEdge);
   std::vector<FixedTriangle> fixed;
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> sorted;
-  std::vector<std::uint32_t>* last = nullptr;  // neighbours in a file are neighbours in space
+  // The last brick of a thread: neighbours in a file are neighbours in space.
+  std::vector<std::uint32_t>* last = nullptr;
   std::uint64_t last_brick = 0;
   std::size_t meetings = 0;
   fixed.reserve(triangles.size());

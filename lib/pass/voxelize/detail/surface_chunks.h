@@ -15,60 +15,61 @@
 /// what has changed (docs/decisions/0007-surface-chunks.md).
 namespace bp {
 
-/// Cuts a sequence of triangles where its content says so: to put in, take away or move triangles changes the chunks
-/// that they are in, perhaps the next one, and no others. Cost: 2 ns a triangle, and its hash.
+/// Cuts a sequence of triangles where its content says so: triangles that are added, removed or moved change their own
+/// chunks, perhaps the next one, and no others. Cost: 2 ns a triangle, and its hash.
 class ChunkCutter {
  public:
   static constexpr std::uint64_t kLeast = 1 << 12, kMost = 1 << 16;  ///< triangles; the last chunk may be smaller
-  static constexpr int kMeanBits = 14;                               ///< one place in 2^14, if not too near the last
+  static constexpr int kMeanBits = 14;  ///< one place in 2^14 may end a chunk, if it is not too near the last end
 
   struct Chunk {
     std::uint64_t triangles = 0;
-    ResultKey content;  ///< content_of() them
+    ResultKey content;  ///< content_of() its triangles
   };
-  /// XXH3-128 of the coordinates, in order.
+  /// Returns the XXH3-128 of the coordinates, in order.
   [[nodiscard]] static ResultKey content_of(std::span<const TriangleD> triangles);
 
-  /// Triangles behind which a chunk may end, by number in the span. Thread-safe.
+  /// Returns the triangles after which a chunk may end, by number in the span. Thread-safe.
   [[nodiscard]] static std::vector<std::uint32_t> places(std::span<const TriangleD> triangles);
 
-  /// The next triangles, with their places().
+  /// Takes the next triangles, with their places().
   void add(std::span<const TriangleD> triangles, std::span<const std::uint32_t> places);
-  [[nodiscard]] const std::vector<Chunk>& chunks() const { return chunks_; }  ///< that have ended
+  [[nodiscard]] const std::vector<Chunk>& chunks() const { return chunks_; }  ///< chunks that have ended
   [[nodiscard]] std::vector<Chunk> finish();
 
  private:
   void take(std::span<const TriangleD> triangles);
   void cut();
   ContentHash hash_;
-  std::uint64_t open_ = 0;  // triangles of the chunk that has not ended
+  std::uint64_t open_ = 0;  // triangles in the chunk that has not ended
   std::vector<Chunk> chunks_;
 };
 
-/// Of the voxels of a chunk in this frame.
+/// Returns the key of a chunk's voxels in this frame.
 [[nodiscard]] ResultKey chunk_key(const ChunkCutter::Chunk& chunk, const GridFrame& frame);
 
-/// The voxels that the triangles touch (voxelize_surface), as bytes for BrickSum::add(): for each brick its
-/// coordinates, a bit for each of its words that is not 0, and these. `grid`: that the triangles lie in.
-/// Nothing if they are too large for a chunk: if they take more than kChunkBytes, or meet more than kChunkMeetings
-/// bricks, counting each triangle's. At work: kChunkWorkBytes, and one triangle's bricks.
+/// Returns the voxels that the triangles touch (voxelize_surface), as bytes for BrickSum::add(): for each brick its
+/// coordinates, a bit for each of its words that is not 0, and these words. `grid`: the bricks of the scene. Returns
+/// nothing if the triangles are too large for a chunk: if the bytes exceed kChunkBytes, or the sum of the bricks that
+/// each triangle meets exceeds kChunkMeetings. Memory: kChunkWorkBytes, and the bricks of one triangle.
 [[nodiscard]] std::optional<std::string> chunk_voxels(std::span<const TriangleD> triangles, const GridFrame& frame,
                                                       const BrickBox& grid);
 constexpr std::size_t kChunkBytes = std::size_t(4) << 20, kChunkMeetings = std::size_t(1) << 17;
-constexpr std::uint64_t kChunkWorkBytes = std::uint64_t(24) << 20;  ///< with its triangles, and packed for the store
+/// With the triangles, and with the bytes packed for the store.
+constexpr std::uint64_t kChunkWorkBytes = std::uint64_t(24) << 20;
 
-/// The union of chunks. Bricks that there is no room for go to a shelf.
+/// Adds up chunks. Bricks for which there is no room go to a shelf.
 class BrickSum {
  public:
   BrickSum(const BrickBox& grid, std::uint64_t memory_bytes, BrickShelf& shelf)
       : grid_(grid), bricks_(memory_bytes), shelf_(shelf) {}
 
-  /// False, and nothing is added, if these are not the bytes of a chunk in this grid. Thread-safe.
+  /// Adds a chunk. Returns false, and adds nothing, if the bytes are no chunk in this grid. Thread-safe.
   [[nodiscard]] bool add(const std::string& chunk);
-  /// Lists all bricks, in no order.
+  /// Returns all bricks, in no order.
   [[nodiscard]] std::vector<BrickCoord> coords() const;
-  /// Sets the voxels of the box, one of whole bricks, which are then forgotten. After the last add(). Thread-safe for
-  /// boxes without common bricks.
+  /// Sets the voxels of the box, which consists of whole bricks, in `out`, and forgets them. To be called after the
+  /// last add(). Thread-safe for boxes without common bricks.
   void take(BitBox& out);
 
  private:

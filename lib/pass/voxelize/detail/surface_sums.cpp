@@ -16,7 +16,8 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 }
 
-/// The exponent of a double and three bits of its mantissa: bins are an eighth of an octave.
+/// Returns the bin of a distance: the double's exponent and three bits of its mantissa, so that a bin is an eighth of
+/// an octave.
 BP_INLINE std::size_t SurfaceSums::bin_of(double distance) {
   constexpr std::int64_t kFirstOctave = 1023 - 40;  // 2^-40 scene units and less: the middle bin
   const auto top = std::int64_t(std::bit_cast<std::uint64_t>(std::abs(distance)) >> 49);
@@ -33,7 +34,7 @@ void SurfaceSums::Axis::add(std::size_t i, const Bin& bin) {
   end = std::max(end, i + 1);
 }
 
-/// Sums over triangles, with x, y, z side by side in each vector, and what follows them in memory.
+/// Sums over triangles. Each vector has x, y, z, and the number that follows in memory, which is not used.
 struct SurfaceSums::Lanes {
   typedef double Four __attribute__((vector_size(32)));
   struct Box {
@@ -44,7 +45,7 @@ struct SurfaceSums::Lanes {
     }
     [[nodiscard]] Bounds3d bounds() const { return {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}}; }
   };
-  struct Run {  // triangles in one bin, one after the other: neighbours in a file are neighbours in space
+  struct Run {  // consecutive triangles in one bin: neighbours in a file are neighbours in space
     std::size_t at = 0;
     double area = 0;
     Box box;
@@ -67,7 +68,7 @@ struct SurfaceSums::Lanes {
     sums.area_ += area, sums.extent_ += extent[0] + extent[1] + extent[2], sums.volume_ += volume;
     sums.normals_ = sums.normals_ + Vec3d{normals[0], normals[1], normals[2]};
   }
-  /// `corners`: nine coordinates, and one more that does not matter.
+  /// `corners`: nine coordinates, and a tenth number that is read and not used.
   BP_INLINE void add(const double* corners) {
     Four a, b, c;
     std::memcpy(&a, corners, sizeof a);
@@ -113,7 +114,7 @@ void SurfaceSums::add(std::span<const TriangleD> triangles) {
   Lanes lanes(*this);
   const std::size_t n = triangles.size() - 1;
   Lanes::add_all(triangles[0][0].data(), n, lanes);
-  double last[10]{};  // nothing follows the last one
+  double last[10]{};  // the last triangle, since no number follows it in memory
   std::memcpy(last, &triangles[n], sizeof(TriangleD));
   Lanes::add_all(last, 1, lanes);
   lanes.end();
@@ -140,10 +141,10 @@ void SurfaceSums::reset(const Vec3d& origin) {
   axes_ = std::move(axes);
 }
 
-/// What lies along one axis: the bins that hold nearly all of the area, with what is near them, and what is beyond.
+/// The division of an axis: the bins that hold nearly all of the area with the bins near them, and what lies beyond.
 SurfaceSums::Split SurfaceSums::split(std::size_t k) const {
   const std::vector<Bin>& axis = axes_[k].bins;
-  const double most = kStrayShare / 2 * area_;  // at each end
+  const double most = kStrayShare / 2 * area_;  // largest area beyond each end
   std::size_t first = 0, last = axis.size();
   for (double sum = axis[first].area; sum <= most && first + 1 < last; sum += axis[first].area) ++first;
   for (double sum = axis[last - 1].area; sum <= most && first + 1 < last; sum += axis[last - 1].area) --last;
@@ -170,10 +171,10 @@ std::optional<StrayPart> SurfaceSums::stray() const {
   stray.rest = bounds_;
   for (std::size_t k = 0; k < 3; ++k) {
     const double extent = bounds_.max[k] - bounds_.min[k];
-    if (extent * kStrayStretch < bounds_.longest_side()) continue;  // this axis makes nothing large
+    if (extent * kStrayStretch < bounds_.longest_side()) continue;  // this axis does not make the bounds large
     const Split at = split(k);
     if (at.part.empty() || extent <= kStrayStretch * (at.rest.max[k] - at.rest.min[k])) continue;
-    for (std::size_t j = 0; j < 3; ++j) {  // what lies at the end of one axis may stretch the others, too
+    for (std::size_t j = 0; j < 3; ++j) {  // the part at the end of one axis may stretch the others, too
       stray.rest.min[j] = std::max(stray.rest.min[j], at.rest.min[j]);
       stray.rest.max[j] = std::min(stray.rest.max[j], at.rest.max[j]);
     }

@@ -75,7 +75,7 @@ bool TileFill::has_filled(std::uint64_t tile) const {
   return filled_.contains(tile);
 }
 
-/// A column of tiles without a crossing has nothing to fill, and of a wide grid most are.
+/// A column of tiles without a crossing has nothing to fill; in a wide grid most have none.
 void TileFill::fill_columns(const PassProgress& progress) {
   const std::uint64_t nx = std::uint64_t(tiles_.count.x), in_layer = nx * std::uint64_t(tiles_.count.y);
   std::set<std::uint64_t> crossed;
@@ -108,7 +108,7 @@ TileFill::OpenColumns TileFill::open_columns(std::int32_t tx, std::int32_t ty, T
   return open;
 }
 
-/// One column of tiles: first the columns of voxels whose crossings cancel, then the fill from below.
+/// Fills one column of tiles: first finds the columns of voxels whose crossings cancel, then fills from below.
 void TileFill::fill_column(std::int32_t tx, std::int32_t ty) {
   const TileWorks::Lease work(works_);
   const OpenColumns open = open_columns(tx, ty, *work);

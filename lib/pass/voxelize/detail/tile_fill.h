@@ -13,10 +13,10 @@
 #include "lib/store/scratch.h"
 #include "lib/volume/outside.h"
 
-/// What the surface voxels of a grid of tiles enclose, added to them on their shelf.
+/// Fills the inside of the surface voxels of a grid of tiles, on their shelf.
 namespace bp {
 
-/// A tile at work.
+/// Buffers for a tile at work.
 struct TileWork {
   BitBox bits;
   std::vector<Crossing> crossings;
@@ -24,31 +24,32 @@ struct TileWork {
 using TileWorks = Pool<std::unique_ptr<TileWork>>;
 using BackendPool = Pool<Backend*>;
 
-/// Usage: add_crossings() and add_surface() of each tile as it is voxelized; resolve(); then, for winding,
-/// fill_columns(); else fill_flood() of each tile. Thread-safe but for resolve().
+/// Usage: call add_crossings() and add_surface() for each tile as it is voxelized, then resolve(); then for winding
+/// fill_columns(), else fill_flood() for each tile. Thread-safe, except for resolve().
 class TileFill {
  public:
-  /// Keeps references to all but `tiles`. The tiles' surface voxels are on the shelf; crossings go to the store.
+  /// Keeps references to all arguments but `tiles`. The tiles' surface voxels are on the shelf; crossings go to the
+  /// store.
   TileFill(FillMode mode, const TileGrid& tiles, BrickShelf& shelf, Scratch& store, BackendPool& backends,
            TileWorks& works);
 
-  /// Winding only; some of the crossings of a tile. Tiles at work in turn, but those of one tile one after the other.
+  /// For winding: adds some of the crossings of a tile. Thread-safe for different tiles.
   void add_crossings(std::uint64_t tile, std::span<const Crossing> crossings);
-  /// The tile's surface voxels are all there. Tiles without any need not be told.
+  /// Says that the tile's surface voxels are complete. Tiles without any need not be announced.
   void add_surface(std::uint64_t tile, const BitBox& bits);
   void resolve();
 
-  /// FillMode::flood, or inside: then less the surface voxels.
+  /// For FillMode::flood and inside: fills a tile. With inside, its surface voxels are removed.
   void fill_flood(std::uint64_t tile);
-  /// Winding: all tiles at once.
+  /// For winding: fills all tiles.
   void fill_columns(const PassProgress& progress);
-  /// Tiles that have been given voxels so far, whether they had some before or not.
+  /// Returns whether the tile has been given voxels so far, whether it had some before or not.
   [[nodiscard]] bool has_filled(std::uint64_t tile) const;
-  /// Columns whose crossings do not cancel: the flood decided there.
+  /// Returns the number of columns whose crossings do not cancel. There the flood decided.
   [[nodiscard]] std::uint64_t open_columns() const { return open_columns_; }
 
  private:
-  /// Columns of voxels, of one column of tiles, that are open: bits in the layout of a slice.
+  /// The open columns of voxels in one column of tiles: bits in the layout of a slice.
   struct OpenColumns {
     std::vector<std::uint64_t> bits;
     std::uint64_t count = 0;
@@ -66,7 +67,7 @@ class TileFill {
   BackendPool& backends_;
   TileWorks& works_;
   OutsideFlood flood_;
-  std::unordered_map<std::uint64_t, std::vector<Scratch::Handle>> crossings_;  // of tiles
+  std::unordered_map<std::uint64_t, std::vector<Scratch::Handle>> crossings_;  // by tile
   std::unordered_set<std::uint64_t> with_surface_;                             // FillMode::inside: tiles
   std::unordered_set<std::uint64_t> filled_;                                   // tiles
   mutable std::mutex mutex_;

@@ -10,15 +10,15 @@ namespace bp {
 
 namespace {
 
-constexpr std::size_t kBlock = 32768;                      // triangles handed out at a time, about
-constexpr std::size_t kChunkBytes = std::size_t(1) << 20;  // bytes put into the store at a time
+constexpr std::size_t kBlock = 32768;                    // triangles passed on at a time, about
+constexpr std::size_t kPutBytes = std::size_t(1) << 20;  // bytes put into the store at a time
 
 FixedPoint corner_of(const TileGrid& grid, std::uint64_t tile) {
   const VoxelCoord v = grid.first_voxel(grid.coord(tile));
   return {v.x * kFixedOne, v.y * kFixedOne, v.z * kFixedOne};
 }
 
-/// False if a coordinate does not fit.
+/// Returns false if a coordinate does not fit.
 bool narrow(const FixedTriangle& t, const FixedPoint& corner, NarrowTriangle& out) {
   const std::int64_t c[9] = {t.a.x - corner.x, t.a.y - corner.y, t.a.z - corner.z, t.b.x - corner.x, t.b.y - corner.y,
                              t.b.z - corner.z, t.c.x - corner.x, t.c.y - corner.y, t.c.z - corner.z};
@@ -35,7 +35,7 @@ FixedTriangle widen(const NarrowTriangle& n, const FixedPoint& o) {
       {o.x + n[0], o.y + n[1], o.z + n[2]}, {o.x + n[3], o.y + n[4], o.z + n[5]}, {o.x + n[6], o.y + n[7], o.z + n[8]}};
 }
 
-/// The bins of a batch, by tile; the last one is remembered, since neighbours in a file are neighbours in space.
+/// Puts a batch into bins by tile. The last bin is remembered, since neighbours in a file are neighbours in space.
 class BatchSorter {
  public:
   BatchSorter(const TileGrid& grid, TriangleBatch& batch) : grid_(grid), batch_(batch) {}
@@ -69,7 +69,7 @@ class BatchSorter {
 
 template <class T>
 void put_chunks(Scratch& store, Blocks<T>& records, std::vector<Scratch::Handle>& handles) {
-  constexpr std::size_t kRecords = kChunkBytes / sizeof(T);
+  constexpr std::size_t kRecords = kPutBytes / sizeof(T);
   std::vector<T> chunk;
   const auto put = [&] {
     if (!chunk.empty()) handles.push_back(store.put(std::as_bytes(std::span<const T>(chunk))));
@@ -83,7 +83,7 @@ void put_chunks(Scratch& store, Blocks<T>& records, std::vector<Scratch::Handle>
   records = {};
 }
 
-/// body(span of T) for each chunk.
+/// Calls body(span of T) for each chunk.
 template <class T, class Body>
 void get_chunks(const Scratch& store, const std::vector<Scratch::Handle>& handles, const Body& body) {
   std::vector<std::byte> bytes;
@@ -142,7 +142,7 @@ void TriangleBins::for_each(std::uint64_t tile, const std::function<void(std::sp
   if (at == bins_.end()) return;
   const Bin& bin = at->second;
   const FixedPoint corner = corner_of(grid_, tile);
-  std::vector<FixedTriangle> block;  // a body is called with many at once: a device pays for each call
+  std::vector<FixedTriangle> block;  // the body gets many triangles at once, since a device pays for each call
   const auto flush = [&](std::size_t room) {
     if (block.size() + room <= kBlock) return;
     body(block);

@@ -13,13 +13,14 @@
 #include "lib/store/scratch.h"
 #include "lib/voxel/fixed_triangle.h"
 
-/// Triangles sorted by the tiles they meet, in memory up to a budget, then in a Scratch.
+/// Sorts triangles by the tiles that they meet, in memory up to a budget, then in a Scratch.
 namespace bp {
 
-/// Nine coordinates relative to the tile's corner, fixed point, 36 bytes: for triangles within 2^15 voxels of it.
+/// Nine coordinates relative to the tile's corner, fixed point, 36 bytes: for triangles within 2^15 voxels of that
+/// corner.
 using NarrowTriangle = std::array<std::int32_t, 9>;
 
-/// The triangles of some tiles: what one call of sort() found.
+/// The triangles of some tiles, as one call of sort() found them.
 struct TriangleBatch {
   struct Bin {
     std::uint64_t tile = 0;
@@ -29,7 +30,7 @@ struct TriangleBatch {
   std::vector<Bin> bins;
 };
 
-/// Records in blocks that grow with their number up to 64 KiB: nothing is copied when there are more.
+/// Records in blocks that grow with their number up to 64 KiB, so that nothing is copied when there are more.
 template <class T>
 class Blocks {
  public:
@@ -42,8 +43,8 @@ class Blocks {
       records = records.subspan(n);
     }
   }
-  [[nodiscard]] std::uint64_t bytes() const { return bytes_; }  ///< taken from memory
-  /// body(span of T) for each block.
+  [[nodiscard]] std::uint64_t bytes() const { return bytes_; }  ///< memory taken
+  /// Calls body(span of T) for each block.
   template <class Body>
   void for_each(const Body& body) const {
     for (const PageBlock& block : blocks_) {
@@ -70,24 +71,25 @@ class TriangleBins {
  public:
   TriangleBins(const TileGrid& grid, Scratch& store) : grid_(grid), store_(store) {}
 
-  /// Thread-safe. A triangle goes into each tile that it meets (lib/voxel/voxelize.h, for_each_tile).
+  /// Sorts triangles. Each goes into every tile that it meets (lib/voxel/voxelize.h, for_each_tile). Thread-safe.
   [[nodiscard]] TriangleBatch sort(std::span<const FixedTriangle> triangles) const;
-  /// On one thread.
+  /// Adds a batch. On one thread only.
   void add(TriangleBatch&& batch);
 
-  [[nodiscard]] std::uint64_t memory_bytes() const { return memory_bytes_; }  ///< of the triangles held
-  /// Of what is kept of each tile ever added to, and of each chunk in the store, with the map around it.
+  [[nodiscard]] std::uint64_t memory_bytes() const { return memory_bytes_; }  ///< bytes of the triangles in memory
+  /// Returns the bytes of the records about each tile ever added to and about each chunk in the store, with the maps
+  /// around them.
   [[nodiscard]] std::uint64_t table_bytes() const;
-  [[nodiscard]] std::uint64_t records() const { return records_; }     ///< added so far
-  [[nodiscard]] std::vector<std::uint64_t> tiles() const;              ///< ever added to; sorted
-  [[nodiscard]] std::uint64_t memory_bytes(std::uint64_t tile) const;  ///< held for one tile
+  [[nodiscard]] std::uint64_t records() const { return records_; }     ///< triangles added so far, once for each tile
+  [[nodiscard]] std::vector<std::uint64_t> tiles() const;              ///< all tiles ever added to, sorted
+  [[nodiscard]] std::uint64_t memory_bytes(std::uint64_t tile) const;  ///< bytes in memory for one tile
   /// Calls body with the tile's triangles, some ten thousand at a time. Thread-safe for distinct tiles.
   void for_each(std::uint64_t tile, const std::function<void(std::span<const FixedTriangle>)>& body) const;
-  /// Puts into the store what the tiles hold in memory, in parallel.
+  /// Moves the triangles that the tiles have in memory to the store, in parallel.
   void spill(std::span<const std::uint64_t> tiles);
-  /// Forgets the triangles of a tile, wherever they are. Thread-safe for distinct tiles, but not beside add().
+  /// Forgets the triangles of a tile, wherever they are. Thread-safe for distinct tiles, but not while add() runs.
   void release(std::uint64_t tile);
-  /// After release() of many tiles: counts memory and chunks anew.
+  /// Counts memory and chunks anew. To be called after release() of many tiles.
   void recount();
 
  private:
@@ -101,7 +103,7 @@ class TriangleBins {
   Scratch& store_;
   std::unordered_map<std::uint64_t, Bin> bins_;
   std::uint64_t memory_bytes_ = 0, records_ = 0;
-  std::uint64_t chunks_ = 0;  // in the store, when memory was counted last
+  std::uint64_t chunks_ = 0;  // chunks in the store when memory was last counted
 };
 
 }  // namespace bp

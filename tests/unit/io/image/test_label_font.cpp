@@ -7,7 +7,7 @@
 using namespace bp;
 using namespace bp::test;
 
-// What letters look like depends on the font and on FreeType: only what holds for all of them is tested.
+// The form of letters depends on the font and on FreeType, so only properties that hold for all of them are tested.
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include "tests/unit/io/mesh/soup.h"
 #include "tests/unit/io/scene/scene_files.h"
 
-// Which floats a GLB holds, by its bytes alone: without the readers.
+// Tests the floats in a GLB by its bytes, without the suite's readers.
 
 using namespace bp;
 using namespace bp::test;

@@ -50,7 +50,7 @@ Json json_of(const std::string& path) {
   return Json::parse(bytes.substr(20, size));
 }
 
-/// Of an accessor of a file without compression.
+/// Returns the numbers of an accessor in a file without compression.
 template <class Number>
 std::vector<Number> numbers(const std::string& path, std::size_t accessor) {
   const Json doc = json_of(path), &a = doc["accessors"][accessor],

@@ -83,7 +83,7 @@ inline SceneCounts counts_of(const std::string& path, const SceneOptions& option
   return source->counts();
 }
 
-/// The message of the Error that reading `path` throws; "" if it throws none. Fails on any code but bad_input.
+/// Returns the message of the Error that reading `path` throws; "" if it throws none. Fails on any code but bad_input.
 inline std::string complaint_of(const std::string& path, const SceneOptions& options = {}) {
   try {
     (void)read_all(path, options);

@@ -16,7 +16,7 @@ namespace {
 using Places = std::vector<Vec3d>;
 using Matrix = std::array<double, 16>;  // by columns
 
-/// Of each of the four corners of the quad: two joints and their shares.
+/// The joints of the quad's four corners: two for each, with their shares.
 struct Shares {
   std::vector<std::uint8_t> joints;
   std::vector<float> weights;
@@ -78,7 +78,7 @@ TEST_CASE("weights of a skin need not sum to 1, and may be many", "[quick][io]")
   for (float& w : shares.weights) w *= 3;
   Document d = skinned_quad(shares, {});
   CHECK(corners_of(d) == corners_of(skinned_quad(halves(), {})));
-  // As much again for the other joint: all corners are half and half.
+  // Adds the same shares for the other joint: then all corners are half and half.
   Json& attributes = d.json["meshes"][0]["primitives"][0]["attributes"];
   attributes["JOINTS_1"] = d.array<std::uint16_t>({1, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0}, kU16, "VEC4", 4);
   attributes["WEIGHTS_1"] = d.array<float>({3, 0, 0, 0, 3, 0, 0, 0, 3, 3, 0, 0, 1, 1, 0, 0}, kF32, "VEC4", 4);

@@ -4,7 +4,7 @@
 #include "tests/catch.h"
 #include "tests/unit/io/scene/scene_files.h"
 
-// Reads every real model that is at hand and holds what it finds against MANIFEST.tsv.
+// Reads every real model that is present and compares its content with MANIFEST.tsv.
 
 using namespace bp;
 using namespace bp::test;

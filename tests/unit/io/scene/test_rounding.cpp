@@ -1,4 +1,4 @@
-// How far coordinates may be from those in their file, format by format.
+// Tests of the bounds on reading errors, format by format.
 #include <cmath>
 #include <random>
 

@@ -1,4 +1,4 @@
-#include "io/scene/name_pattern.h"
+#include "io/files/name_pattern.h"
 #include "io/scene/part_names.h"
 #include "tests/catch.h"
 #include "tests/unit/io/scene/gltf_document.h"

@@ -189,7 +189,7 @@ TEST_CASE("a brick is stored as what it holds, whatever it is called", "[quick][
 
 namespace {
 
-/// Of a closing to come, by cubes of one scale.
+/// Returns a header with a closing to come, by cubes of one scale.
 StreamHeader header_with_field() {
   StreamHeader header = random_header(5);
   header.has_closing = false;

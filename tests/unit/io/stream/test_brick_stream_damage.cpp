@@ -163,7 +163,7 @@ TEST_CASE("a version, flag or value from the future is refused", "[quick][io]") 
   CHECK(says(changed(14, 3), "slab axis"));
   CHECK(says(changed(15, 6), "unknown up axis 6"));
   CHECK(says(changed(10, 0), "a scale field without its flag"));
-  CHECK(changed(12, 1).empty());  // a lawful change, to see that sealing works
+  CHECK(changed(12, 1).empty());  // a legal change, which shows that sealing works
 }
 
 TEST_CASE("a header out of range is refused even with a valid checksum", "[quick][io]") {

@@ -49,7 +49,8 @@ struct Fixture {
   }
   [[nodiscard]] BakedSurface bake() const { return bake_with(bake_surface); }
   [[nodiscard]] TextureImage bake_color() const { return bake_with(bp::bake); }
-  /// Of each face: the direction in the scene that the image says at the middle of the face, as a viewer reads it.
+  /// Returns, for each face, the direction in the scene that the image gives at the middle of the face, as a viewer
+  /// reads it.
   [[nodiscard]] std::vector<Vec3d> directions(const TextureImage& image) const {
     LatticeMesh placed = mesh;
     auto texture = std::make_shared<MeshTexture>();

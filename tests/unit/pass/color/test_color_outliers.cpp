@@ -31,8 +31,7 @@ LatticeMesh wall_of(const ColoredScene& scene) {
   return mesh;
 }
 
-/// The cube of blocks of this size, those that are seen. blue({x, y, z}): of the block with this number, else it is
-/// red.
+/// Returns the visible blocks of a cube of this size. blue({x, y, z}): the block with this number is blue, else red.
 ColoredScene blocks(const std::array<int, 3>& size, const std::function<bool(const std::array<int, 3>&)>& blue) {
   ColoredScene scene;
   const auto outer = [&](int i, std::size_t axis) { return i == 0 || (i + 1) * size[axis] == kSide; };

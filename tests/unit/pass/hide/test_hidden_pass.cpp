@@ -20,7 +20,7 @@ struct Made {
   std::uint64_t count = 0;
 };
 
-/// What hidden voxels are made from.
+/// The solids that hidden voxels are made from.
 struct Scene {
   MemoryShelf shelf;
   StreamHeader header;
@@ -69,7 +69,7 @@ BitBox closing_of(const Solid& touched, double scale, StructuringElement element
   return reference::close(wide_bits_of(touched), field.sample(GridFrame{}, kWide.grown(16)), element, kWide);
 }
 
-/// The same, fast.
+/// Returns the same set by the fast code.
 BitBox passed_closing_of(const Solid& touched, double scale, StructuringElement element) {
   Scene scene(touched, scale, element);
   ScaleField field;

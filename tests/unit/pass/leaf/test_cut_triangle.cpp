@@ -21,7 +21,7 @@ std::array<CutPoint, 4> random_strip(std::mt19937& rand) {
   return all;
 }
 
-/// Of a triangle's part in a box: the points in the plane x[axis] = at.
+/// Returns the points of a triangle's part in a box that lie in the plane x[axis] = at.
 Points in_plane(const std::array<CutPoint, 3>& t, const Bounds3d& box, std::size_t axis, double at) {
   Points points;
   for (const CutPoint& p : cut_triangle(t, box))

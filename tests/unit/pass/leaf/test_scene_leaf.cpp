@@ -61,14 +61,10 @@ TriangleD corners_of(const SceneLeaf& leaf, const LeafPart& part, std::size_t f)
   return t;
 }
 
-double area_of(const TriangleD& t) {
-  return length(cross(t[1] - t[0], t[2] - t[0])) / 2;
-}
-
 double area_of(const SceneLeaf& leaf) {
   double area = 0;
   for (const LeafPart& part : leaf.parts)
-    for (std::size_t f = 0; f < part.triangles.size(); ++f) area += area_of(corners_of(leaf, part, f));
+    for (std::size_t f = 0; f < part.triangles.size(); ++f) area += bp::area_of(corners_of(leaf, part, f));
   return area;
 }
 

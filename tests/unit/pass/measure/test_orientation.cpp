@@ -114,7 +114,7 @@ TEST_CASE("frames at places hold there, and turn smoothly between", "[quick][ori
   for (double x = 2; x < 31; x += 1) CHECK(detail::likeness(at(x), at(x + 1)) > std::cos(4 * kDegree));
 }
 
-/// Of radius 1, around (0, 0, 0).
+/// Returns a sphere of radius 1 around (0, 0, 0).
 std::vector<TriangleD> sphere(int n) {
   const auto at = [&](int i, int j) {
     const double a = i * 180.0 / n * kDegree, b = j * 180.0 / n * kDegree;

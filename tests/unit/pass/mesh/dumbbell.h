@@ -11,7 +11,7 @@
 #include "tests/support/proxy_checks.h"
 #include "tests/support/voxel_source.h"
 
-/// What most tests of the pass mesh.
+/// The shape that most tests of this pass mesh.
 namespace bp::test {
 
 const VoxelBox kBox{{0, 0, 0}, {48, 48, 48}};

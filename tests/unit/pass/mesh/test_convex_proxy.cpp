@@ -22,7 +22,7 @@ std::vector<TriangleD> sheet(bool flat) {
   return {{a, b, c}, {a, c, d}};
 }
 
-/// What touches it, and some around it.
+/// Returns whether a voxel touches the sheet, or lies within `more` of it.
 bool near_sheet(VoxelCoord v, bool flat, double more) {
   const double x = v.x + 0.5, y = v.y + 0.5;
   return std::abs(x) < 51 + more && std::abs(y) < 41 + more &&

@@ -1,5 +1,5 @@
-// Of SimplifyParams::most_growth: what one collapse may add to a proxy around a solid, or take from one inside it. And
-// of ShapeLimits::room: how far its vertices may go.
+// Tests of SimplifyParams::most_growth, the volume that one collapse may add to a proxy around a solid or take from one
+// inside it, and of ShapeLimits::room, the box that its vertices may not leave.
 #include "lib/enclosed/enclosed_voxels.h"
 #include "lib/pass/mesh/detail/proxy_limits.h"
 #include "lib/pass/mesh/mesh_pass.h"
@@ -20,7 +20,7 @@ bool lollipop(VoxelCoord p) {
   return x * x + y * y + z * z < 50 || (x >= 0 && x < 14 && y * y < 3 && z * z < 3);
 }
 
-/// A plate on 36 legs, which few faces cannot tell apart.
+/// A plate on 36 legs, which a mesh of few faces cannot show separately.
 bool table(VoxelCoord p) {
   const bool leg = p.x % 8 < 2 && p.y % 8 < 2 && p.z >= 4;
   return p.x < 42 && p.y < 42 && p.z >= 4 && p.z < 40 && (p.z >= 36 || leg);

@@ -1,5 +1,5 @@
 #include "lib/core/vec3.h"
-#include "lib/grid/scale_part.h"
+#include "lib/grid/scale_field.h"
 #include "lib/pass/mesh/detail/scaled_edges.h"
 #include "tests/catch.h"
 #include "tests/unit/grid/random_fields.h"

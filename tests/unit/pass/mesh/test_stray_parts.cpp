@@ -1,4 +1,4 @@
-// Parts of the closing that hold nothing of what must stay inside: nothing stops them as they shrink.
+// Tests of parts of the closing that hold nothing of the enclosed set: nothing stops them as they shrink.
 #include <random>
 
 #include "lib/check/check_proxy.h"

@@ -78,7 +78,7 @@ BitBox plainly_voxelized(const Triangles& scene, const GridFrame& frame, const V
   return bits;
 }
 
-/// A scene that tells bounds beforehand.
+/// A scene that tells its bounds beforehand.
 class TellingSource final : public TriangleSource {
  public:
   TellingSource(Triangles triangles, const Bounds3d& told) : scene_(std::move(triangles)), told_(told) {}

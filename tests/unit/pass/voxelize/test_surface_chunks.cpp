@@ -245,7 +245,7 @@ TEST_CASE("chunks of other voxels, of another frame, or damaged ones are not tak
 
 namespace {
 
-/// As soon as the first voxels are put, another job has put all of its results.
+/// A store in which another job has put all of its results as soon as the first voxels are put.
 class SharedResults final : public ResultStore {
  public:
   explicit SharedResults(const test::MemoryResults& other) : other_(other) {}
@@ -287,7 +287,7 @@ TEST_CASE("jobs at work at the same time share the chunks of their scene", "[qui
 
 namespace {
 
-/// Other triangles in each reading, as many.
+/// A scene that gives other triangles in each reading, as many.
 class Changing final : public TriangleSource {
  public:
   bool read(std::vector<TriangleD>& out) override { return now_.read(out); }

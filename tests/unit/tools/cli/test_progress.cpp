@@ -15,7 +15,7 @@ using namespace bp;
 
 namespace {
 
-/// What is written to stderr meanwhile.
+/// Returns the text that is written to stderr while `work` runs.
 template <class Work>
 std::string shown(const Work& work) {
   const std::string path = std::filesystem::temp_directory_path() / ("bp_progress_" + std::to_string(::getpid()));

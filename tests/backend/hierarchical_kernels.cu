@@ -2,8 +2,8 @@
 // made exact: a block is settled only if a cell in the walk proves it for all of its voxels.
 #include <algorithm>
 
-#include "gpu/hierarchical_kernels.h"
 #include "gpu/kernels/launch.h"
+#include "tests/backend/hierarchical_kernels.h"
 
 namespace bp {
 

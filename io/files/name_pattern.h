@@ -3,8 +3,8 @@
 
 namespace bp {
 
-/// Whether the whole name fits the pattern: * stands for any characters, ? for one. Cost: at most the product of their
-/// lengths.
+/// Returns whether the whole name fits the pattern: * stands for any characters, ? for one. Cost: at most the product
+/// of their lengths.
 [[nodiscard]] inline bool fits_pattern(std::string_view name, std::string_view pattern) {
   std::size_t n = 0, p = 0, star = std::string_view::npos, after_star = 0;
   while (n < name.size()) {
