@@ -38,4 +38,7 @@ if(BP_CCACHE AND NOT BP_UNITY AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CUDA_COMPILER_LAUNCHER "${BP_CCACHE}")
 endif()
 
-install(TARGETS bp_compile_options EXPORT bp)
+# bp_shareable(target): its objects may go into libbp.so, and export nothing there by themselves.
+function(bp_shareable target)
+  set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+endfunction()

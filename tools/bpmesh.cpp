@@ -6,14 +6,13 @@
 #include "io/stream/brick_shelf.h"
 #include "io/stream/brick_stream.h"
 #include "lib/core/error.h"
-#include "lib/geometry/signed_volume.h"
 #include "lib/pass/mesh/mesh_pass.h"
 #include "tools/cli/report.h"
 #include "tools/cli/run_tool.h"
-#include "tools/mesh/enclosure.h"
 #include "tools/mesh/mesh_memory.h"
 #include "tools/mesh/mesh_options.h"
 #include "tools/mesh/mesh_report.h"
+#include "tools/mesh/mesh_step.h"
 #include "tools/mesh/shortfalls.h"
 #include "tools/notes/estimate.h"
 #include "tools/notes/proportion.h"
@@ -23,30 +22,6 @@
 
 namespace {
 
-/// A share of the volume, which is a tenth of the diameter. Such a part hides a hundredth of what the largest part
-/// hides, and costs as many triangles.
-constexpr double kLeastPart = 1e-3;
-
-/// Edges follow the scale where it differs from place to place: no edge is longer than so many scales.
-constexpr double kEdgeFactor = 4;
-
-bp::MeshParams mesh_params(const bp::MeshOptions& o, const bp::StreamHeader& header) {
-  bp::MeshParams params;
-  params.mode = o.proxy.mode;
-  params.faces = o.levels.faces;
-  if (o.error()) bp::question_length("--error", *o.error(), header.bounds, header.frame.voxel);
-  if (o.error()) params.error_world = o.error()->in_world(header.bounds.diagonal(), header.frame.voxel);
-  params.volume_ratio = o.volume;
-  if (o.proxy.mode == bp::MeshMode::inside) params.least_part = kLeastPart;
-  params.quads = o.quads;
-  if (!header.scale.constant()) params.edge_factor = kEdgeFactor;
-  params.edges_yield = true;
-  // A result that may lie beyond --error is measured, so that a note can tell.
-  const bool chosen = o.proxy.enclose.kind != bp::EncloseOption::Kind::automatic;
-  params.distances = o.error() && (chosen || o.levels.faces.size() > 1);
-  return params;
-}
-
 /// Notes that a glTF lies far from its origin, or was moved nearer. Other formats hold doubles, or refuse.
 void note_origin(bp::Report& report, const bp::MeshOptions& o, const bp::StreamHeader& header, bp::MeshFormat format) {
   const bool gltf = format == bp::MeshFormat::glb || format == bp::MeshFormat::gltf;
@@ -54,27 +29,6 @@ void note_origin(bp::Report& report, const bp::MeshOptions& o, const bp::StreamH
   const bool tells = format != bp::MeshFormat::stl;
   if (const std::string text = origin_note(o.proxy.origin, header.frame, header.bounds, tells); !text.empty())
     report.note(text, o.common);
-}
-
-/// Sets what is enclosed. A note tells if it is less than possible.
-std::string set_enclosure(const bp::MeshOptions& o, const bp::StreamHeader& header, bp::MeshParams& params,
-                          const bp::PieceMemory& memory, bp::Report& report) {
-  bp::Enclosure enclosure = bp::make_enclosure(
-      o.proxy.enclose, {header, o.proxy.mode, o.error().has_value(), params.distances, memory, o.common.temp});
-  if (!enclosure.note.empty()) report.note(enclosure.note, o.common);
-  params.enclose = enclosure.what;
-  params.scene = std::move(enclosure.scene);
-  // The user did not ask for the scene: the bound is on what bpmesh adds to the requested closing.
-  if (o.error() && o.proxy.mode == bp::MeshMode::bounding && o.proxy.enclose.kind == bp::EncloseOption::Kind::automatic)
-    params.distances_to = bp::Enclose::closing;
-  return o.proxy.enclose.kind == bp::EncloseOption::Kind::files ? o.proxy.enclose.text() : name_of(enclosure.what);
-}
-
-std::optional<double> volume_of(const std::vector<bp::TriangleD>& scene) {
-  if (scene.empty()) return {};
-  bp::SignedVolume volume(scene.front().front());
-  for (const bp::TriangleD& t : scene) volume.add(t);
-  return volume.value();
 }
 
 /// Notes a scale field by which nobody closed, and the up axis of the scene if the format has one of its own.
@@ -102,29 +56,6 @@ std::vector<std::unique_ptr<bp::OutputFile>> open_outputs(const bp::MeshOptions&
   return outputs;
 }
 
-/// The facts that all levels of a run share.
-struct Made {
-  const bp::StreamHeader& header;
-  std::string checksum;  ///< checksum of the stream
-  const std::string& enclosed;
-  bp::Vec3d origin;
-  bp::MeshFormat format;
-};
-
-/// Writes the levels as files, all or none.
-void write_levels(std::vector<bp::LatticeMesh>& levels, const bp::MeshOptions& o, const Made& made,
-                  const std::vector<std::unique_ptr<bp::OutputFile>>& outputs) {
-  for (std::size_t i = 0; i < levels.size(); ++i) {
-    levels[i].provenance.push_back(bp::mesh_provenance(o, made.header.frame, made.enclosed, made.checksum, i));
-    const bp::MeshMode mode = o.proxy.mode;
-    const bp::Contract contract = mode == bp::MeshMode::fit      ? bp::Contract::fit
-                                  : mode == bp::MeshMode::inside ? bp::Contract::inside
-                                                                 : bp::Contract::encloses;
-    bp::write_mesh(levels[i], *outputs[i], made.format, {made.origin, mode == bp::MeshMode::fit, contract});
-  }
-  bp::OutputFile::commit_all(outputs);
-}
-
 void run(bp::MeshOptions o) {
   const bp::MeshFormat format = bp::output_format(o);
   bp::Report report("bpmesh");
@@ -133,21 +64,24 @@ void run(bp::MeshOptions o) {
   bp::BrickReader source(o.in);
   if (!o.proxy.mode_given && source.header().fill == bp::FillMode::inside) o.proxy.mode = bp::MeshMode::inside;
   const bp::Vec3d origin = bp::origin_of(o.proxy.origin, source.header().frame, source.header().bounds);
-  bp::MeshParams params = mesh_params(o, source.header());
+  bp::MeshParams params = bp::mesh_params(o, source.header());
   bp::PassContext context;
   context.pieces = bp::mesh_memory(o.common);
   context.make_shelf = bp::make_shelf_factory(bp::MeshBudget(o.common.memory_bytes).shelves, o.common.temp);
-  const std::string enclosed = set_enclosure(o, source.header(), params, context.pieces, report);
+  const std::string enclosed = bp::set_enclosure(o, source.header(), params, context.pieces, nullptr, report);
   note_estimate(report, o, source.header(), params.enclose);
   note_stream(report, o, source.header(), format);
   const bool closed_by_scale = source.header().has_closing && source.header().scale.constant();
-  const bp::ShortfallFacts facts{params.error_world, closed_by_scale, volume_of(params.scene)};
+  const bp::ShortfallFacts facts{params.error_world, closed_by_scale, bp::volume_of(params.scene)};
   bp::MeshCounts counts;
   std::vector<bp::LatticeMesh> levels = bp::mesh_stream(source, context, std::move(params), counts);
   report.bytes_in = source.totals().bytes;
 
   report.begin("write");
-  write_levels(levels, o, {source.header(), source.totals().checksum(), enclosed, origin, format}, outputs);
+  bp::tell_steps(levels, o, {source.header(), source.totals().checksum(), enclosed});
+  for (std::size_t i = 0; i < levels.size(); ++i)
+    bp::write_mesh(levels[i], *outputs[i], format, bp::write_options(o.proxy.mode, origin));
+  bp::OutputFile::commit_all(outputs);
   for (const auto& output : outputs) report.bytes_out += output->bytes();
   bp::fill_report(report, o, counts);
   if (origin != bp::Vec3d{}) report.counts["origin"] = origin;

@@ -92,7 +92,7 @@ void run(const Options& o) {
   if (header.has_closing)
     fail(ErrorCode::bad_input, "{}: is closed already; bpscale comes between bpvox and bpclose", o.in);
   bp::RuledSource source(reader, pass_context(o, progress), o.common.memory_bytes, o.common.temp);
-  const bp::ScalePlan plan = source.read_rules(o.rules, true);
+  const bp::ScalePlan plan = source.read_rules(bp::read_rules_text(o.rules), true);
   bp::OrientationField orientation;
   if (!plan.orientation.empty()) orientation = bp::make_orientation(plan.orientation, o.rules, header, plan.field);
   if (o.explain) return bp::print(bp::explain_point(plan, orientation, header, *o.explain));

@@ -1,25 +1,18 @@
 // bpvox: scenes in, a stream of solid bricks out. Manual: docs/bpvox.1.md
 #include <algorithm>
-#include <filesystem>
 #include <optional>
 
-#include "io/scene/scene_format.h"
 #include "io/scene/scene_reader.h"
-#include "io/store/scratch.h"
-#include "io/stream/brick_shelf.h"
 #include "io/stream/brick_stream.h"
 #include "lib/core/error.h"
 #include "lib/levels/voxel_choice.h"
 #include "lib/pass/voxelize/voxelize_pass.h"
-#include "tools/cli/names.h"
 #include "tools/cli/options/voxel.h"
 #include "tools/cli/output_name.h"
 #include "tools/cli/report.h"
 #include "tools/cli/run_tool.h"
 #include "tools/notes/estimate.h"
-#include "tools/notes/proportion.h"
-#include "tools/notes/scene_notes.h"
-#include "tools/notes/up_note.h"
+#include "tools/pipe/voxelize_step.h"
 #include "tools/run/make_backend.h"
 #include "tools/run/memory_shares.h"
 #include "tools/run/provenance.h"
@@ -49,53 +42,6 @@ Options parse(bp::Args& args) {
   return o;
 }
 
-/// `told`: whether the user or the scene named the up axis. For an axis other than y that is clear anyway.
-bp::OptionText option_text(const Options& o, bp::UpAxis up, bool told) {
-  bp::OptionText text;
-  if (o.voxels.voxel) {
-    text.add("voxel", *o.voxels.voxel);
-  } else {
-    text.add("resolution", o.voxels.resolution.value_or(bp::kDefaultResolution));
-  }
-  text.add("fill", name_of(o.voxels.fill)).add("up", name_of(up));
-  if (told && up == bp::UpAxis::y) text.add(bp::kUpTold, true);
-  return text;
-}
-
-/// Returns the voxel size. It is called when the scene has been read once.
-double voxel_size(const Options& o, const bp::Bounds3d& bounds) {
-  if (o.voxels.resolution) bp::question_resolution(*o.voxels.resolution, bounds);
-  if (!o.voxels.voxel) return bp::voxel_size_of(bounds, o.voxels.resolution.value_or(bp::kDefaultResolution));
-  bp::question_voxel("--voxel", *o.voxels.voxel, bounds);
-  return o.voxels.voxel->in_world(bounds.diagonal(), 0);
-}
-
-/// Returns the files for later tools; none if part of the scene came from a pipe, which cannot be read again.
-bp::SceneFiles scene_files(const Options& o, const bp::VoxelizeCounts& counts) {
-  const std::string format = o.voxels.format.empty() ? "" : bp::scene_format_named(o.voxels.format);
-  bp::SceneFiles scene{{}, format, counts.scene.triangles, counts.input_hash};
-  for (const std::string& name : o.voxels.scenes) {
-    std::error_code none;
-    if (name == "-" || !std::filesystem::is_regular_file(name, none)) return {};
-    scene.files.push_back({name, std::filesystem::file_size(name, none)});
-  }
-  return scene;
-}
-
-bp::VoxelizeOptions pass_options(const Options& o, const bp::VoxelizeBudget& budget, bp::Progress& progress) {
-  bp::VoxelizeOptions v;
-  v.voxel_size = [&o](const bp::Bounds3d& bounds) { return voxel_size(o, bounds); };
-  v.voxel_by_bounds = true;
-  v.fill = o.voxels.fill;
-  v.up = o.voxels.up;
-  v.context.memory.bytes = budget.waiting;
-  v.tile_memory_bytes = budget.tiles;
-  v.context.make_shelf = bp::make_shelf_factory(budget.shelf, o.common.temp);
-  v.context.make_scratch = [&o, budget] { return bp::make_scratch(budget.store, o.common.temp); };
-  v.context.progress = progress.for_pass();
-  return v;
-}
-
 void fill_report(bp::Report& report, const Options& o, const bp::StreamHeader& header, const bp::VoxelizeCounts& c,
                  const bp::SceneOptions& scene) {
   report.options["options"] = header.provenance.back().options;
@@ -119,18 +65,7 @@ void fill_report(bp::Report& report, const Options& o, const bp::StreamHeader& h
   report.counts["open_columns"] = c.open_columns;
   report.counts["scene_read_twice"] = c.read_twice;
   report.counts["scratch_bytes"] = c.scratch_bytes;
-  if (header.frame.voxel != c.voxel_asked) {
-    report.notes.push_back(
-        fmt::format("the voxel size was rounded from {} to {}, so that every vertex of a proxy is an exact double",
-                    c.voxel_asked, header.frame.voxel));
-  }
-  for (const std::string& text : bp::scene_notes(c, header, {o.voxels.scenes, scene})) report.note(text, o.common);
-  if (c.open_columns > 0) {
-    report.note(fmt::format("{} columns of voxels cross an open or inconsistently oriented surface; the flood decided "
-                            "there, and elsewhere the inside may be missing; --fill flood needs no orientation",
-                            c.open_columns),
-                o.common);
-  }
+  note_voxels(report, o.common, header, c, {o.voxels.scenes, scene});
 }
 
 void run(const Options& o) {
@@ -154,11 +89,13 @@ void run(const Options& o) {
         bp::estimate_voxelize(h.bounds, h.frame.voxel, bp::most_touched_voxels(counts, h.frame.voxel));
     bp::note_estimate(estimate, o.common, progress, report);
     header.provenance.push_back(bp::make_provenance(
-        "bpvox", option_text(o, h.frame.up, o.voxels.tell_up() || source->up()), counts.input_hash));
-    header.scene = scene_files(o, counts);
+        "bpvox", bp::voxelize_text(o.voxels, h.frame.up, o.voxels.tell_up() || source->up()), counts.input_hash));
+    header.scene = bp::scene_files(o.voxels, counts);
     return writer.emplace(*file, header);
   };
-  const bp::VoxelizeCounts counts = bp::voxelize_stream(*source, open, backends, pass_options(o, budget, progress));
+  bp::VoxelizeOptions options = bp::voxelize_options(o.voxels, o.common, budget);
+  options.context.progress = progress.for_pass();
+  const bp::VoxelizeCounts counts = bp::voxelize_stream(*source, open, backends, options);
   writer->finish();
   file->commit();
   progress.end();

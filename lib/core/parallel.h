@@ -1,4 +1,5 @@
 #pragma once
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -22,7 +23,33 @@ class ThreadLimit {
   void* control_;
 };
 
+/// Returns the number of computing threads that the caller's work has: that of its WorkArena, else of the process.
 [[nodiscard]] int thread_count();
+
+/// Thrown by work that was told to stop. Its output is incomplete then.
+struct Cancelled {};
+
+/// One caller's work among that of others in this process, as calls of libbp are. It has threads of its own number, and
+/// can be told to stop.
+class WorkArena {
+ public:
+  /// `threads`: at most so many, and at most all cores (0: all cores). `stop`: once it is true, the parallel loops and
+  /// pipelines of this work throw Cancelled before their next item; null: it is never stopped.
+  explicit WorkArena(int threads, const std::atomic<bool>* stop = nullptr);
+  ~WorkArena();
+  WorkArena(const WorkArena&) = delete;
+  WorkArena& operator=(const WorkArena&) = delete;
+  /// Calls body() on this thread. Its parallel loops share the threads of this arena only. Rethrows what body() throws.
+  void run(const std::function<void()>& body);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// Throws Cancelled if the caller's work is to stop. Parallel loops do this before each item; long loops on one thread
+/// call it now and then. Cost: two loads.
+void stop_if_asked();
 
 /// Calls body(i) for i in [0, n), in any order, in parallel. Rethrows the first exception.
 void parallel_for(std::int64_t n, const std::function<void(std::int64_t)>& body);

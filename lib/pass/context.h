@@ -2,6 +2,7 @@
 #include <atomic>
 
 #include "lib/core/memory_share.h"
+#include "lib/core/parallel.h"
 #include "lib/grid/stream.h"
 #include "lib/pass/pass_progress.h"
 #include "lib/store/result_store.h"
@@ -9,9 +10,6 @@
 #include "lib/surface/piece_store.h"
 
 namespace bp {
-
-/// Thrown by a pass that was told to stop. Its output is incomplete then.
-struct Cancelled {};
 
 /// The resources that a tool gives to every pass: memory, shelves and scratch, and a receiver of the progress. They
 /// change no result.
@@ -28,6 +26,7 @@ struct PassContext {
 
   /// Throws Cancelled if the pass is to stop.
   void check() const {
+    stop_if_asked();
     if (stop != nullptr && *stop) throw Cancelled{};
   }
   void report(const char* pass, const char* unit, std::uint64_t done, std::uint64_t total) const {

@@ -53,6 +53,8 @@ set(rules
   "tools/run:lib/* io/files io/scene io/mesh gpu tools/cli"
   "tools/cli/options:lib/* tools/cli tools/run"
   "tools/notes:lib/* io/scene tools/cli"
+  "tools/pipe:lib/* io/* tools/cli tools/cli/options tools/run tools/notes"
+  "tools/api:lib/* io/* tools/cli tools/run tools/notes tools/mesh tools/pipe"
   "tools/check:lib/* io/* tools/cli tools/cli/options tools/run"
   "tools/deform:lib/* io/* tools/cli tools/run"
   "tools/info:lib/* io/* tools/cli tools/run tools/notes"

@@ -1,5 +1,5 @@
 # Installs into a fresh prefix, then builds and runs a small project against it.
-#   cmake -DBUILD=<build> -DCONSUMER=<project> -DPREFIX=<dir> -DCXX=<compiler> -P tests/arch/check_install.cmake
+#   cmake -DBUILD=<build> -DCONSUMER=<project> -DPREFIX=<dir> -DCXX=<compiler> -DPYTHON=<python with NumPy> -P tests/arch/check_install.cmake
 function(run)
   execute_process(COMMAND ${ARGV} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT status EQUAL 0)
@@ -55,6 +55,28 @@ endif()
 run(${CMAKE_COMMAND} -S ${CONSUMER} -B ${PREFIX}-build -DCMAKE_PREFIX_PATH=${PREFIX} -DCMAKE_CXX_COMPILER=${CXX})
 run(${CMAKE_COMMAND} --build ${PREFIX}-build)
 run(${PREFIX}-build/consumer)
+
+# The public headers, and nothing else.
+file(GLOB_RECURSE headers RELATIVE ${PREFIX}/include ${PREFIX}/include/*)
+list(SORT headers)
+if(NOT headers STREQUAL "bp/bp.h;bp/bp.hpp;bp/bp_experimental.h")
+  message(FATAL_ERROR "headers are installed that are not public: ${headers}")
+endif()
+# pkg-config, and the Python module.
+file(GLOB_RECURSE pc ${PREFIX}/bp.pc)
+get_filename_component(pc_folder ${pc} DIRECTORY)
+get_filename_component(libraries ${pc_folder} DIRECTORY)
+set(with_pc ${CMAKE_COMMAND} -E env PKG_CONFIG_PATH=${pc_folder} LD_LIBRARY_PATH=${libraries})
+run(${with_pc} sh -c "${CXX} -x c++ -std=c++17 ${CONSUMER}/main.cpp $(pkg-config --cflags --libs bp) -o ${PREFIX}-build/by_pkg_config")
+run(${with_pc} ${PREFIX}-build/by_pkg_config)
+execute_process(COMMAND ${PYTHON} -c "import numpy" RESULT_VARIABLE no_numpy OUTPUT_QUIET ERROR_QUIET)
+if(PYTHON AND NOT no_numpy)
+  file(GLOB_RECURSE module ${PREFIX}/__init__.py)
+  get_filename_component(module ${module} DIRECTORY)
+  get_filename_component(module ${module} DIRECTORY)
+  run(${CMAKE_COMMAND} -E env --unset=BP_LIBRARY PYTHONPATH=${module} PYTHONDONTWRITEBYTECODE=1 LD_LIBRARY_PATH=${libraries} ${PYTHON} -c
+      "import bounding_proxies as bp; v = [[0., 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]; t = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]; assert bp.check(bp.proxy(v, t, 50, resolution=32), (v, t))")
+endif()
 file(GLOB_RECURSE exports ${PREFIX}/*.cmake)
 foreach(file ${exports})
   file(READ ${file} text)

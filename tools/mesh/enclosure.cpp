@@ -85,34 +85,48 @@ Obstacle obstacle(const SceneFault& fault) {
   return {fault.fact, fault.changed ? "run bpvox again" : "name the file with --enclose"};
 }
 
-/// Returns the triangles that the stream was made from; none if the files hold other triangles by now.
-std::vector<TriangleD> read_same(const SceneFiles& scene, const EnclosureInput& in) {
+/// Returns the triangles that the stream was made from; none if the scene holds other triangles by now.
+std::vector<TriangleD> read_same(TriangleSource& source, const SceneFiles& scene) {
   std::vector<TriangleD> all;
   ContentHash hash;
-  try {
-    const auto source = open_scenes(names_of(scene), scene_options(in, scene.format));
-    all.reserve(scene.triangles);
-    for (std::vector<TriangleD> chunk; source->read(chunk);) {
-      if (all.size() + chunk.size() > scene.triangles) return {};
-      hash.add(std::as_bytes(std::span(chunk)));
-      all.insert(all.end(), chunk.begin(), chunk.end());
-    }
-  } catch (const Error& e) {
-    if (e.code() != ErrorCode::bad_input) throw;
-    return {};
+  all.reserve(scene.triangles);
+  for (std::vector<TriangleD> chunk; source.read(chunk);) {
+    if (all.size() + chunk.size() > scene.triangles) return {};
+    hash.add(std::as_bytes(std::span(chunk)));
+    all.insert(all.end(), chunk.begin(), chunk.end());
   }
   const auto [high, low] = hash.value().words;
   if (hex_of(high, low) != scene.hash) return {};
   return all;
 }
 
+std::vector<TriangleD> read_same(const SceneFiles& scene, const EnclosureInput& in) {
+  try {
+    return read_same(*open_scenes(names_of(scene), scene_options(in, scene.format)), scene);
+  } catch (const Error& e) {
+    if (e.code() != ErrorCode::bad_input) throw;
+    return {};
+  }
+}
+
 /// Fills `out` with the scene's triangles; returns the obstacle if that fails.
 std::optional<Obstacle> take_scene(const EnclosureInput& in, bool any_number, std::vector<TriangleD>& out) {
   const SceneFiles& scene = in.header.scene;
-  if (const auto fault = fault_of(scene)) return obstacle(*fault);
+  if (in.scene == nullptr) {
+    if (const auto fault = fault_of(scene)) return obstacle(*fault);
+  }
   if (!any_number && scene.triangles > kMostEnclosedTriangles) {
     return Obstacle{fmt::format("the scene has {} triangles, more than {}", scene.triangles, kMostEnclosedTriangles),
                     "--enclose scene takes them all the same"};
+  }
+  if (in.scene != nullptr) {
+    check_memory(in.scene->name(), scene.triangles, in);
+    in.scene->rewind();
+    out = read_same(*in.scene, scene);
+    if (out.empty())
+      fail(ErrorCode::bad_input, "{}: its triangles are not those that were voxelized; voxelize it again",
+           in.scene->name());
+    return std::nullopt;
   }
   const std::string name = file_name(scene.files.front().name);
   keep_inputs(names_of(scene));

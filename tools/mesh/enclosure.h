@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "lib/core/triangle_source.h"
 #include "lib/pass/mesh/mesh_pass.h"
 #include "tools/cli/options/mesh.h"
 
@@ -17,6 +18,7 @@ struct EnclosureInput {
   bool distances = false;  ///< distances to the scene will be measured
   PieceMemory memory;      ///< memory that the scene's triangles may take
   std::string temp_dir = {};
+  TriangleSource* scene = nullptr;  ///< the scene that the stream was made from; null: files that the header names
 };
 
 struct Enclosure {

@@ -15,13 +15,17 @@
 
 namespace bp {
 
-ScalePlan read_rules(const std::string& file, const StreamHeader& header, const SceneOptions& scene, bool may_orient) {
+RulesText read_rules_text(const std::string& file) {
+  return {read_text(file), file};
+}
+
+ScalePlan read_rules(const RulesText& rules, const StreamHeader& header, const SceneOptions& scene, bool may_orient) {
   RuleContext context;
   context.may_orient = may_orient;
   context.diagonal = header.bounds.empty() ? 0 : header.bounds.diagonal();
   context.voxel = header.frame.voxel;
   context.parts = [&](const std::string& pattern) { return part_boxes(header.scene, header.bounds, pattern, scene); };
-  ScalePlan plan = parse_scale_rules(read_text(file), file, context);
+  ScalePlan plan = parse_scale_rules(rules.json, rules.name, context);
   (void)plan.field.upper_bound(header.frame);  // refuses what is out of range
   return plan;
 }
@@ -33,8 +37,8 @@ RuledSource::RuledSource(BrickSource& source, const PassContext& context, std::u
   scene_.document = document_budget(memory, kVoxelProgram, 2);
 }
 
-ScalePlan RuledSource::read_rules(const std::string& file, bool may_orient) {
-  ScalePlan plan = bp::read_rules(file, header(), scene_, may_orient);
+ScalePlan RuledSource::read_rules(const RulesText& rules, bool may_orient) {
+  ScalePlan plan = bp::read_rules(rules, header(), scene_, may_orient);
   const auto by_shape = [](const RuleEntry& entry) { return entry.shape.has_value(); };
   if (std::none_of(plan.entries.begin(), plan.entries.end(), by_shape)) return plan;
   if (header().fill == FillMode::inside)

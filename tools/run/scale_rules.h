@@ -8,11 +8,21 @@
 
 namespace bp {
 
-/// Reads a file of rules (docs/bpscale.1.md) for the scene and the grid of `header`. `scene`: how to read the scene
-/// again, for rules by name. `may_orient`: as in RuleContext. Throws bad_input with the wrong key, bad_argument if a
-/// scale is out of range.
-[[nodiscard]] ScalePlan read_rules(const std::string& file, const StreamHeader& header, const SceneOptions& scene,
+/// A text of rules (docs/bpscale.1.md), and its name for messages.
+struct RulesText {
+  std::string json, name;
+};
+[[nodiscard]] RulesText read_rules_text(const std::string& file);
+
+/// Reads rules for the scene and the grid of `header`. `scene`: how to read the scene again, for rules by name.
+/// `may_orient`: as in RuleContext. Throws bad_input with the wrong key, bad_argument if a scale is out of range.
+[[nodiscard]] ScalePlan read_rules(const RulesText& rules, const StreamHeader& header, const SceneOptions& scene,
                                    bool may_orient = false);
+/// Does the same for the rules of a file.
+[[nodiscard]] inline ScalePlan read_rules(const std::string& file, const StreamHeader& header,
+                                          const SceneOptions& scene, bool may_orient = false) {
+  return read_rules(read_rules_text(file), header, scene, may_orient);
+}
 
 /// A stream with a file of rules. The stream is shelved, and read on from the shelf, if a rule must be measured on its
 /// voxels.
@@ -22,7 +32,7 @@ class RuledSource final : public BrickSource {
   /// work.
   RuledSource(BrickSource& source, const PassContext& context, std::uint64_t memory, const std::string& temp);
   /// Reads the rules, and measures all rules by shape. Throws bad_input also if the stream is the input of an opening.
-  [[nodiscard]] ScalePlan read_rules(const std::string& file, bool may_orient = false);
+  [[nodiscard]] ScalePlan read_rules(const RulesText& rules, bool may_orient = false);
 
   [[nodiscard]] const StreamHeader& header() const override { return source_.header(); }
   bool read(Brick& out) override;

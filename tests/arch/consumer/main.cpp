@@ -1,23 +1,21 @@
-#include "io/files/file.h"
-#include "lib/check/check_proxy.h"
-#include "lib/core/error.h"
-#include "lib/core/grid_frame.h"
-#include "lib/core/parallel.h"
-#include "lib/levels/level_chain.h"
-#include "lib/pass/mesh/mesh_pass.h"
+#include <bp/bp_experimental.h>
 
+#include <bp/bp.hpp>
+#include <iostream>
+
+/// Makes and checks a proxy of a tetrahedron.
 int main() {
-  bp::Bounds3d bounds;
-  bounds.add({0, 0, 0});
-  bounds.add({1, 2, 3});
-  const bp::GridFrame frame = bp::make_frame(bounds, 0.25);
-  int missing = 0;
-  bp::parallel_for(1, [&](std::int64_t) {
-    try {
-      bp::InputFile file("no such file");
-    } catch (const bp::Error&) {
-      missing = 1;
-    }
-  });
-  return frame.voxel >= 0.25 && missing == 1 ? 0 : 1;
+  const bp::Scene scene({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3});
+  bp_voxelize_options voxels = bp::voxelize_options();
+  voxels.resolution = 32;
+  const bp::Mesh proxy = bp::Grid(scene, voxels).close("2%").mesh(50);
+  const bp::Verdict verdict(proxy, 0, scene);
+  std::cout << bp_version() << ": " << proxy.triangles().size() / 3 << " triangles\n" << verdict.text();
+  bool refused = false;
+  try {
+    (void)bp::length("long");
+  } catch (const bp::ApiError& e) {
+    refused = e.status() == BP_BAD_ARGUMENT;
+  }
+  return verdict.holds() && refused ? 0 : 1;
 }

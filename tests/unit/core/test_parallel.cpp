@@ -67,4 +67,42 @@ TEST_CASE("items that a failing pipeline leaves behind are destroyed", "[quick][
   CHECK(alive == 0);
 }
 
+TEST_CASE("work in an arena has the arena's threads, on each of them", "[quick][core]") {
+  const int before = thread_count();
+  WorkArena(1).run([&] {
+    CHECK(thread_count() == 1);
+    std::atomic<int> others{0};
+    parallel_for(100, [&](std::int64_t) { others += thread_count() != 1; });
+    CHECK(others == 0);
+    WorkArena(0).run([&] { CHECK(thread_count() >= 1); });
+    CHECK(thread_count() == 1);
+  });
+  CHECK(thread_count() == before);
+}
+
+TEST_CASE("work that is told to stop throws Cancelled, and other work goes on", "[quick][core]") {
+  std::atomic<bool> stop{false};
+  std::atomic<int> done{0};
+  WorkArena arena(0, &stop);
+  const auto loop = [&] {
+    parallel_for(100000, [&](std::int64_t) {
+      if (++done == 10) stop = true;
+    });
+  };
+  CHECK_THROWS_AS(arena.run(loop), Cancelled);
+  CHECK(done < 100000);
+  CHECK_THROWS_AS(arena.run([] { stop_if_asked(); }), Cancelled);
+  CHECK_NOTHROW(stop_if_asked());
+  CHECK_NOTHROW(loop());
+  int next = 0;
+  stop = false;
+  CHECK_THROWS_AS(arena.run([&] {
+    pipeline<int>(
+        3, [&](int& item) { return (item = next++) < 1000; }, [&](int& item) { stop = stop || item == 7; },
+        [](int&) {});
+  }),
+                  Cancelled);
+  CHECK(next < 1000);
+}
+
 }  // namespace bp::test

@@ -1,0 +1,40 @@
+#!/usr/bin/env python3
+"""Runs the examples of the guide as they stand there.
+    tests/api/run_guide.py library.md CC CXX INCLUDE      BP_LIBRARY names libbp.so"""
+import os
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from scenes import torus, write_ply
+
+
+def main():
+    page, compilers, include = Path(sys.argv[1]).read_text(encoding="utf-8"), {"c": sys.argv[2], "cpp": sys.argv[3]}, Path(sys.argv[4]).resolve()
+    library = Path(os.environ["BP_LIBRARY"])
+    options = {"c": ["-std=c99"], "cpp": ["-std=c++17"]}
+    ran = {"python": 0, "c": 0, "cpp": 0}
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        write_ply("scene.ply", *torus())
+        names = {}
+        for language, code in re.findall(r"```(\w+)\n(.*?)```", page, flags=re.S):
+            if language == "python":
+                exec(compile(code, sys.argv[1], "exec"), names)  # the lines of our own guide
+            elif language in compilers:
+                source = Path(f"program.{language}")
+                source.write_text(code, encoding="utf-8")
+                subprocess.run([compilers[language], *options[language], "-Wall", "-Wextra", "-Werror", source, "-I", include, str(library),
+                                f"-Wl,-rpath,{library.parent}", "-o", f"./{language}"], check=True)
+                subprocess.run([f"./{language}"], check=True)
+            else:
+                continue
+            ran[language] += 1
+    print("ran", ran)
+    return 0 if min(ran.values()) > 0 and ran["python"] >= 6 else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,258 @@
+#!/usr/bin/env python3
+"""What the Python module takes, and what it refuses with a clear error."""
+import ast
+import gc
+import inspect
+import os
+import subprocess
+import tempfile
+import types
+import unittest
+import warnings
+from pathlib import Path
+
+from scenes import np, soup, torus, write_ply
+
+import bounding_proxies as bp
+from bounding_proxies import _library
+
+QUICK = dict(faces=200, scale="3%", resolution=48)
+
+
+def same(a, b):
+    return np.array_equal(a.vertices, b.vertices) and np.array_equal(a.triangles, b.triangles)
+
+
+class Inputs(unittest.TestCase):
+    def setUp(self):
+        self.vertices, self.triangles = torus(24, 12)
+        self.wanted = bp.proxy(self.vertices, self.triangles, **QUICK)
+
+    def refused(self, kind, words, function, *arguments, **named):
+        with self.assertRaises(kind) as caught:
+            function(*arguments, **named)
+        self.assertRegex(str(caught.exception), words)
+
+    def test_every_layout_and_type_gives_the_same_proxy(self):
+        vertices, triangles = self.vertices, self.triangles
+        wide = np.zeros((len(vertices), 7))
+        wide[:, 2:5] = vertices
+        for places in (vertices.tolist(), np.asfortranarray(vertices), wide[:, 2:5], vertices.astype(">f8"), vertices[::-1][::-1]):
+            self.assertTrue(same(bp.proxy(places, triangles, **QUICK), self.wanted))
+        padded = np.zeros((len(triangles), 5), np.int32)
+        padded[:, :3] = triangles
+        for faces in (triangles.astype("i4"), triangles.astype("i8"), triangles.astype("u8"), triangles.astype("u2"), triangles.astype("i2"),
+                      triangles.astype(">i4"), padded[:, :3], triangles.tolist(), np.asfortranarray(triangles)):
+            self.assertTrue(same(bp.proxy(vertices, faces, **QUICK), self.wanted))
+        single = bp.proxy(vertices.astype("f4"), triangles, **QUICK)
+        self.assertTrue(same(bp.proxy(vertices.astype("f4").astype("f8"), triangles, **QUICK), single))
+        whole = (vertices * 10).astype(int)
+        self.assertTrue(same(bp.proxy(whole, triangles, **QUICK), bp.proxy(whole.astype(float), triangles, **QUICK)))
+        unaligned = np.frombuffer(b"x" + vertices.tobytes(), np.uint8)[1:].view(np.float64).reshape(-1, 3)
+        self.assertTrue(same(bp.proxy(unaligned, triangles, **QUICK), self.wanted))
+
+    def test_objects_of_other_libraries(self):
+        trimesh = types.SimpleNamespace(vertices=self.vertices, faces=self.triangles)
+        open3d = types.SimpleNamespace(vertices=self.vertices.tolist(), triangles=self.triangles.tolist())
+        block = types.SimpleNamespace(type="triangle", data=self.triangles)
+        line = types.SimpleNamespace(type="line", data=np.zeros((1, 2), int))
+        meshio = types.SimpleNamespace(points=self.vertices, cells=[line, block])
+        for thing in (trimesh, open3d, meshio, (self.vertices, self.triangles), bp.Scene(trimesh)):
+            self.assertTrue(same(bp.proxy(thing, **QUICK), self.wanted))
+        self.assertTrue(bp.check(types.SimpleNamespace(vertices=self.wanted.vertices, faces=self.wanted.faces), trimesh))
+        quads = types.SimpleNamespace(points=self.vertices, cells=[types.SimpleNamespace(type="quad", data=np.zeros((1, 4), int))])
+        self.refused(bp.ArgumentError, "quad are no triangles", bp.proxy, quads)
+        self.refused(TypeError, "int is no scene", bp.proxy, 3)
+
+    def test_arrays_that_make_no_sense(self):
+        v, t = self.vertices, self.triangles
+        self.refused(ValueError, r"vertices: an array of shape \(288, 2\)", bp.proxy, v[:, :2], t)
+        self.refused(ValueError, r"vertices: an array of shape \(864,\)", bp.proxy, v.ravel(), t)
+        self.refused(ValueError, r"triangles: an array of shape .*split polygons", bp.proxy, v, np.zeros((4, 4), int))
+        self.refused(TypeError, "triangles: an array of float64", bp.proxy, v, t.astype(float))
+        self.refused(TypeError, "triangles: an array of bool", bp.proxy, v, t.astype(bool))
+        self.refused(TypeError, "vertices: an array of complex128", bp.proxy, v.astype(complex), t)
+        self.refused(TypeError, "vertices: an array of object", bp.proxy, v.astype(object), t)
+        self.refused(bp.InputError, "there are no triangles", bp.proxy, v, t[:0])
+        for number in (len(v), -1, 2**31 - 1, -2**31):
+            bad = t.astype("i8")
+            bad[7, 1] = number
+            self.refused(bp.InputError, f"triangle 7 names vertex {number}, and there are 288", bp.proxy, v, bad)
+        for number in (np.nan, np.inf, -np.inf):
+            bad = v.copy()
+            bad[t[5, 0], 1] = number
+            self.refused(bp.InputError, f"vertex {t[5, 0]} is not finite", bp.proxy, bad, t)
+        unused = np.concatenate([v, [[np.nan] * 3]])
+        self.assertTrue(same(bp.proxy(unused, t, **QUICK), self.wanted))
+        self.refused(bp.InputError, "no triangle|area", bp.proxy, np.zeros((3, 3)), np.array([[0, 1, 2]]))
+
+    def test_options_that_make_no_sense(self):
+        v, t = self.vertices, self.triangles
+        for how, words in ((dict(faces=0), "no number of triangles"), (dict(faces=[100, 100]), "fewer than the one before"),
+                           (dict(faces=-3), "no number of triangles"), (dict(scale="x"), "'x'"), (dict(scale=-1.0), "scale: -1 is no length"),
+                           (dict(scale=float("nan")), "is no length"), (dict(scale="3cm"), "cm"), (dict(mode="around"), "mode: 'around' is none of"),
+                           (dict(element="box"), "element"), (dict(up="w"), "up"), (dict(fill="all"), "fill"),
+                           (dict(resolution=10, voxel=0.1), "voxel and resolution exclude each other"), (dict(resolution=-5), "resolution"),
+                           (dict(rules="{"), "rules"), (dict(rules={"base": "1%"}, scale="1%"), "scale and rules exclude each other"),
+                           (dict(threads=-1), "threads"), (dict(device="tpu"), "none of auto, cpu"), (dict(temp="/no/such"), "no such directory"),
+                           (dict(volume=-1), "volume"), (dict(error="-1"), "-1"), (dict(voxel="3vx"), "not measured in voxels"),
+                           (dict(resolution=2**40), "2\\^31|16384|voxels")):
+            with self.subTest(how=how):
+                self.refused(bp.Error, words, bp.proxy, v, t, **how)
+        self.refused(TypeError, "is no length", bp.proxy, v, t, scale=[1])
+        self.refused(TypeError, "unexpected keyword", bp.proxy, v, t, scael=1)
+        self.refused(bp.ResourceError, "memory", bp.proxy, v, t, memory=1000)
+
+    def test_messages_name_members_as_the_library_does(self):
+        with self.assertRaises(bp.Error) as caught:
+            bp.proxy(self.vertices, self.triangles, scale=1e9)
+        self.assertNotIn("--", str(caught.exception))
+        self.assertIn("scale", str(caught.exception))
+
+    def test_files(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "scene.ply"
+            write_ply(path, self.vertices, self.triangles)
+            self.assertTrue(same(bp.proxy(str(path), **QUICK), self.wanted))
+            self.refused(bp.InputError, "missing.ply", bp.proxy, Path(folder) / "missing.ply")
+            path.with_name("half.ply").write_bytes(path.read_bytes()[:300])
+            self.refused(bp.InputError, "half.ply", bp.proxy, path.with_name("half.ply"))
+            self.refused(bp.ArgumentError, "stdin", bp.proxy, "-")
+            self.refused(bp.InputError, "scene.ply", bp.load_grid, path)
+            out = Path(folder) / "p.ply"
+            self.wanted.save(out)
+            self.refused(bp.ArgumentError, "exists", self.wanted.save, out)
+            self.refused(bp.ArgumentError, "step", self.wanted.save, Path(folder) / "p.step")
+            self.wanted.save(out, overwrite=True)
+            again = bp.load(out)[0]
+            self.assertTrue(bp.check(again, path) and bp.check(out, path))
+            self.assertAlmostEqual(again.volume, self.wanted.volume, 12)
+            self.refused(bp.ArgumentError, "loaded", again.save, Path(folder) / "q.ply")
+            info = bp.Scene([path, path]).info()
+            self.assertEqual(info["triangles"], 2 * len(self.triangles))
+            self.assertTrue(np.array_equal(info["min"], self.vertices.min(0)))
+
+    def test_a_change_of_borrowed_arrays_is_reported(self):
+        vertices = self.vertices.copy()
+        grid = bp.voxelize(bp.Scene(vertices, self.triangles, copy=False), resolution=48)
+        vertices[3, 0] += 0.5
+        self.refused(bp.InputError, "not those that were voxelized", grid.mesh, 200)
+        kept = bp.voxelize(bp.Scene(self.vertices.copy(), self.triangles.copy(), copy=False), resolution=48).close("3%")
+        gc.collect()
+        rest = [np.ones_like(self.vertices) for _ in range(50)]  # where freed arrays would have been
+        self.assertTrue(len(rest) and bp.check(kept.mesh(200), (self.vertices, self.triangles)))
+        own = bp.voxelize(bp.Scene(self.vertices.copy(), self.triangles), resolution=48)
+        self.assertTrue(bp.check(own.mesh(200), (self.vertices, self.triangles)))
+
+    def test_a_false_proxy_is_refuted(self):
+        moved = self.wanted.vertices + [0.4, 0, 0]
+        verdict = bp.check((moved, self.wanted.triangles), (self.vertices, self.triangles))
+        self.assertEqual((verdict.answer, verdict.sound, verdict.placed), ("refuted", "proven", "refuted"))
+        self.assertGreater(verdict.touching + verdict.outside, 0)
+        self.assertIn("outside", verdict.reasons + verdict.text)
+        self.assertEqual(bp.check(soup(50)).answer, "refuted")
+        self.refused(bp.ArgumentError, "scene", bp.check, self.wanted, margin=1.0)
+
+    def test_hulls_enclose_what_the_proxy_does(self):
+        hulls = bp.hulls(self.wanted, 8)
+        self.assertTrue(2 <= len(hulls) <= 8)
+        for hull in hulls:
+            self.assertTrue(bp.check(hull, convex=True, distances=False))
+        first = np.cumsum([0] + [len(h.vertices) for h in hulls])
+        all_vertices = np.concatenate([h.vertices for h in hulls])
+        all_triangles = np.concatenate([h.triangles.astype(int) + n for h, n in zip(hulls, first)])
+        self.assertTrue(bp.check((all_vertices, all_triangles), (self.vertices, self.triangles), convex=True))
+        self.refused(bp.ArgumentError, "corners", bp.hulls, self.wanted, corners=3)
+        self.refused(TypeError, "no Mesh", bp.hulls, (self.vertices, self.triangles))
+
+    def test_points_follow_their_cage(self):
+        turn = np.array([[0, -1, 0], [1, 0, 0], [0, 0, 2.0]])
+        for kind in ("mean_value", "maximum_likelihood"):
+            weights = bp.bind(self.wanted, self.vertices, kind)
+            self.assertEqual(len(weights), len(self.vertices))
+            self.assertTrue(np.array_equal(weights.apply(self.wanted.vertices), self.vertices))
+            moved = weights.apply(self.wanted.vertices @ turn.T + [1, 2, 3])
+            self.assertLess(np.abs(moved - (self.vertices @ turn.T + [1, 2, 3])).max(), 1e-5)
+        out = np.empty_like(self.vertices)
+        self.assertIs(weights.apply(self.wanted.vertices, out), out)
+        self.refused(ValueError, "contiguous", weights.apply, self.wanted.vertices, out[:, ::-1])
+        self.refused(bp.ArgumentError, "vertices, and the cage has", weights.apply, self.vertices[:5])
+        self.refused(bp.InputError, "outside the cage: 1 of 1", bp.bind, self.wanted, [[99, 0, 0]])
+        self.assertEqual(len(bp.bind(self.wanted, [[99.0, 0, 0]], carry_outside=True)), 1)
+        self.refused(bp.InputError, "not finite", bp.bind, self.wanted, [[np.nan, 0, 0]])
+        self.refused(bp.InputError, "cage", bp.bind, (self.vertices, self.triangles[1:]), self.vertices)
+
+    def test_a_cage_of_quads_encloses_the_scene(self):
+        cage = bp.cage(bp.voxelize(self.vertices, self.triangles, resolution=64).close("4%"), 300)
+        self.assertTrue(100 < len(cage.triangles) <= 300 and 2 * len(cage.quads) == len(cage.triangles))
+        self.assertTrue(bp.check(cage, (self.vertices, self.triangles)))
+        self.assertEqual(len(bp.bind(cage, self.vertices)), len(self.vertices))
+        self.refused(bp.ArgumentError, "at least 12", bp.cage, bp.voxelize(self.vertices, self.triangles, resolution=64), 4)
+
+    def test_structs_are_laid_out_as_in_the_header(self):
+        names = {"bp_length": "Length", "bp_run": "Run", "bp_arrays": "Arrays", "bp_scene_info": "SceneInfo", "bp_grid_info": "GridInfo",
+                 "bp_mesh_view": "MeshView", "bp_mesh_info": "MeshInfo", "bp_verdict_info": "VerdictInfo"}
+        lines = subprocess.run([os.environ["BP_LAYOUT"]], capture_output=True, text=True, check=True).stdout.split("\n")
+        for what, number in (line.split() for line in lines if line):
+            struct, _, member = what.partition(".")
+            name = names.get(struct) or "".join(w.capitalize() for w in struct.split("_")[1:])
+            cls = getattr(_library, name)
+            mine = getattr(cls, member).offset if member else _library.sizeof(cls)
+            self.assertEqual(mine, int(number), what)
+
+    def test_random_arrays_give_a_proxy_or_a_clear_error(self):
+        random = np.random.default_rng(5)
+        types_of_vertices = ["f4", "f8", ">f8", "f2", "i2", "u1", "c8", "?", "S3", "O"]
+        types_of_triangles = ["u4", "i4", "i8", "u8", ">i4", "u2", "i1", "f8", "?", "O"]
+        made = refused = 0
+        for turn in range(int(os.environ.get("BP_TURNS", "300"))):
+            n, m = random.integers(0, 12, 2)
+            vertices = random.normal(0, 10.0 ** random.integers(-3, 4), (n, random.choice([3, 3, 3, 2, 4])))
+            triangles = random.integers(-1 if turn % 5 == 0 else 0, max(n, 1) + (turn % 3 == 0), (m, random.choice([3, 3, 3, 4, 1])))
+            if n > 0 and turn % 4 == 0:
+                vertices[random.integers(n), 0] = random.choice([np.nan, np.inf, 1e308, 1e-320, -0.0])
+            with np.errstate(all="ignore"), warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                vertices = vertices.astype(random.choice(types_of_vertices) if turn % 2 else "f8")
+                triangles = triangles.astype(random.choice(types_of_triangles) if turn % 2 else "i8")
+            shape = random.integers(5)
+            if shape == 1:
+                vertices = np.asfortranarray(vertices)
+            elif shape == 2:
+                triangles = triangles[::-1]
+            elif shape == 3:
+                vertices = np.repeat(vertices, 2, 0)[::2]
+            elif shape == 4 and n:
+                vertices = np.broadcast_to(vertices[:1], vertices.shape)
+            try:
+                bp.proxy(vertices, triangles, faces=50, resolution=16)
+                made += 1
+            except (bp.Error, ValueError, TypeError) as e:
+                self.assertGreater(len(str(e)), 15)
+                self.assertNotIn("unexpected", str(e))
+                refused += 1
+        self.assertTrue(made > 10 and refused > 100, (made, refused))
+
+    def test_the_package_has_the_version_of_the_library(self):
+        project = (Path(bp.__file__).parents[1] / "pyproject.toml").read_text(encoding="utf-8")
+        self.assertIn(f'\nversion = "{bp.library_version()}"\n', project)
+
+    def test_the_stubs_have_the_signatures_of_the_module(self):
+        stub = ast.parse(Path(bp.__file__).with_suffix(".pyi").read_text(encoding="utf-8"))
+        told = {node.name: node for node in stub.body if isinstance(node, (ast.FunctionDef, ast.ClassDef)) and not node.name.startswith("_")}
+        self.assertEqual(sorted(told), sorted(bp.__all__))
+        functions = {name: (node, getattr(bp, name)) for name, node in told.items() if isinstance(node, ast.FunctionDef)}
+        for name, node in told.items():
+            for inner in node.body if isinstance(node, ast.ClassDef) else ():
+                if isinstance(inner, ast.FunctionDef) and not inner.decorator_list:
+                    functions[f"{name}.{inner.name}"] = (inner, getattr(getattr(bp, name), inner.name))
+        for name, (node, function) in functions.items():
+            mine = inspect.signature(function).parameters
+            a = node.args
+            wanted = [x.arg for x in [*a.posonlyargs, *a.args, *a.kwonlyargs]] + ([a.kwarg.arg] if a.kwarg else [])
+            self.assertEqual(list(mine), wanted, name)
+            self.assertTrue(function.__doc__ or name.endswith(("__", "mesh.faces")), f"{name} has no text")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,43 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/mesh/mesh_writer.h"
+#include "tools/api/grid.h"
+
+namespace bp::api {
+
+/// One mesh of a handle.
+struct Mesh {
+  std::vector<double> vertices;
+  std::vector<std::uint32_t> triangles, quads;
+  std::optional<LatticeMesh> lattice;  ///< none of a mesh that was loaded
+  MeshWriteOptions write;
+  bp_mesh_info info{};
+  std::string stopped_by, enclosed;  ///< that `info` points to
+
+  /// Returns the arrays of the mesh as a caller of the library would give them.
+  [[nodiscard]] bp_arrays arrays() const;
+};
+using Meshes = std::vector<Mesh>;
+
+/// Makes the arrays of a mesh.
+[[nodiscard]] Mesh mesh_of(LatticeMesh lattice);
+
+/// Meshes a grid. `cage`: into a cage of quads.
+[[nodiscard]] Meshes mesh(const VoxelGrid& grid, const bp_mesh_options* options, Call& call, bool cage = false);
+
+}  // namespace bp::api
+
+struct bp_mesh {
+  bp::api::Meshes meshes;
+};
+
+namespace bp::api {
+
+/// Throws bad_argument if there is no such mesh.
+[[nodiscard]] const Mesh& mesh_at(const bp_mesh* meshes, std::size_t index);
+
+}  // namespace bp::api

@@ -1,0 +1,70 @@
+#include "tools/mesh/mesh_step.h"
+
+#include "lib/geometry/signed_volume.h"
+#include "tools/mesh/enclosure.h"
+#include "tools/mesh/mesh_report.h"
+#include "tools/notes/proportion.h"
+
+namespace bp {
+
+namespace {
+
+/// A share of the volume, which is a tenth of the diameter. Such a part hides a hundredth of what the largest part
+/// hides, and costs as many triangles.
+constexpr double kLeastPart = 1e-3;
+
+/// Edges follow the scale where it differs from place to place: no edge is longer than so many scales.
+constexpr double kEdgeFactor = 4;
+
+}  // namespace
+
+MeshParams mesh_params(const MeshOptions& o, const StreamHeader& header) {
+  MeshParams params;
+  params.mode = o.proxy.mode;
+  params.faces = o.levels.faces;
+  if (o.error()) question_length("--error", *o.error(), header.bounds, header.frame.voxel);
+  if (o.error()) params.error_world = o.error()->in_world(header.bounds.diagonal(), header.frame.voxel);
+  params.volume_ratio = o.volume;
+  if (o.proxy.mode == MeshMode::inside) params.least_part = kLeastPart;
+  params.quads = o.quads;
+  if (!header.scale.constant()) params.edge_factor = kEdgeFactor;
+  params.edges_yield = true;
+  // A result that may lie beyond --error is measured, so that a note can tell.
+  const bool chosen = o.proxy.enclose.kind != EncloseOption::Kind::automatic;
+  params.distances = o.error() && (chosen || o.levels.faces.size() > 1);
+  return params;
+}
+
+std::string set_enclosure(const MeshOptions& o, const StreamHeader& header, MeshParams& params,
+                          const PieceMemory& memory, TriangleSource* scene, Report& report) {
+  Enclosure enclosure = make_enclosure(
+      o.proxy.enclose, {header, o.proxy.mode, o.error().has_value(), params.distances, memory, o.common.temp, scene});
+  if (!enclosure.note.empty()) report.note(enclosure.note, o.common);
+  params.enclose = enclosure.what;
+  params.scene = std::move(enclosure.scene);
+  // The user did not ask for the scene: the bound is on what bpmesh adds to the requested closing.
+  if (o.error() && o.proxy.mode == MeshMode::bounding && o.proxy.enclose.kind == EncloseOption::Kind::automatic)
+    params.distances_to = Enclose::closing;
+  return o.proxy.enclose.kind == EncloseOption::Kind::files ? o.proxy.enclose.text() : name_of(enclosure.what);
+}
+
+std::optional<double> volume_of(const std::vector<TriangleD>& scene) {
+  if (scene.empty()) return {};
+  SignedVolume volume(scene.front().front());
+  for (const TriangleD& t : scene) volume.add(t);
+  return volume.value();
+}
+
+void tell_steps(std::vector<LatticeMesh>& levels, const MeshOptions& o, const MeshedStream& from) {
+  for (std::size_t i = 0; i < levels.size(); ++i)
+    levels[i].provenance.push_back(mesh_provenance(o, from.header.frame, from.enclosed, from.checksum, i));
+}
+
+MeshWriteOptions write_options(MeshMode mode, const Vec3d& origin) {
+  const Contract contract = mode == MeshMode::fit      ? Contract::fit
+                            : mode == MeshMode::inside ? Contract::inside
+                                                       : Contract::encloses;
+  return {origin, mode == MeshMode::fit, contract};
+}
+
+}  // namespace bp

@@ -1,0 +1,133 @@
+"""Types of the module; __init__.py and the functions themselves have the documentation."""
+import os
+from collections.abc import Callable, Sequence
+from typing import Any, Literal, Protocol, TypedDict
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from typing_extensions import Unpack
+
+_Path = str | os.PathLike[str]
+_Length = float | str
+_Progress = Callable[[str, int, int], object] | Literal[True]
+_Up = Literal["unknown", "y", "z", "x", "-x", "-y", "-z"]
+_Fill = Literal["flood", "winding", "none", "inside"]
+_Element = Literal["cube", "ball"]
+_Layer = Literal["solid", "closing"]
+_Mode = Literal["auto", "bounding", "fit", "inside"]
+_Enclose = Literal["auto", "scene", "input", "closing"]
+_Kind = Literal["mean_value", "green", "maximum_likelihood"]
+_Answer = Literal["proven", "refuted", "undecided"]
+
+class _Vertices(Protocol):
+    @property
+    def vertices(self) -> Any: ...
+
+class _Points(Protocol):
+    @property
+    def points(self) -> Any: ...
+    @property
+    def cells(self) -> Any: ...
+
+_Mesh = tuple[ArrayLike, ArrayLike] | _Vertices | _Points
+
+class _Run(TypedDict, total=False):
+    threads: int
+    memory: int
+    temp: _Path | None
+    device: str | None
+    progress: _Progress | None
+
+class Error(Exception): ...
+class FailedError(Error, RuntimeError): ...
+class ArgumentError(Error, ValueError): ...
+class InputError(Error, ValueError): ...
+class ResourceError(Error, MemoryError): ...
+class CancelledError(Error): ...
+
+class Options:
+    def __init__(self, threads: int = 0, memory: int = 0, temp: _Path | None = None, device: str | None = None,
+                 progress: _Progress | None = None) -> None: ...
+
+class Scene:
+    def __init__(self, scene: _Path | list[_Path] | _Mesh | ArrayLike, triangles: ArrayLike | None = None, *, up: _Up | None = None,
+                 copy: bool = True, format: str | None = None) -> None: ...
+    def info(self, **run: Unpack[_Run]) -> dict[str, Any]: ...
+
+_Scene = Scene | _Path | list[_Path] | _Mesh | ArrayLike
+
+class Grid:
+    notes: list[str]
+    voxel: float
+    origin: NDArray[np.float64]
+    min: NDArray[np.int64]
+    max: NDArray[np.int64]
+    bounds: NDArray[np.float64]
+    has_closing: bool
+    fill: _Fill
+    up: _Up
+    scale: float
+    bricks: dict[str, int]
+    voxels: dict[str, int]
+    def close(self, scale: _Length | None = None, *, rules: str | dict[str, Any] | None = None, element: _Element = "cube",
+              keep_cavities: bool = False, **run: Unpack[_Run]) -> Grid: ...
+    def mesh(self, faces: int | Sequence[int] | None = None, **how: Any) -> Any: ...
+    def dense(self, layer: _Layer | None = None, min: ArrayLike | None = None, max: ArrayLike | None = None) -> NDArray[np.bool_]: ...
+    def brick_coords(self, layer: _Layer = "solid") -> NDArray[np.int32]: ...
+    def brick(self, coord: ArrayLike, layer: _Layer = "solid") -> NDArray[np.uint64]: ...
+    def save(self, path: _Path, *, overwrite: bool = False, **run: Unpack[_Run]) -> None: ...
+
+class Mesh:
+    vertices: NDArray[np.float64]
+    triangles: NDArray[np.uint32]
+    quads: NDArray[np.uint32]
+    volume: float
+    area: float
+    error_bound: float
+    enclosed: str
+    stopped_by: str
+    notes: list[str]
+    @property
+    def faces(self) -> NDArray[np.uint32]: ...
+    def save(self, path: _Path, *, overwrite: bool = False) -> None: ...
+
+class Verdict:
+    holds: bool
+    answer: _Answer
+    sound: _Answer
+    placed: _Answer
+    reasons: str
+    touching: int
+    outside: int
+    volume: float
+    scene_volume: float
+    scene_to_proxy: float
+    proxy_to_scene: float
+    text: str
+    json: dict[str, Any]
+    notes: list[str]
+    def __bool__(self) -> bool: ...
+
+class Weights:
+    def __len__(self) -> int: ...
+    def apply(self, vertices: ArrayLike, out: NDArray[np.float64] | None = None, **run: Unpack[_Run]) -> NDArray[np.float64]: ...
+
+def voxelize(scene: _Scene, triangles: ArrayLike | None = None, *, voxel: _Length | None = None, resolution: int | None = None,
+             fill: _Fill = "flood", up: _Up | None = None, **run: Unpack[_Run]) -> Grid: ...
+def close(grid: Grid, scale: _Length | None = None, **how: Any) -> Grid: ...
+def load_grid(path: _Path, **run: Unpack[_Run]) -> Grid: ...
+def mesh(grid: Grid, faces: int | Sequence[int] | None = None, *, error: _Length | None = None, volume: float | None = None,
+         mode: _Mode = "auto", enclose: _Enclose = "auto", quads: bool = False, **run: Unpack[_Run]) -> Any: ...
+def proxy(scene: _Scene, triangles: ArrayLike | None = None, faces: int | Sequence[int] | None = 1000, scale: _Length | None = None, *,
+          voxel: _Length | None = None, resolution: int | None = None, fill: _Fill = "flood", up: _Up | None = None,
+          rules: str | dict[str, Any] | None = None, element: _Element = "cube", keep_cavities: bool = False, error: _Length | None = None,
+          volume: float | None = None, mode: _Mode = "auto", enclose: _Enclose = "auto", quads: bool = False,
+          **run: Unpack[_Run]) -> Any: ...
+def load(path: _Path, **run: Unpack[_Run]) -> list[Mesh]: ...
+def hulls(mesh: Mesh, hulls: int = 0, *, faces: int = 0, corners: int = 0, **run: Unpack[_Run]) -> list[Mesh]: ...
+def check(proxy: _Path | _Mesh | Mesh, scene: _Scene | None = None, *, inside: bool = False, convex: bool = False,
+          margin: _Length | None = None, distances: bool = True, **run: Unpack[_Run]) -> Verdict: ...
+def cage(grid: Grid, faces: int, **run: Unpack[_Run]) -> Mesh: ...
+def bind(cage: _Mesh | Mesh, points: ArrayLike, kind: _Kind = "mean_value", *, carry_outside: bool = False,
+         **run: Unpack[_Run]) -> Weights: ...
+def library_version() -> str: ...
