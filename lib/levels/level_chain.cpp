@@ -29,9 +29,9 @@ bool is_coarser(const LodLevel& level, const LodLevel& before, double diagonal) 
   return !(level.error_world > diagonal);  // beyond it, the scene is a point where the level would be drawn
 }
 
-/// Whether a level is as near as another one, and holds no more.
+/// Whether a level is as near as another one, for no higher price.
 bool is_in_front(const LodLevel& level, const LodLevel& other) {
-  return level.error_world <= other.error_world && volume_of(level) <= volume_of(other);
+  return level.error_world <= other.error_world && level.price <= other.price;
 }
 
 /// Whether the target of a level follows from the first level, not from a list.
@@ -143,7 +143,7 @@ std::optional<LodLevel> LevelSequence::closed_as(const LodLevel& next, LodTarget
 }
 
 /// Where a level is farther off than the next one, which has fewer faces, it gives way to one with the closing of that
-/// if it is nearer; else it is left out if it does not hold less, either.
+/// if it is nearer; else it is left out unless it has the lower price, since it holds less.
 void LevelSequence::keep_front() {
   std::vector<MadeLevel>& levels = made_.levels;
   for (std::size_t i = levels.size(); i-- > 1;) {
@@ -153,7 +153,7 @@ void LevelSequence::keep_front() {
     std::optional<LodLevel> other = closed_as(next, finer.target);
     if (other && other->reached && is_coarser(next, *other, range_.diagonal) && is_in_front(*other, next)) {
       finer.level = *std::move(other);
-    } else if (volume_of(finer.level) >= volume_of(next)) {
+    } else if (finer.level.price >= next.price) {
       leave_out(finer, next);
       levels.erase(levels.begin() + std::ptrdiff_t(i - 1));
     }

@@ -68,10 +68,10 @@ struct MadeLevels {
 /// one before, or an error above the scene's diagonal, is left out. Of levels that nobody asked for
 /// (LevelRequest::is_chosen), one is left out where the next one, which has fewer faces, is nearly as near; and the
 /// list ends before a level that holds more than three times the volume of the one before: it is crumpled. A
-/// level that is farther off than the next one is made once more with the closing of that; if this does not help, and
-/// it holds no less, it is left out. Errors never fall: where less is measured, that of the finer level stands for
-/// both. Where the first has clearly fewer faces than its budget, the budgets that follow from it are quarters of what
-/// it has, and scales double.
+/// level that is farther off than the next one is made once more with the closing of that; if this does not help, it is
+/// left out, unless it holds so much less that it has the lower price. Errors never fall: where less is measured, that
+/// of the finer level stands for both. Where the first has clearly fewer faces than its budget, the budgets that follow
+/// from it are quarters of what it has, and scales double.
 class LevelSequence {
  public:
   /// Keeps a reference to `chain`.

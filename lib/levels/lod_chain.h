@@ -90,6 +90,7 @@ struct LodLevel {
   /// triangles (Enclose::scene) the bound is too large by a 16th of a voxel of the solid or 0.1 % at most, of a fit to
   /// triangles as a rule by a voxel, else by three voxels and 4 %.
   double error_world = 0;
+  double price = 0;  ///< by which it was chosen (detail/best_level.h); levels of a chain compare
   MeshCounts counts;
   std::vector<TriedWay> tried;  ///< in this order; the level is one of them
 };

@@ -28,7 +28,7 @@ double BestLevel::most_error(const LodLevel& level) const {
   constexpr double kAny = std::numeric_limits<double>::infinity();
   if (!level_) return kAny;
   if (level.reached != level_->reached) return level.reached ? kAny : -1;
-  return (level_->error_world + unseen()) * weight(*level_) / weight(level) - unseen();
+  return level_->price / weight(level) - unseen();
 }
 
 bool BestLevel::propose(const char* way, LodLevel level) {
@@ -57,6 +57,7 @@ void BestLevel::note(const char* way, const LodLevel& level, double error) {
 void BestLevel::keep(LodLevel level, double error) {
   level_ = std::move(level);
   level_->error_world = error;
+  level_->price = (error + unseen()) * weight(*level_);
 }
 
 LodLevel BestLevel::take() {
