@@ -119,7 +119,7 @@ Blocks blocks_at(const BitBox& bits, std::int32_t y, std::int32_t z, int word) {
   return v;
 }
 
-/// The blocks that are neither empty nor full.
+/// Returns a mask, one bit for each block: whether the block is neither empty nor full.
 std::uint64_t mixed(const Blocks& v) {
   std::uint64_t some = 0, all = ~std::uint64_t(0);
   for (const std::uint64_t voxels : v) some |= voxels, all &= voxels;

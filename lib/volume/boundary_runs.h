@@ -28,7 +28,7 @@ struct Boundary {
 /// a run, twice for a moment.
 [[nodiscard]] Boundary boundary_of(const BrickShelf& solid);
 
-/// The size of the result of boundary_of(), computed without it.
+/// How many runs and faces boundary_of() would return, and the box around their voxels: counted without making them.
 struct BoundarySize {
   std::uint64_t runs = 0, faces = 0;
   VoxelBox box{};  ///< around the boundary voxels

@@ -12,27 +12,30 @@ namespace bp {
 /// A level whose error exceeds the one asked for; scene units.
 [[nodiscard]] std::string error_note(std::size_t level, double error_world, double asked_world);
 
-/// Notes of levels in one mesh, the first of which is level `first`.
+/// Returns all notes on levels that are one mesh each. `first`: the number of the first one.
 [[nodiscard]] std::vector<std::string> level_notes(const std::vector<LevelFacts>& levels, std::size_t first, bool asked,
                                                    const SceneSize& scene);
 
-/// Which level is not there, and why. diagonal: of the scene.
+/// Returns a note that tells which level is not there, and why. diagonal: of the scene.
 [[nodiscard]] std::string left_out_note(const LeftOut& level, double diagonal);
 
-/// As of OriginOption, but of tilesets, which hold coordinates in double. Throws bad_argument if --origin would round.
+/// Returns the note of OriginOption for tilesets, which hold coordinates in double. Throws bad_argument if --origin
+/// would round.
 [[nodiscard]] std::string origin_note(const BuildOptions& options, const StreamHeader& header);
 
 /// A tileset whose voxels follow from the scene, if the scene has more triangles than these are for.
 [[nodiscard]] std::string voxel_note(const BuildOptions& options, const SceneSize& scene);
 
-/// Levels that do not enclose the triangles of a scene although such levels could, and nobody asked for it.
+/// Returns a note if levels do not enclose the triangles of a scene although they could, and nobody asked for that.
 [[nodiscard]] std::string enclose_note(const BuildOptions& options, std::uint64_t triangles);
 
-/// What the options mean for this scene: a scale that is a large share of it, and the three above.
+/// Returns notes on what the options mean for this scene: a scale that is a large share of it, and the three notes
+/// above.
 [[nodiscard]] std::vector<std::string> option_notes(const BuildOptions& options, const SceneSize& scene,
                                                     const StreamHeader& header);
 
-/// Levels with more faces than the scene has triangles. `asked`: faces were asked for.
+/// Returns a note if the finest level has more faces than the scene has triangles, else nothing. `asked`: somebody
+/// asked for a number of faces.
 [[nodiscard]] std::string heavier_note(const LevelFacts& finest, bool asked, std::uint64_t triangles);
 
 /// What is connected in the voxels of a scene.

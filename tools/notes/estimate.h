@@ -31,7 +31,8 @@ struct Estimate {
 /// touched: upper bound on the touched voxels.
 [[nodiscard]] Estimate estimate_voxelize(const Bounds3d& scene, double voxel, double touched = kAnyNumber);
 [[nodiscard]] Estimate estimate_close(const StreamHeader& header, const ScaleField& field);
-/// effort: factor for options in addition to --faces; 1 for --faces alone. touched: as above.
+/// effort: factor for options in addition to --faces; 1 for --faces alone. touched: upper bound on the
+/// touched voxels.
 [[nodiscard]] Estimate estimate_mesh(const Bounds3d& scene, double voxel, double effort = 1,
                                      double touched = kAnyNumber);
 /// Estimates all of bplod: `levels` on the same voxels, or `tiles`, where each next level has voxels twice as large.
