@@ -51,9 +51,8 @@ struct LodChain::State {
         scene_bounds(header.bounds),
         voxels(header, std::move(solid), backends, options) {
     take_off(options.scene.size() * sizeof(TriangleD));
-    // Here, and not at each level: in voxels of twice the size a corner may lie so near to a side, as these are
-    // rounded, that the voxel beyond would have been set, too.
-    if (options.mode == MeshMode::bounding && options.enclose == Enclose::scene)
+    // The scene is checked here, and not at each level, whose voxels may be larger.
+    if (options.mode == MeshMode::bounding && options.enclose == Enclose::scene && !options.is_within)
       require_within(options.scene, header.frame, voxels.solid());
     ruler.emplace(RulerScene{voxels.solid(), options.surface.get(), has_triangles() ? &options.scene : nullptr,
                              header.frame, options.mode},

@@ -56,6 +56,9 @@ struct LodOptions {
   /// The scene's triangles, scene units: of Enclose::scene, and those that fits follow; without, these follow the
   /// closing.
   std::vector<TriangleD> scene;
+  /// The scene is known to lie within the solid, which was reduced from finer voxels. These told so: in larger voxels a
+  /// corner may lie so near to a side, as these are rounded, that the voxel beyond it would have been set.
+  bool is_within = false;
   /// Voxels of the solid that hold a point of what the scene shows to the outside; null: those of its boundary.
   std::shared_ptr<const BrickShelf> surface;
   double least_scale_world = 0;  ///< no level is closed at less

@@ -16,6 +16,7 @@
 #include "lib/grid/shelf_stream.h"
 #include "lib/levels/margin.h"
 #include "lib/levels/symmetry.h"
+#include "lib/pass/mesh/scene_check.h"
 #include "tools/lod/choices.h"
 #include "tools/lod/proportions.h"
 #include "tools/notes/estimate.h"
@@ -193,6 +194,11 @@ LodOptions lod_options(const Build& build, const LodScene& scene, const CageRoom
   lod.enclose = scene.enclosed;
   if (o.proxy.mode == MeshMode::fit || scene.enclosed == Enclose::scene)
     lod.scene = scene_triangles(build, scene.size.triangles);
+  const bool encloses = lod.mode == MeshMode::bounding && lod.enclose == Enclose::scene;
+  if (encloses && scene.voxels.solid != nullptr) {  // its levels may have taken them
+    require_within(lod.scene, scene.voxels.header.frame, *scene.voxels.solid);
+    lod.is_within = true;
+  }
   lod.field = scene.field;
   if (o.is_cage()) lod.cage = CageParams{room.plane};
   lod.context = build.context(nullptr, share);
