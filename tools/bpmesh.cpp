@@ -57,10 +57,16 @@ void note_origin(bp::Report& report, const bp::MeshOptions& o, const bp::StreamH
 }
 
 /// Sets what is enclosed. A note tells if it is less than possible.
-std::string set_enclosure(const bp::MeshOptions& o, const bp::StreamHeader& header, bp::MeshParams& params,
-                          const bp::PieceMemory& memory, bp::Report& report) {
-  bp::Enclosure enclosure = bp::make_enclosure(
-      o.proxy.enclose, {header, o.proxy.mode, o.error().has_value(), params.distances, memory, o.common.temp});
+std::string set_enclosure(const bp::MeshOptions& o, bp::BrickSource& source, bp::MeshParams& params,
+                          const bp::PassContext& context, bp::Report& report) {
+  bp::EnclosureInput in{source.header(),  o.proxy.mode,   o.error().has_value(),
+                        params.distances, context.pieces, o.common.temp};
+  in.limit = [&](std::uint64_t triangles) {
+    bp::MeshParams with_scene = params;
+    with_scene.enclose = bp::Enclose::scene;
+    return bp::mesh_limit(source, context, with_scene, triangles);
+  };
+  bp::Enclosure enclosure = bp::make_enclosure(o.proxy.enclose, in);
   if (!enclosure.note.empty()) report.note(enclosure.note, o.common);
   params.enclose = enclosure.what;
   params.scene = std::move(enclosure.scene);
@@ -137,7 +143,7 @@ void run(bp::MeshOptions o) {
   bp::PassContext context;
   context.pieces = bp::mesh_memory(o.common);
   context.make_shelf = bp::make_shelf_factory(bp::MeshBudget(o.common.memory_bytes).shelves, o.common.temp);
-  const std::string enclosed = set_enclosure(o, source.header(), params, context.pieces, report);
+  const std::string enclosed = set_enclosure(o, source, params, context, report);
   note_estimate(report, o, source.header(), params.enclose);
   note_stream(report, o, source.header(), format);
   const bool closed_by_scale = source.header().has_closing && source.header().scale.constant();

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "lib/closing/closing.h"
+#include "lib/core/error.h"
 #include "lib/grid/shelf_stream.h"
 #include "lib/levels/detail/best_level.h"
 #include "lib/levels/detail/convex_levels.h"
@@ -47,6 +48,7 @@ bool may_reach_by_volume(const LodLevel& level, std::uint64_t faces) {
 struct LodChain::State {
   State(const StreamHeader& header, std::unique_ptr<BrickShelf> solid, Backends& backends, LodOptions o)
       : options(std::move(o)),
+        all(options.context),
         context(options.context),
         scene_bounds(header.bounds),
         voxels(header, std::move(solid), backends, options) {
@@ -54,9 +56,11 @@ struct LodChain::State {
     // The scene is checked here, and not at each level, whose voxels may be larger.
     if (options.mode == MeshMode::bounding && options.enclose == Enclose::scene && !options.is_within)
       require_within(options.scene, header.frame, voxels.solid());
-    ruler.emplace(RulerScene{voxels.solid(), options.surface.get(), has_triangles() ? &options.scene : nullptr,
-                             header.frame, options.mode},
-                  context.memory);
+    naming_all([&] {
+      ruler.emplace(RulerScene{voxels.solid(), options.surface.get(), has_triangles() ? &options.scene : nullptr,
+                               header.frame, options.mode},
+                    context.memory);
+    });
     options.surface.reset();
     take_off(ruler->bytes());
     last_scale = options.least_scale_world;
@@ -84,7 +88,19 @@ struct LodChain::State {
     return std::max({size.x, size.y, size.z});
   }
 
+  /// Calls work(). A refusal for want of memory names a limit for all steps.
+  template <class Work>
+  void naming_all(const Work& work) {
+    try {
+      work();
+    } catch (const NeedsMemory& e) {
+      fail_with_limit(e,
+                      [&] { return chain_limit(voxels.header(), voxels.solid(), options, all, options.scene.size()); });
+    }
+  }
+
   LodOptions options;
+  const PassContext all;
   PassContext& context;  // its memory shrinks by what is held here
   Bounds3d scene_bounds;
   LevelVoxels voxels;
@@ -310,7 +326,9 @@ std::int64_t LodChain::longest_side_vox() const {
 }
 
 LodLevel LodChain::make(const LodTarget& target) {
-  return state_->make(target);
+  LodLevel level;
+  state_->naming_all([&] { level = state_->make(target); });
+  return level;
 }
 
 }  // namespace bp

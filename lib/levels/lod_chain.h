@@ -65,6 +65,8 @@ struct LodOptions {
   /// Where a level's scale is finer or coarser: times the level's scale over the base, which is above 0. Rules by shape
   /// are measured on the level's voxels, and keep their lengths. None: nowhere.
   std::optional<ScalePlan> field;
+  /// The level that will be made first: a refusal for want of memory names a limit at which that fits, too.
+  std::optional<LodTarget> first;
   std::optional<CageParams> cage;  ///< levels are cages of quads around the voxels as they are, of faces alone
   /// The memory is for tiles at work and, between them, for surfaces. The scene's outer surface and `scene` are
   /// subtracted from both.
@@ -132,5 +134,11 @@ class LodChain {
   struct State;
   std::unique_ptr<State> state_;
 };
+
+/// Returns the limit on memory at which options.first fits, with all steps before it, if the scene has so many
+/// triangles, which need not be in `options`. 0: not known. `solid` holds the bricks of `header`; `context` has all of
+/// the memory. Asked for after a refusal; takes the memory of some bricks.
+[[nodiscard]] std::uint64_t chain_limit(const StreamHeader& header, BrickShelf& solid, const LodOptions& options,
+                                        const PassContext& context, std::uint64_t triangles);
 
 }  // namespace bp

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <mutex>
 #include <string>
 
@@ -9,6 +10,13 @@
 /// Where the pieces of a surface wait until the cell around them is made.
 namespace bp {
 
+/// What simplifying a surface takes.
+struct SurfaceWork {
+  std::uint64_t whole_bytes = 0;  ///< in all
+  std::uint64_t cell_bytes = 0;   ///< of these in hand, while pieces wait
+  std::uint64_t flat_faces = 0;   ///< triangles, with flat regions merged
+};
+
 /// What a surface that is simplified by cells may take of memory.
 struct PieceMemory {
   std::uint64_t waiting_bytes = UINT64_MAX / 2;  ///< pieces that wait as they are
@@ -17,10 +25,14 @@ struct PieceMemory {
   [[nodiscard]] std::uint64_t bytes() const { return waiting_bytes + work_bytes; }  ///< for the whole, at the end
   MemoryLimit limit{};                                                              ///< that both are shares of
   double waiting_share = 0, work_share = 0;
+  std::uint64_t held_bytes = 0;  ///< that something else takes of both: without()
+  /// Told what simplifying a surface will take, before it takes it; throws, so that nothing is simplified. Empty: the
+  /// work is done.
+  std::function<void(const SurfaceWork&)> count;
 
-  /// The limit at which `missing` bytes more of this are there; 0: not known.
-  [[nodiscard]] std::uint64_t limit_with(std::uint64_t missing, bool for_work = false) const;
-  /// What is left beside something else that takes so much.
+  /// Returns the limit at which all that a surface takes is there. 0: not known.
+  [[nodiscard]] std::uint64_t limit_for(std::uint64_t whole_bytes, std::uint64_t cell_bytes = 0) const;
+  /// What is left beside something else that takes so much: it comes off what may wait first.
   [[nodiscard]] PieceMemory without(std::uint64_t bytes) const;
   /// For one of n at work.
   [[nodiscard]] PieceMemory split(std::uint64_t n) const;

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,9 @@ struct EnclosureInput {
   bool distances = false;  ///< distances to the scene will be measured
   PieceMemory memory;      ///< that the scene's triangles may take
   std::string temp_dir = {};
+  /// Returns a limit on memory at which so many triangles of the scene leave enough for what comes after them. It is
+  /// asked after a refusal.
+  std::function<std::uint64_t(std::uint64_t triangles)> limit{};
 };
 
 struct Enclosure {

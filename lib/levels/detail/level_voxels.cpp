@@ -52,8 +52,7 @@ std::uint64_t LevelVoxels::parts_and_holes(const Closing& closing) const {
   repair_contacts(*closing.voxels);
   const PieceMemory& memory = options_.context.pieces;  // of meshing, which takes nothing of it yet
   const std::uint64_t bytes = topology_bytes(*closing.voxels), most = memory.bytes();
-  if (bytes > most)
-    throw NeedsMemory("counting the parts and holes of a level", bytes, most, memory.limit_with(bytes - most));
+  if (bytes > most) throw NeedsMemory("counting the parts and holes of a level", bytes, most, memory.limit_for(bytes));
   const SolidTopology topology = topology_of(*closing.voxels);
   return topology.parts + topology.handles;
 }
