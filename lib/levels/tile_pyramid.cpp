@@ -8,10 +8,11 @@
 
 namespace bp {
 
-std::uint64_t pyramid_limit(const TilesetPlan& plan, const PyramidOptions& options) {
+std::uint64_t pyramid_limit(const TilesetPlan& plan, const Cells& cells, const MemoryShare& memory,
+                            std::uint64_t held) {
   std::uint64_t most = 0;
-  for (const CutLevel& level : plan.cut) most = std::max(most, least_cell_bytes(options.cells, level.halo.total_vox()));
-  return options.context.memory.limit_for(most);
+  for (const CutLevel& level : plan.cut) most = std::max(most, least_cell_bytes(cells, level.halo.total_vox()));
+  return memory.limit_for(most + held);
 }
 
 TilePyramid::TilePyramid(const StreamHeader& header, std::unique_ptr<BrickShelf> solid, Backends& backends,

@@ -16,8 +16,10 @@ struct PyramidOptions {
   PassContext context;  ///< results: closings and tiles
 };
 
-/// Returns the limit on memory at which the closings of all levels that are cut fit. 0: not known.
-[[nodiscard]] std::uint64_t pyramid_limit(const TilesetPlan& plan, const PyramidOptions& options);
+/// Returns the limit on memory at which the closings of all levels that are cut fit, with `held` bytes beside them. 0:
+/// not known.
+[[nodiscard]] std::uint64_t pyramid_limit(const TilesetPlan& plan, const Cells& cells, const MemoryShare& memory,
+                                          std::uint64_t held);
 
 class TilePyramid {
  public:

@@ -277,9 +277,13 @@ void make_whole(const Shop& shop, TilePyramid& pyramid, LodOptions lod, const Le
   if (cut == 0) made.provenance = whole.levels.front().provenance;
 }
 
-/// triangles: of the scene, in memory meanwhile. share: of the memory for work.
-PyramidOptions pyramid_options(const Shop& shop, std::uint64_t triangles, double share) {
-  const std::uint64_t held = triangles * sizeof(TriangleD) + TriangleBvh::bytes_needed(triangles);
+/// What the triangles of a scene take while its tiles are made.
+std::uint64_t bytes_of(std::uint64_t triangles) {
+  return triangles * sizeof(TriangleD) + TriangleBvh::bytes_needed(triangles);
+}
+
+/// `held`: bytes that the scene takes meanwhile. share: of the memory for work.
+PyramidOptions pyramid_options(const Shop& shop, std::uint64_t held, double share) {
   PassContext context = shop.build.context(shop.results, share);
   context.memory.bytes -= std::min(context.memory.bytes, held);
   context.pieces = context.pieces.without(held);
@@ -301,10 +305,11 @@ MadeTileset make_tileset(const Shop& shop) {
                                 o.tiles->end, made.plan.jobs()));
   shop.build.report.begin("measure the scene");
   LodOptions lod = lod_options(shop.build, made.scene, {}, share, [&] {
-    return pyramid_limit(made.plan, pyramid_options(shop, made.scene.size.triangles, share));
+    const MemoryShare memory = shop.build.context(nullptr, share).memory;
+    return pyramid_limit(made.plan, shop.cells(), memory, bytes_of(made.scene.size.triangles));
   });
   TilePyramid pyramid(header, std::move(made.scene.voxels.solid), shop.build.backends,
-                      pyramid_options(shop, lod.scene.size(), share));
+                      pyramid_options(shop, bytes_of(lod.scene.size()), share));
   make_cut(shop, pyramid, lod.scene, made);
   if (made.plan.whole == 0 && shop.task == Task::tileset)
     shop.build.note(
