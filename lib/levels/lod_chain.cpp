@@ -88,7 +88,7 @@ struct LodChain::State {
     return std::max({size.x, size.y, size.z});
   }
 
-  /// Calls work(). A refusal for want of memory names a limit for all steps.
+  /// Calls work(). A refusal for memory names a limit for all steps.
   template <class Work>
   void naming_all(const Work& work) {
     try {

@@ -65,7 +65,7 @@ struct LodOptions {
   /// Where a level's scale is finer or coarser: times the level's scale over the base, which is above 0. Rules by shape
   /// are measured on the level's voxels, and keep their lengths. None: nowhere.
   std::optional<ScalePlan> field;
-  /// The level that will be made first: a refusal for want of memory names a limit at which that fits, too.
+  /// The level that will be made first: a refusal for memory names a limit at which it fits, too.
   std::optional<LodTarget> first;
   std::optional<CageParams> cage;  ///< levels are cages of quads around the voxels as they are, of faces alone
   /// The memory is for tiles at work and, between them, for surfaces. The scene's outer surface and `scene` are
