@@ -68,7 +68,7 @@ void run(bp::MeshOptions o) {
   bp::PassContext context;
   context.pieces = bp::mesh_memory(o.common);
   context.make_shelf = bp::make_shelf_factory(bp::MeshBudget(o.common.memory_bytes).shelves, o.common.temp);
-  const std::string enclosed = bp::set_enclosure(o, source.header(), params, context.pieces, nullptr, report);
+  const std::string enclosed = bp::set_enclosure(o, source, params, context, nullptr, report);
   note_estimate(report, o, source.header(), params.enclose);
   note_stream(report, o, source.header(), format);
   const bool closed_by_scale = source.header().has_closing && source.header().scale.constant();

@@ -130,4 +130,17 @@ template <class... Args>
   throw Error(e.code(), fmt::format(format, std::forward<Args>(args)...), e.remedies(), e.memory_bytes());
 }
 
+/// fail_with_limit(e, limit) throws the error `e` again. It names the limit on memory that limit() returns, at which
+/// other steps fit, too, if that is more than its own. If counting fails, the refusal stays as it was.
+template <class Limit>
+[[noreturn]] void fail_with_limit(const Error& e, const Limit& limit) {
+  std::uint64_t most = 0;
+  try {
+    most = limit();
+  } catch (const Error&) {
+    most = 0;
+  }
+  throw Error(e.code(), e.what(), e.remedies(), e.memory_bytes() > most ? e.memory_bytes() : most);
+}
+
 }  // namespace bp

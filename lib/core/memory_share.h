@@ -13,9 +13,12 @@ struct MemoryLimit {
 
   /// Returns the limit at which `share` of the rest has `missing` bytes more than now. 0: not known.
   [[nodiscard]] std::uint64_t with(std::uint64_t missing, double share) const {
-    if (bytes == 0 || !(share > 0)) return 0;
-    const double rest = double(rest_bytes()) + double(missing) / share, fixed = double(fixed_bytes);
-    return std::uint64_t(std::ceil(rest > fixed ? rest + fixed : 2 * rest)) + 1;
+    return share > 0 ? for_rest(double(rest_bytes()) + double(missing) / share) : 0;
+  }
+  /// Returns the limit at which the rest has so many bytes. 0: not known.
+  [[nodiscard]] std::uint64_t for_rest(double rest) const {
+    const double fixed = double(fixed_bytes);
+    return bytes == 0 ? 0 : std::uint64_t(std::ceil(rest > fixed ? rest + fixed : 2 * rest)) + 1;
   }
 };
 

@@ -73,7 +73,8 @@ struct LodChain::State {
           [&](std::size_t& i) {
             try {
               make(i, share);
-            } catch (const NeedsMemory&) {
+            } catch (const Error& e) {
+              if (e.code() != ErrorCode::out_of_resource) throw;
               const std::lock_guard lock(mutex);
               alone.push_back(i);
             }
@@ -103,7 +104,9 @@ std::int64_t LodChain::longest_side_vox() const {
 }
 
 std::vector<LodLevel> LodChain::make(const std::vector<LodTarget>& targets) {
-  return state_->make(targets);
+  std::vector<LodLevel> levels;
+  state_->scene.naming_all([&] { levels = state_->make(targets); });
+  return levels;
 }
 
 }  // namespace bp

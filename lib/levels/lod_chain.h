@@ -56,12 +56,17 @@ struct LodOptions {
   /// The scene's triangles, scene units: of Enclose::scene, and those that fits follow; without, these follow the
   /// closing.
   std::vector<TriangleD> scene;
+  /// The scene is known to lie within the solid, which was reduced from finer voxels. These told so: in larger voxels a
+  /// corner may lie so near to a side, as these are rounded, that the voxel beyond it would have been set.
+  bool is_within = false;
   /// Voxels of the solid that hold a point of what the scene shows to the outside; null: those of its boundary.
   std::shared_ptr<const BrickShelf> surface;
   double least_scale_world = 0;  ///< no level is closed at less
   /// Where a level's scale is finer or coarser: times the level's scale over the base, which is above 0. Rules by shape
   /// are measured on the level's voxels, and keep their lengths. None: nowhere.
   std::optional<ScalePlan> field;
+  /// The level that will be made first: a refusal for memory names a limit at which it fits, too.
+  std::optional<LodTarget> first;
   std::optional<CageParams> cage;  ///< levels are cages of quads around the voxels as they are, of faces alone
   /// The memory is for tiles at work and, between them, for surfaces. The scene's outer surface and `scene` are
   /// subtracted from both.
@@ -134,5 +139,11 @@ class LodChain {
   struct State;
   std::unique_ptr<State> state_;
 };
+
+/// Returns the limit on memory at which options.first fits, with all steps before it, if the scene has so many
+/// triangles, which need not be in `options`. 0: not known. `solid` holds the bricks of `header`; `context` has all of
+/// the memory. Asked for after a refusal; takes the memory of some bricks.
+[[nodiscard]] std::uint64_t chain_limit(const StreamHeader& header, BrickShelf& solid, const LodOptions& options,
+                                        const PassContext& context, std::uint64_t triangles);
 
 }  // namespace bp

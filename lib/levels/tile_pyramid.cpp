@@ -1,10 +1,19 @@
 #include "lib/levels/tile_pyramid.h"
 
+#include <algorithm>
+
 #include "lib/core/error.h"
 #include "lib/volume/boundary_runs.h"
 #include "lib/volume/reduce.h"
 
 namespace bp {
+
+std::uint64_t pyramid_limit(const TilesetPlan& plan, const Cells& cells, const MemoryShare& memory,
+                            std::uint64_t held) {
+  std::uint64_t most = 0;
+  for (const CutLevel& level : plan.cut) most = std::max(most, least_cell_bytes(cells, level.halo.total_vox()));
+  return memory.limit_for(most + held);
+}
 
 TilePyramid::TilePyramid(const StreamHeader& header, std::unique_ptr<BrickShelf> solid, Backends& backends,
                          PyramidOptions options)

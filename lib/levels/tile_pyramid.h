@@ -1,6 +1,7 @@
 #pragma once
 #include "lib/device/backend.h"
 #include "lib/levels/level_tiles.h"
+#include "lib/levels/tile_plan.h"
 #include "lib/pass/close/cell_closing.h"
 #include "lib/pass/context.h"
 
@@ -14,6 +15,11 @@ struct PyramidOptions {
   ClosingParams closing;
   PassContext context;  ///< results: closings and tiles
 };
+
+/// Returns the limit on memory at which the closings of all levels that are cut fit, with `held` bytes beside them. 0:
+/// not known.
+[[nodiscard]] std::uint64_t pyramid_limit(const TilesetPlan& plan, const Cells& cells, const MemoryShare& memory,
+                                          std::uint64_t held);
 
 class TilePyramid {
  public:

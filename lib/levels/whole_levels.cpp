@@ -11,8 +11,10 @@ namespace bp {
 
 ResultKey key_of(const WholeInput& input) {
   const auto& [header, solid, first, count, request, lod, colors, encoding] = input;
-  // No byte depends on the memory, which is all of `context` and of how `surface` is kept.
-  const auto& [closing, mode, enclose, scene, surface, least_scale_world, field, quads, context] = lod;
+  // No byte depends on the memory, which is all of `context` and of how `surface` is kept. Who checked the scene, and
+  // what refusals count, changes none.
+  const auto& [closing, mode, enclose, scene, is_within, surface, least_scale_world, field, foreseen, quads, context] =
+      lod;
   const GridFrame& frame = header.frame;
   KeyHash hash("levels in one mesh");
   hash.add(encoding, first, count, frame, header.bounds, header.scene.triangles, request.faces.size());

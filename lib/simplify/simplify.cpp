@@ -109,7 +109,7 @@ LatticeMesh simplify(const SurfaceSource& dense, const SimplifyParams& params, S
                                  << 18;
   counts = {};
   const std::uint64_t faces = params.limits != nullptr ? count_faces(dense) : 0;
-  if (faces > 0 && faces <= kFew) {
+  if (faces > 0 && faces <= kFew && !params.memory.count) {
     Piece whole = whole_piece(dense);
     counts.faces_in = whole.triangles.size();
     return simplify_whole(std::move(whole), dense.frame(), params, counts);

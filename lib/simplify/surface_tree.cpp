@@ -51,8 +51,8 @@ struct Node {
 
 class SurfaceTree {
  public:
-  SurfaceTree(const SurfaceSource& surface, const SimplifyParams& params)
-      : surface_(surface), params_(params), store_(params.memory) {}
+  SurfaceTree(const SurfaceSource& surface, const SimplifyParams& params, const BulkEnd& end)
+      : surface_(surface), params_(params), end_(end), store_(params.memory) {}
 
   /// Makes the cells of the first level: bricks, with their flat regions merged. Returns the number of faces before
   /// merging.
@@ -73,6 +73,7 @@ class SurfaceTree {
       node.parts.push_back(store_.put(std::move(piece)));
     });
     std::erase_if(nodes_, [](const Node& node) { return node.parts.empty(); });
+    foresee();
     return faces;
   }
 
@@ -125,7 +126,7 @@ class SurfaceTree {
   }
 
   [[nodiscard]] Piece weld_all(SimplifyCounts& counts) {
-    check_work(faces(), params_.memory);
+    check_work(faces(), params_.memory.bytes());
     std::vector<Piece> pieces;
     for (Node& node : nodes_) {
       pieces.push_back(welded(node));
@@ -144,13 +145,33 @@ class SurfaceTree {
   }
 
  private:
+  /// Foresees what is to come from the flat faces: few cells grow beyond kLargeCell, and rounds leave some times the
+  /// faces that are wanted.
+  void foresee() {
+    const std::uint64_t flat = faces(), left = std::max(kMarginOfFew * end_.faces, kFew);
+    const bool has_rounds = end_.cost > 0 && flat > kMargin * end_.faces;
+    work_ = {kWorkPerFace * (end_.cost > 0 ? std::min(flat, left) : flat),
+             has_rounds ? kWorkPerFace * std::min(flat, kLargeCell) : 0, flat};
+    if (params_.memory.count) params_.memory.count(work_);
+  }
+
+  /// Throws if `left` bytes do not suffice for so many triangles at once.
+  void check_work(std::uint64_t faces, std::uint64_t left) const {
+    const std::uint64_t needed = faces * kWorkPerFace;
+    if (needed <= left) return;
+    const std::uint64_t in_hand = left < params_.memory.bytes() ? std::max(needed, work_.cell_bytes) : work_.cell_bytes;
+    throw NeedsMemory(fmt::format("simplifying {} triangles at once", faces), needed, left,
+                      params_.memory.limit_for(std::max(needed, work_.whole_bytes), in_hand),
+                      {Remedy::larger_voxels, Remedy::fewer_faces});
+  }
+
   /// Returns how many nodes may be at work, if each is as large as the largest.
   [[nodiscard]] std::size_t nodes_in_hand() const {
     std::uint64_t largest = 1;
     for (const Node& node : nodes_) largest = std::max(largest, node.face_count());
     const std::uint64_t bytes = params_.memory.work_bytes;
     const std::uint64_t limits = params_.limits != nullptr ? params_.limits->bytes_of_part() : 0;
-    check_work(largest, params_.memory, true, std::min(faces(), kLargeCell));
+    check_work(largest, bytes);
     return std::size_t(std::clamp<std::uint64_t>(bytes / (largest * kWorkPerFace + limits), 1, thread_count()));
   }
 
@@ -187,7 +208,9 @@ class SurfaceTree {
 
   const SurfaceSource& surface_;
   const SimplifyParams& params_;
+  const BulkEnd end_;
   PieceStore store_;
+  SurfaceWork work_;                                    // to come
   BrickCoord origin_{INT32_MAX, INT32_MAX, INT32_MAX};  // lowest brick in each coordinate: all weld into one cell
   std::int64_t edge_ = kBrickLattice;                   // of a cell
   std::vector<Node> nodes_;                             // by cell: z, y, x
@@ -196,12 +219,11 @@ class SurfaceTree {
 
 }  // namespace
 
-void check_work(std::uint64_t faces, const PieceMemory& memory, bool others_wait, std::uint64_t later) {
-  const std::uint64_t needed = faces * kWorkPerFace, left = others_wait ? memory.work_bytes : memory.bytes();
-  if (needed <= left) return;
-  throw NeedsMemory(fmt::format("simplifying {} triangles at once", faces), needed, left,
-                    memory.limit_with(std::max(faces, later) * kWorkPerFace - left, others_wait),
-                    {Remedy::larger_voxels, Remedy::fewer_faces});
+void check_dense(std::uint64_t faces, const PieceMemory& memory) {
+  const std::uint64_t needed = faces * kBytesPerDenseFace, left = memory.bytes();
+  if (needed > left)
+    throw NeedsMemory(fmt::format("a surface of {} triangles in one mesh", faces), needed, left,
+                      memory.limit_for(needed), {Remedy::larger_voxels});
 }
 
 namespace {
@@ -217,7 +239,7 @@ bool needs_round(const SurfaceTree& tree, const BulkEnd& end, const SimplifyPara
 
 Piece simplified_surface(const SurfaceSource& surface, const SimplifyParams& params, const BulkEnd& end,
                          SimplifyCounts& counts) {
-  SurfaceTree tree(surface, params);
+  SurfaceTree tree(surface, params, end);
   counts.faces_in = tree.begin();
   counts.faces_flat = tree.faces();
   for (double last = 4 * kFirstBound; needs_round(tree, end, params); last *= kBoundPerLevel) {

@@ -17,8 +17,28 @@ namespace bp {
 [[nodiscard]] Piece simplified_surface(const SurfaceSource& surface, const SimplifyParams& params, const BulkEnd& end,
                                        SimplifyCounts& counts);
 
-/// Throws out_of_resource if `memory` does not suffice to simplify `faces` triangles at once: all of it, or its
-/// work_bytes while other pieces wait. The limit named in the message suffices for `later` triangles at once, too.
-void check_work(std::uint64_t faces, const PieceMemory& memory, bool others_wait = false, std::uint64_t later = 0);
+/// Returns what the first surface that `work(memory)` simplifies would take. It takes the memory of some bricks itself.
+template <class Work>
+[[nodiscard]] SurfaceWork counted_work(PieceMemory memory, const Work& work) {
+  struct Counted {};
+  SurfaceWork found;
+  memory.waiting_bytes = 0;
+  memory.count = [&found](const SurfaceWork& told) {
+    found = told;
+    throw Counted{};
+  };
+  try {
+    work(memory);
+  } catch (const Counted&) {  // as it was meant to end
+  }
+  return found;
+}
+
+// Bytes of each triangle of a dense surface in one mesh: two meshes of 12 and half a vertex of 24, and what joins them,
+// while it is made; then one mesh, and a list of its triangles by bricks (MeshSurface).
+constexpr std::uint64_t kBytesPerDenseFace = 64, kBytesPerKeptFace = 28;
+
+/// Throws out_of_resource if `memory` does not suffice to make a dense surface of `faces` triangles in one mesh.
+void check_dense(std::uint64_t faces, const PieceMemory& memory);
 
 }  // namespace bp

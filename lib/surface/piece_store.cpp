@@ -55,13 +55,16 @@ void decode(std::span<const std::byte> bytes, Piece& piece) {
 
 }  // namespace
 
-// If missing bytes are for the work, and nothing may wait in memory, all growth of the limit goes to the work.
-std::uint64_t PieceMemory::limit_with(std::uint64_t missing, bool for_work) const {
-  return limit.with(missing, work_share + (for_work && waiting_bytes > 0 ? 0 : waiting_share));
+std::uint64_t PieceMemory::limit_for(std::uint64_t whole_bytes, std::uint64_t cell_bytes) const {
+  if (!(work_share > 0)) return 0;
+  constexpr double kRounded = 4096;  // bytes that shares, rounded to whole ones, may be short of
+  const double all = double(std::max(whole_bytes, cell_bytes) + held_bytes) / (work_share + waiting_share);
+  return limit.for_rest(std::max(all, double(cell_bytes) / work_share) + kRounded);
 }
 
 PieceMemory PieceMemory::without(std::uint64_t bytes) const {
   PieceMemory rest = *this;
+  rest.held_bytes += bytes;
   rest.waiting_bytes -= std::min(bytes, waiting_bytes);
   bytes -= waiting_bytes - rest.waiting_bytes;
   rest.work_bytes -= std::min(bytes, work_bytes);
@@ -72,6 +75,7 @@ PieceMemory PieceMemory::split(std::uint64_t n) const {
   PieceMemory one = *this;
   one.waiting_bytes /= n;
   one.work_bytes /= n;
+  one.held_bytes /= n;
   one.waiting_share /= double(n);
   one.work_share /= double(n);
   return one;

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <mutex>
 #include <string>
 
@@ -9,6 +10,13 @@
 /// A store for the pieces of a surface that wait until the cell around them is made.
 namespace bp {
 
+/// Memory that simplifying a surface takes.
+struct SurfaceWork {
+  std::uint64_t whole_bytes = 0;  ///< in all
+  std::uint64_t cell_bytes = 0;   ///< of these in hand, while pieces wait
+  std::uint64_t flat_faces = 0;   ///< triangles, with flat regions merged
+};
+
 /// Memory that a surface which is simplified by cells may take.
 struct PieceMemory {
   std::uint64_t waiting_bytes = UINT64_MAX / 2;  ///< pieces that wait as they are
@@ -18,10 +26,14 @@ struct PieceMemory {
   [[nodiscard]] std::uint64_t bytes() const { return waiting_bytes + work_bytes; }
   MemoryLimit limit{};  ///< the limit (--memory) that both numbers are shares of
   double waiting_share = 0, work_share = 0;
+  std::uint64_t held_bytes = 0;  ///< that something else takes of both: without()
+  /// Told what simplifying a surface will take, before it takes it; throws, so that nothing is simplified. Empty: the
+  /// work is done.
+  std::function<void(const SurfaceWork&)> count;
 
-  /// Returns the limit at which `missing` more bytes would be available; 0 if it is not known.
-  [[nodiscard]] std::uint64_t limit_with(std::uint64_t missing, bool for_work = false) const;
-  /// Returns the memory that is left when something else takes `bytes`.
+  /// Returns the limit at which all that a surface takes is there. 0: not known.
+  [[nodiscard]] std::uint64_t limit_for(std::uint64_t whole_bytes, std::uint64_t cell_bytes = 0) const;
+  /// Returns the memory that is left when something else takes `bytes`: these come off what may wait first.
   [[nodiscard]] PieceMemory without(std::uint64_t bytes) const;
   /// Returns the share for each of n surfaces at work.
   [[nodiscard]] PieceMemory split(std::uint64_t n) const;

@@ -110,11 +110,11 @@ Meshes mesh(const VoxelGrid& grid, const bp_mesh_options* given, Call& call, boo
   context.progress = call.progress();
   context.stop = call.stop();
   const auto scene = scene_again(grid, context.pieces, o.common);
-  const std::string enclosed = set_enclosure(o, header, params, context.pieces, scene.get(), call.report());
+  ShelfSource source = grid.open();
+  const std::string enclosed = set_enclosure(o, source, params, context, scene.get(), call.report());
   const bool closed_by_scale = header.has_closing && header.scale.constant();
   const ShortfallFacts facts{params.error_world, closed_by_scale, volume_of(params.scene)};
   MeshCounts counts;
-  ShelfSource source = grid.open();
   std::vector<LatticeMesh> levels = mesh_stream(source, context, std::move(params), counts);
   tell_steps(levels, o, {header, grid.totals().checksum(), enclosed});
   Meshes out;

@@ -172,8 +172,7 @@ void add_leaves(const Shop& shop, const std::vector<CellCoord>& cells, const Gri
 void tell_time(const Shop& shop, const VoxelizedScene& scene, double share) {
   if (shop.tells_time || shop.task != Task::tileset) return;
   Estimate work = estimate_build(shop.options(), scene.header.bounds, scene.counts, scene.header.frame.voxel);
-  work.core_seconds *= share;
-  work.serial_seconds *= share;
+  work.core_seconds *= share, work.serial_seconds *= share;
   note_estimate(work, shop.options().common, shop.build.progress, shop.build.report);
 }
 
@@ -234,8 +233,8 @@ WholeLevels whole_levels(const Shop& shop, const MadeTileset& made, WholeInput i
   const StreamHeader& header = input.header;
   const ChainRange range{input.request, input.first, input.count, header.bounds.diagonal()};
   LodChain chain(header, std::move(input.solid), shop.build.backends, std::move(input.lod));
-  const Completion completion{made.scene, {}, made.looks(), input_hash};
-  WholeLevels whole = encoded(shop.options(), make_levels(shop.build, chain, range, completion), input.first);
+  const CompleteLevels levels = make_levels(shop.build, chain, range, {made.scene, {}, made.looks(), input_hash});
+  WholeLevels whole = encoded(shop.options(), levels, input.first);
   if (shop.results != nullptr) keep_levels(key, whole, *shop.results);
   return whole;
 }
@@ -278,15 +277,17 @@ void make_whole(const Shop& shop, TilePyramid& pyramid, LodOptions lod, const Le
   if (cut == 0) made.provenance = whole.levels.front().provenance;
 }
 
+/// What the triangles of a scene take while its tiles are made.
+std::uint64_t bytes_of(std::uint64_t triangles) {
+  return triangles * sizeof(TriangleD) + TriangleBvh::bytes_needed(triangles);
+}
+
 /// `held`: bytes that the scene takes meanwhile. share: of the memory for work.
 PyramidOptions pyramid_options(const Shop& shop, std::uint64_t held, double share) {
-  PyramidOptions options;
-  options.cells = shop.cells();
-  options.closing.element = shop.options().closing.element;
-  options.context = shop.build.context(shop.results, share);
-  options.context.memory.bytes -= std::min(options.context.memory.bytes, held);
-  options.context.pieces = options.context.pieces.without(held);
-  return options;
+  PassContext context = shop.build.context(shop.results, share);
+  context.memory.bytes -= std::min(context.memory.bytes, held);
+  context.pieces = context.pieces.without(held);
+  return {shop.cells(), {shop.options().closing.element}, std::move(context)};
 }
 
 MadeTileset make_tileset(const Shop& shop) {
@@ -303,11 +304,12 @@ MadeTileset make_tileset(const Shop& shop) {
     shop.build.note(fmt::format("--tiles {}..{}: there are {} jobs, numbered from 0: nothing is done", o.tiles->begin,
                                 o.tiles->end, made.plan.jobs()));
   shop.build.report.begin("measure the scene");
-  LodOptions lod = lod_options(shop.build, made.scene, {}, share);
-  const std::uint64_t triangles = lod.scene.size();
-  TilePyramid pyramid(
-      header, std::move(made.scene.voxels.solid), shop.build.backends,
-      pyramid_options(shop, triangles * sizeof(TriangleD) + TriangleBvh::bytes_needed(triangles), share));
+  LodOptions lod = lod_options(shop.build, made.scene, {}, share, [&] {
+    const MemoryShare memory = shop.build.context(nullptr, share).memory;
+    return pyramid_limit(made.plan, shop.cells(), memory, bytes_of(made.scene.size.triangles));
+  });
+  TilePyramid pyramid(header, std::move(made.scene.voxels.solid), shop.build.backends,
+                      pyramid_options(shop, bytes_of(lod.scene.size()), share));
   make_cut(shop, pyramid, lod.scene, made);
   if (made.plan.whole == 0 && shop.task == Task::tileset)
     shop.build.note(

@@ -31,13 +31,20 @@ std::uint64_t bytes_of(std::uint64_t triangles, const EnclosureInput& in) {
   return triangles * EnclosedTriangles::kBytesEach + (in.distances ? tree : 0);
 }
 
+/// Throws the error `e` again with a limit at which so many triangles fit, and what comes after them.
+[[noreturn]] void fail_with_all(const Error& e, std::uint64_t triangles, const EnclosureInput& in) {
+  fail_with_limit(e, [&] {
+    const std::uint64_t after = in.limit ? in.limit(triangles) : 0;
+    return std::max(in.memory.limit_for(bytes_of(triangles, in)), after);
+  });
+}
+
 void check_memory(const std::string& name, std::uint64_t triangles, const EnclosureInput& in) {
   const std::uint64_t bytes = bytes_of(triangles, in), most = in.memory.bytes();
   if (bytes <= most) return;
-  constexpr std::uint64_t kSurfaceBytes = std::uint64_t(32) << 20;  // for surfaces at work in addition: mostly enough
-  throw NeedsMemory(fmt::format("{}: enclosing its triangles", name), bytes, most,
-                    in.memory.limit_with(bytes + kSurfaceBytes - most),
-                    {in.mode == MeshMode::fit ? Remedy::enclose_closing : Remedy::enclose_input});
+  const NeedsMemory refusal(fmt::format("{}: enclosing its triangles", name), bytes, most, in.memory.limit_for(bytes),
+                            {in.mode == MeshMode::fit ? Remedy::enclose_closing : Remedy::enclose_input});
+  fail_with_all(refusal, triangles, in);
 }
 
 /// Voxels and surface do not exist yet, so half of the memory is for the reader's vertices.
@@ -65,11 +72,16 @@ void check_bounds(const std::string& name, const std::vector<TriangleD>& chunk, 
 std::vector<TriangleD> read_files(const std::vector<std::string>& files, const EnclosureInput& in, std::string& note) {
   const auto scene = open_scenes(files, scene_options(in, ""));
   std::vector<TriangleD> all;
+  std::uint64_t triangles = 0;
   for (std::vector<TriangleD> chunk; scene->read(chunk);) {
     check_bounds(scene->name(), chunk, in.header.bounds);
-    all.insert(all.end(), chunk.begin(), chunk.end());
-    check_memory(scene->name(), all.size(), in);
+    triangles += chunk.size();
+    if (bytes_of(triangles, in) <= in.memory.bytes())
+      all.insert(all.end(), chunk.begin(), chunk.end());
+    else
+      all = {};  // the rest is counted
   }
+  check_memory(scene->name(), triangles, in);
   if (all.empty()) fail(ErrorCode::bad_input, "{}: no triangles; there is nothing to enclose", scene->name());
   note = reading_note(scene->counts(), in.header.frame.voxel);
   if (!note.empty()) note = fmt::format("{}: {}", scene->name(), note);
@@ -187,7 +199,12 @@ Enclosure enclosure_of(const EncloseOption& option, const EnclosureInput& in) {
 
 /// Segments and points are dropped for a fit, since it follows surfaces.
 Enclosure make_enclosure(const EncloseOption& option, const EnclosureInput& in) {
-  Enclosure out = enclosure_of(option, in);
+  Enclosure out;
+  try {
+    out = enclosure_of(option, in);
+  } catch (const NeedsMemory& e) {  // what describes the scene: of named files, it is taken to be the stream's scene
+    fail_with_all(e, in.header.scene.triangles, in);
+  }
   if (in.mode == MeshMode::fit)
     std::erase_if(out.scene, [](const TriangleD& t) { return collinear(t[0], t[1], t[2]); });
   return out;

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,9 @@ struct EnclosureInput {
   PieceMemory memory;      ///< memory that the scene's triangles may take
   std::string temp_dir = {};
   TriangleSource* scene = nullptr;  ///< the scene that the stream was made from; null: files that the header names
+  /// Returns a limit on memory at which so many triangles of the scene leave enough for what comes after them. It is
+  /// asked after a refusal.
+  std::function<std::uint64_t(std::uint64_t triangles)> limit{};
 };
 
 struct Enclosure {

@@ -35,10 +35,16 @@ MeshParams mesh_params(const MeshOptions& o, const StreamHeader& header) {
   return params;
 }
 
-std::string set_enclosure(const MeshOptions& o, const StreamHeader& header, MeshParams& params,
-                          const PieceMemory& memory, TriangleSource* scene, Report& report) {
-  Enclosure enclosure = make_enclosure(
-      o.proxy.enclose, {header, o.proxy.mode, o.error().has_value(), params.distances, memory, o.common.temp, scene});
+std::string set_enclosure(const MeshOptions& o, BrickSource& source, MeshParams& params, const PassContext& context,
+                          TriangleSource* scene, Report& report) {
+  const auto limit = [&](std::uint64_t triangles) {
+    MeshParams with_scene = params;
+    with_scene.enclose = Enclose::scene;
+    return mesh_limit(source, context, with_scene, triangles);
+  };
+  Enclosure enclosure =
+      make_enclosure(o.proxy.enclose, {source.header(), o.proxy.mode, o.error().has_value(), params.distances,
+                                       context.pieces, o.common.temp, scene, limit});
   if (!enclosure.note.empty()) report.note(enclosure.note, o.common);
   params.enclose = enclosure.what;
   params.scene = std::move(enclosure.scene);

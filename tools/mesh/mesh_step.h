@@ -17,8 +17,8 @@ namespace bp {
 
 /// Sets what is enclosed, and returns its name. A note tells if it is less than possible. `scene`: the scene's
 /// triangles, if they are not in files that the header names; null: they are.
-[[nodiscard]] std::string set_enclosure(const MeshOptions& options, const StreamHeader& header, MeshParams& params,
-                                        const PieceMemory& memory, TriangleSource* scene, Report& report);
+[[nodiscard]] std::string set_enclosure(const MeshOptions& options, BrickSource& source, MeshParams& params,
+                                        const PassContext& context, TriangleSource* scene, Report& report);
 
 /// Returns the volume that the triangles go around, scene units cubed; nothing if there are none.
 [[nodiscard]] std::optional<double> volume_of(const std::vector<TriangleD>& scene);

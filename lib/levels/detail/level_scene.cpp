@@ -11,15 +11,20 @@
 namespace bp {
 
 LevelScene::LevelScene(const StreamHeader& header, std::unique_ptr<BrickShelf> solid, Backends& backends, LodOptions o)
-    : options_(std::move(o)), bounds_(header.bounds), voxels_(header, std::move(solid), backends, options_) {
+    : options_(std::move(o)),
+      all_(options_.context),
+      bounds_(header.bounds),
+      voxels_(header, std::move(solid), backends, options_) {
   take_off(options_.scene.size() * sizeof(TriangleD));
   const BrickShelf& voxels = *voxels_.reduced(0).shelf;
-  // Here, and not at each level: in voxels of twice the size a corner may lie so near to a side, as these are rounded,
-  // that the voxel beyond would have been set, too.
-  if (is_bounding() && options_.enclose == Enclose::scene) require_within(options_.scene, header.frame, voxels);
-  ruler_.emplace(RulerScene{voxels, options_.surface.get(), has_triangles() ? &options_.scene : nullptr, header.frame,
-                            options_.mode},
-                 context().memory);
+  // The scene is checked here, and not at each level, whose voxels may be larger.
+  if (is_bounding() && options_.enclose == Enclose::scene && !options_.is_within)
+    require_within(options_.scene, header.frame, voxels);
+  naming_all([&] {
+    ruler_.emplace(RulerScene{voxels, options_.surface.get(), has_triangles() ? &options_.scene : nullptr, header.frame,
+                              options_.mode},
+                   context().memory);
+  });
   options_.surface.reset();
   take_off(ruler_->bytes());
 }
@@ -28,6 +33,11 @@ void LevelScene::take_off(std::uint64_t bytes) {
   PassContext& context = options_.context;
   context.memory.bytes -= std::min(context.memory.bytes, bytes);
   context.pieces = context.pieces.without(bytes);
+}
+
+std::uint64_t LevelScene::all_steps_limit() {
+  const LevelVoxels::Solid& solid = voxels_.reduced(0);
+  return chain_limit(solid.header, *solid.shelf, options_, all_, options_.scene.size());
 }
 
 LodGround LevelScene::ground() const {

@@ -4,6 +4,7 @@
 #include <mutex>
 #include <optional>
 
+#include "lib/core/error.h"
 #include "lib/levels/detail/level_voxels.h"
 #include "lib/levels/detail/ruler.h"
 
@@ -26,6 +27,15 @@ class LevelScene {
   [[nodiscard]] const LodOptions& options() const { return options_; }
   /// Its memory is what the scene leaves for levels.
   [[nodiscard]] const PassContext& context() const { return options_.context; }
+  /// Calls work(). A refusal for memory names a limit for all steps of the chain.
+  template <class Work>
+  void naming_all(const Work& work) {
+    try {
+      work();
+    } catch (const NeedsMemory& e) {
+      fail_with_limit(e, [&] { return all_steps_limit(); });
+    }
+  }
   [[nodiscard]] const Bounds3d& bounds() const { return bounds_; }
   [[nodiscard]] const Ruler& ruler() const { return *ruler_; }
   [[nodiscard]] LevelVoxels& voxels() { return voxels_; }
@@ -46,8 +56,10 @@ class LevelScene {
 
  private:
   void take_off(std::uint64_t bytes);
+  [[nodiscard]] std::uint64_t all_steps_limit();
 
   LodOptions options_;
+  const PassContext all_;  // with the memory that the scene takes, too
   Bounds3d bounds_;
   LevelVoxels voxels_;
   std::optional<Ruler> ruler_;

@@ -61,8 +61,7 @@ std::uint64_t parts_and_holes(const LevelVoxels::Closing& closing, const PieceMe
   repair_contacts(*closing.voxels);
   const std::uint64_t bytes = topology_bytes(*closing.voxels),
                       most = memory.bytes();  // meshing takes nothing of it yet
-  if (bytes > most)
-    throw NeedsMemory("counting the parts and holes of a level", bytes, most, memory.limit_with(bytes - most));
+  if (bytes > most) throw NeedsMemory("counting the parts and holes of a level", bytes, most, memory.limit_for(bytes));
   const SolidTopology topology = topology_of(*closing.voxels);
   return topology.parts + topology.handles;
 }

@@ -43,11 +43,27 @@ Ruler::Ruler(const RulerScene& scene, const BoundarySize& size, const MemoryShar
     scene_ = Surface(triangles_, is_small(TriangleBvh::bytes_needed(triangles_->size()), memory));
 }
 
+namespace {
+
+/// Of runs, and of faces where triangles are shown.
+std::uint64_t surface_bytes(std::uint64_t runs, std::uint64_t shown_faces) {
+  return runs * sizeof(VoxelRun) + segment_bytes(runs) + shown_bytes(shown_faces);
+}
+
+}  // namespace
+
+RulerBytes Ruler::bytes_needed(const RulerScene& scene, bool has_triangles) {
+  if (scene.mode != MeshMode::fit && has_triangles) return {};
+  const BoundarySize size = boundary_size(scene.solid);
+  const std::uint64_t runs = scene.surface != nullptr ? count_runs(*scene.surface, size.box) : size.runs;
+  const std::uint64_t shown = has_triangles && scene.surface == nullptr ? size.faces : 0;
+  return {surface_bytes(runs, shown), runs * sizeof(VoxelRun) + shown * sizeof(FaceRect)};
+}
+
 void Ruler::take_surface(const RulerScene& scene, const BoundarySize& size, const MemoryShare& memory) {
   const bool shows_triangles = triangles_ != nullptr && scene.surface == nullptr;
   const std::uint64_t runs = scene.surface != nullptr ? count_runs(*scene.surface, box) : size.runs;
-  const std::uint64_t bytes =
-      runs * sizeof(VoxelRun) + segment_bytes(runs) + (shows_triangles ? shown_bytes(size.faces) : 0);
+  const std::uint64_t bytes = surface_bytes(runs, shows_triangles ? size.faces : 0);
   if (bytes > memory.bytes)
     throw NeedsMemory("measuring distances to the outside of the scene", bytes, memory.bytes,
                       memory.limit_with(bytes - memory.bytes), {Remedy::larger_voxels});

@@ -19,6 +19,12 @@ struct RulerScene {
   MeshMode mode = MeshMode::bounding;  ///< of the levels that are measured
 };
 
+/// What a ruler takes of the memory.
+struct RulerBytes {
+  std::uint64_t needed = 0;  ///< while it measures
+  std::uint64_t kept = 0;    ///< while it lives, trees that may be kept aside
+};
+
 /// Measures how far levels are from what their scene shows to the outside. Levels around triangles are measured to
 /// these; others need the voxels of the scene's surface, too. The trees are kept where they are small against the
 /// memory; else they are made for each measurement, since levels need the memory meanwhile.
@@ -29,6 +35,9 @@ class Ruler {
 
   /// Throws out_of_resource, before it takes anything, if it takes more than `memory`.
   Ruler(const RulerScene& scene, const MemoryShare& memory);
+
+  /// has_triangles: the scene's are known, though `scene` has none.
+  [[nodiscard]] static RulerBytes bytes_needed(const RulerScene& scene, bool has_triangles);
 
   [[nodiscard]] double voxel() const { return frame_.voxel; }
   /// Around all of the solid's voxels, scene units.

@@ -15,6 +15,17 @@ namespace bp {
 
 namespace {
 
+constexpr double kMostOverLeast = 3;  // what a cell takes that is full, over one where little is occupied
+
+}  // namespace
+
+std::uint64_t least_cell_bytes(const Cells& cells, std::int32_t halo_vox) {
+  const double side = double(cells.edge_vox) + 2.0 * halo_vox + 64;
+  return std::uint64_t((12 * side * side * side / 8 + (16 << 20)) / kMostOverLeast);
+}
+
+namespace {
+
 constexpr const char* kJob = "closing of a cell";
 
 /// Packs the bricks of a box that are not empty: place, fill, and bits unless full; then an end mark.
@@ -125,11 +136,9 @@ class CellCloser {
   /// which has about the same size.
   [[nodiscard]] int in_flight() const {
     const MemoryShare& memory = options_.context.memory;
-    const double side = double(options_.cells.edge_vox) + 2.0 * closer_.widest().total_vox() + 64;
-    // least: where little is occupied
-    const double bytes = 12 * side * side * side / 8 + (16 << 20), least = bytes / 3;
-    if (least > double(memory.bytes)) {
-      const auto needed = std::uint64_t(least);
+    const std::uint64_t needed = least_cell_bytes(options_.cells, closer_.widest().total_vox());
+    const double bytes = kMostOverLeast * double(needed);
+    if (needed > memory.bytes) {
       throw NeedsMemory(fmt::format("closing a cell of {} voxels with a halo of {}", options_.cells.edge_vox,
                                     closer_.widest().total_vox()),
                         needed, memory.bytes, memory.limit_with(needed - memory.bytes),

@@ -20,6 +20,9 @@ struct CellClosingCounts {
   std::uint64_t cells = 0, kept = 0;  ///< cells with something in reach; those of them that the store had
 };
 
+/// Returns the bytes that one cell takes, where little of it is occupied. halo_vox: Halo::total_vox() of the closing.
+[[nodiscard]] std::uint64_t least_cell_bytes(const Cells& cells, std::int32_t halo_vox);
+
 /// Puts the closing of `solid`, with bricks of `header`, onto `closing`. `scale_world` is the same everywhere. Throws
 /// as close_stream() does; out_of_resource if not even one cell fits in the memory.
 CellClosingCounts close_cells(const StreamHeader& header, const BrickShelf& solid, Backends& backends,

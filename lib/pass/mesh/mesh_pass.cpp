@@ -10,9 +10,9 @@
 #include "lib/mesh/lattice_geometry.h"
 #include "lib/pass/mesh/detail/coarse_start.h"
 #include "lib/pass/mesh/detail/components.h"
-#include "lib/pass/mesh/detail/convex_proxy.h"
 #include "lib/pass/mesh/detail/fit_target.h"
 #include "lib/pass/mesh/detail/ground.h"
+#include "lib/pass/mesh/detail/make_level.h"
 #include "lib/pass/mesh/detail/mesh_measures.h"
 #include "lib/pass/mesh/detail/params_check.h"
 #include "lib/pass/mesh/detail/proxy_limits.h"
@@ -64,67 +64,6 @@ Shelves read_layers(BrickSource& source, const ShelfFactory& make_shelf, bool wa
   return shelves;
 }
 
-SimplifyParams simplify_params(const StreamHeader& header, const GridFrame& frame, const MeshParams& params,
-                               const PieceMemory& memory, std::uint64_t faces) {
-  SimplifyParams out;
-  out.memory = memory;
-  out.faces = std::min<std::uint64_t>(faces, std::uint64_t(1) << 32);  // a mesh indexes fewer; multiples stay exact
-  if (faces == 0 && params.error_world == 0 && params.volume_ratio == 0) {
-    const bool cube = header.has_closing && header.element == StructuringElement::cube;
-    const double share = cube ? MeshParams::kErrorShareCube : MeshParams::kErrorShareBall;
-    out.error_vox = header.bounds.diagonal() * share / frame.voxel;
-  }
-  return out;
-}
-
-/// Tightening made room below the limits: more collapses, more tightening, until they merge little.
-LatticeMesh use_room(LatticeMesh proxy, const Enclosed& enclosed, SimplifyParams params, LevelCounts& counts) {
-  constexpr int kRounds = 8;
-  params.dense = false;
-  params.enclosed = &enclosed;
-  TightenParams tightening;
-  static_cast<ShapeLimits&>(tightening) = params;
-  for (int round = 0; round < kRounds && counts.simplify.stop == StopReason::limits; ++round) {
-    const std::size_t before = proxy.triangles.size();
-    SimplifyCounts more;
-    proxy = simplify(proxy, params, more);
-    counts.simplify.add(more);
-    if (proxy.triangles.size() * 20 > before * 19) break;
-    proxy = tighten(proxy, enclosed, tightening, counts.tighten);
-  }
-  return proxy;
-}
-
-/// `halfway` receives TightProxy::halfway; null: nobody asks for it.
-LatticeMesh take(TightProxy&& proxy, LatticeMesh* halfway, LevelCounts& counts) {
-  if (halfway != nullptr) *halfway = std::move(proxy.halfway);
-  counts.simplify = std::move(proxy.simplified);
-  counts.tighten = proxy.tightened;
-  return std::move(proxy.mesh);
-}
-
-/// One level, from the surface of all that it must enclose, or a coarse one around it. `few`: nothing but a number of
-/// faces below kFewFaces matters.
-LatticeMesh make_level(const SurfaceSource& dense, const CoarseStarts* starts, const Enclosed* enclosed,
-                       const SimplifyParams& params, bool few, LatticeMesh* halfway, LevelCounts& counts) {
-  if (enclosed == nullptr) return simplify(dense, params, counts.simplify);
-  if (few) return take(tight_proxy_of_few(dense, *enclosed, params), halfway, counts);
-  CoarseStart start;
-  if (starts != nullptr) start = starts->first(params.faces);
-  const SurfaceSource& from = start.surface ? *start.surface : dense;
-  LatticeMesh proxy = take(tight_proxy(from, dense.frame(), *enclosed, params), halfway, counts);
-  return params.limits == nullptr ? proxy : use_room(std::move(proxy), *enclosed, params, counts);
-}
-
-/// A convex one in its place where that is better.
-void take_convex(LatticeMesh& proxy, const Enclosed& enclosed, std::uint64_t faces, LevelCounts& counts) {
-  LatticeMesh convex = convex_proxy(enclosed, proxy, faces);
-  if (convex.triangles.empty()) return;
-  proxy = std::move(convex);
-  counts.simplify.faces_out = proxy.triangles.size();
-  counts.simplify.stop = proxy.triangles.size() < faces ? StopReason::least_volume : StopReason::faces;
-}
-
 /// Edge of the voxels around a level: the stream's, or as large as gives a dense surface of enough faces for the next
 /// and takes no more than half of its share of the error.
 double level_voxel(const LatticeMesh& inner, double voxel, std::uint64_t faces, double error_share) {
@@ -146,8 +85,7 @@ std::uint64_t bytes_of(const std::vector<LatticeMesh>& meshes) {
 /// What is left beside what the limits of a level take.
 PieceMemory beside_limits(const PieceMemory& memory, std::uint64_t bytes) {
   if (bytes <= memory.bytes()) return memory.without(bytes);
-  throw NeedsMemory("keeping a level within a distance", bytes, memory.bytes(),
-                    memory.limit_with(bytes - memory.bytes()));
+  throw NeedsMemory("keeping a level within a distance", bytes, memory.bytes(), memory.limit_for(bytes));
 }
 
 /// All levels, one after the other.
@@ -156,14 +94,75 @@ class LevelMaker {
   LevelMaker(const StreamHeader& header, const PassContext& context, MeshParams params, MeshCounts& counts)
       : header_(header),
         context_(context),
+        pieces_(context.pieces),
         make_shelf_(context.make_shelf),
         memory_(context.pieces),
         params_(std::move(params)),
         counts_(counts) {}
 
   std::vector<LatticeMesh> run(const Shelves& shelves) {
+    const std::uint64_t triangles = params_.scene.size();
+    try {
+      return make(shelves);
+    } catch (const NeedsMemory& e) {
+      fail_with_limit(e, [&] { return least_limit(shelves, triangles); });
+    }
+  }
+
+  /// Returns the limit on memory at which all steps of the first level fit, if the scene has so many triangles.
+  [[nodiscard]] std::uint64_t least_limit(const Shelves& shelves, std::uint64_t triangles) const {
+    if (params_.cage || params_.start != nullptr) return 0;
+    std::unique_ptr<BrickShelf> within;
+    if (inside()) within = repaired_within(*shelves.meshed, make_shelf_, *make_shelf_());
+    const BrickShelf& meshed = within ? *within : *shelves.meshed;
+    const ShelfSurface dense(meshed, header_.frame);
+    const SurfaceWork flat = counted_work(pieces_, [&](const PieceMemory& memory) {
+      SimplifyParams params;
+      params.memory = memory;
+      SimplifyCounts ignored;
+      (void)simplified_surface(dense, params, {}, ignored);
+    });
+    const bool is_limited = params_.error_world > 0 || params_.volume_ratio > 0;
+    const SurfaceWork work = is_limited ? flat : first_work(meshed, dense);
+    std::uint64_t held = ground_bytes(shelves, params_, triangles, flat.flat_faces);
+    if (params_.error_world > 0) held += ProxyLimits::kMostBytes;
+    const std::uint64_t faces = inside() ? count_faces(dense) : 0;
+    return std::max(pieces_.without(held + faces * kBytesPerKeptFace).limit_for(work.whole_bytes, work.cell_bytes),
+                    pieces_.limit_for(faces * kBytesPerDenseFace));
+  }
+
+ private:
+  /// What the first level takes, without limits on what it may add.
+  [[nodiscard]] SurfaceWork first_work(const BrickShelf& meshed, const ShelfSurface& dense) const {
+    const std::uint64_t faces = params_.faces.empty() ? 0 : params_.faces[0];
+    const EdgeLimit edges = edges_for(dense.frame());
+    return counted_work(pieces_, [&](const PieceMemory& memory) {
+      if (params_.mode == MeshMode::fit) return void(fine_fit(dense, faces, inset_target(kInset), edges, memory));
+      SimplifyParams params = simplify_params(header_, dense.frame(), params_, memory, faces);
+      params.edge_limit = edges;
+      const EnclosedTriangles nothing({}, dense.frame());
+      const CoarseStarts starts{meshed, header_, make_shelf_};
+      LevelCounts ignored;
+      (void)make_level(dense, is_by_faces(faces) ? &starts : nullptr, params_.tighten ? &nothing : nullptr, params,
+                       false, nullptr, ignored);
+    });
+  }
+
+  /// Whether a level begins with a coarse surface, if that will do.
+  [[nodiscard]] bool is_by_faces(std::uint64_t faces) const {
+    return !inside() && params_.tighten && faces >= kFewFaces && params_.error_world == 0 &&
+           params_.volume_ratio == 0 && params_.edge_factor == 0;
+  }
+
+  /// Limits of edges, where the scale is not the same everywhere.
+  [[nodiscard]] EdgeLimit edges_for(const GridFrame& frame) const {
+    return params_.edge_factor > 0 ? scaled_edges(header_.scale, frame, params_.edge_factor) : EdgeLimit{};
+  }
+
+  std::vector<LatticeMesh> make(const Shelves& shelves) {
     const std::vector<std::uint64_t> faces = params_.faces.empty() ? std::vector<std::uint64_t>{0} : params_.faces;
     Start start = make_start(shelves);
+    if (start.mesh) context_.pieces = pieces_.without(start.mesh->triangles.size() * kBytesPerKeptFace);
     bounds_.volume_world = (inside() ? -1 : 1) * params_.volume_ratio * counts_.solid_volume_world;
     ground_ = make_ground(shelves, params_, start, header_.fill, context_);
     memory_ = context_.pieces.without(ground_.bytes());
@@ -172,13 +171,13 @@ class LevelMaker {
     bounds_.error_world = error_share;
     if (fit) return fits(shelves, *start.surface, faces);
     if (params_.cage) return cage(shelves, faces[0]);
-    const bool by_faces = !inside() && ground_.enclosed && faces[0] >= kFewFaces && params_.error_world == 0 &&
-                          params_.volume_ratio == 0 && params_.edge_factor == 0;
     const CoarseStarts starts{*shelves.meshed, header_, make_shelf_};
-    std::vector<LatticeMesh> levels{finish(*start.surface, ground_.enclosed, faces[0], by_faces ? &starts : nullptr)};
+    std::vector<LatticeMesh> levels{
+        finish(*start.surface, ground_.enclosed, faces[0], is_by_faces(faces[0]) ? &starts : nullptr)};
     ground_.made.reset();
     ground_.enclosed = nullptr;
     start = {};
+    context_.pieces = pieces_;
     for (std::size_t i = 1; i < faces.size(); ++i) {
       bounds_.error_world = error_share * double(i + 1);
       memory_ = context_.pieces.without(ground_.bytes() + bytes_of(levels));
@@ -187,7 +186,6 @@ class LevelMaker {
     return levels;
   }
 
- private:
   Start make_start(const Shelves& shelves) {
     Start start;
     if (!inside()) {
@@ -195,7 +193,7 @@ class LevelMaker {
       return start;
     }
     start.around = make_shelf_();
-    check_work(count_faces(ShelfSurface(*shelves.meshed, header_.frame)), memory_);
+    check_dense(count_faces(ShelfSurface(*shelves.meshed, header_.frame)), memory_);
     start.mesh =
         std::make_unique<LatticeMesh>(inward_surface(*shelves.meshed, header_.frame, make_shelf_, *start.around));
     if (start.mesh->triangles.empty())
@@ -247,9 +245,7 @@ class LevelMaker {
     memory_ = memory_.without(near.bytes());
     const FitTarget target =
         params_.enclose == Enclose::scene ? scene_target(*ground_.tree, dense.frame(), kInset) : inset_target(kInset);
-    const double factor = params_.edge_factor;
-    const EdgeLimit edges = factor > 0 ? scaled_edges(header_.scale, dense.frame(), factor) : EdgeLimit{};
-    const FineFit fine = fine_fit(dense, faces[0], target, edges, memory_);
+    const FineFit fine = fine_fit(dense, faces[0], target, edges_for(dense.frame()), memory_);
     std::vector<LatticeMesh> levels;
     for (const std::uint64_t n : faces) {
       levels.push_back(finish(dense.frame(), n, [&](SimplifyParams params, LevelCounts& counts) {
@@ -332,7 +328,8 @@ class LevelMaker {
   }
 
   const StreamHeader& header_;
-  const PassContext& context_;
+  PassContext context_;
+  const PieceMemory pieces_;  // all of it
   const ShelfFactory& make_shelf_;
   PieceMemory memory_;  // what is left of it
   MeshParams params_;
@@ -343,9 +340,10 @@ class LevelMaker {
 
 }  // namespace
 
-std::vector<LatticeMesh> mesh_stream(BrickSource& source, const PassContext& context, MeshParams params,
-                                     MeshCounts& counts) {
-  counts = {};
+namespace {
+
+/// The voxels of a stream, repaired where proxies lie around them.
+Shelves read_voxels(BrickSource& source, const PassContext& context, const MeshParams& params, MeshCounts& counts) {
   check_params(params);
   const StreamHeader& header = source.header();
   check_fill(params, header);
@@ -354,13 +352,29 @@ std::vector<LatticeMesh> mesh_stream(BrickSource& source, const PassContext& con
   const bool makes_enclosed = params.tighten && params.enclosed == nullptr;
   const bool want_input = (makes_enclosed && (params.enclose == Enclose::input || near_scene)) ||
                           (distances && params.distances_to.value_or(params.enclose) == Enclose::input);
-  const Shelves shelves = read_layers(source, context.make_shelf, want_input, counts);
+  Shelves shelves = read_layers(source, context.make_shelf, want_input, counts);
   counts.solid_volume_world = double(counts.voxels) * std::pow(header.frame.voxel, 3);
   if (params.mode != MeshMode::inside && !params.cage) {
     counts.repaired = repair_contacts(*shelves.meshed);
     counts.solid_volume_world += double(counts.repaired) * std::pow(header.frame.voxel, 3);
   }
-  return LevelMaker(header, context, std::move(params), counts).run(shelves);
+  return shelves;
+}
+
+}  // namespace
+
+std::vector<LatticeMesh> mesh_stream(BrickSource& source, const PassContext& context, MeshParams params,
+                                     MeshCounts& counts) {
+  counts = {};
+  const Shelves shelves = read_voxels(source, context, params, counts);
+  return LevelMaker(source.header(), context, std::move(params), counts).run(shelves);
+}
+
+std::uint64_t mesh_limit(BrickSource& source, const PassContext& context, const MeshParams& params,
+                         std::uint64_t triangles) {
+  MeshCounts counts;
+  const Shelves shelves = read_voxels(source, context, params, counts);
+  return LevelMaker(source.header(), context, params, counts).least_limit(shelves, triangles);
 }
 
 }  // namespace bp

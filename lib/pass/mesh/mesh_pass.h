@@ -105,4 +105,10 @@ struct MeshCounts {
 [[nodiscard]] std::vector<LatticeMesh> mesh_stream(BrickSource& source, const PassContext& context, MeshParams params,
                                                    MeshCounts& counts);
 
+/// Returns the limit on memory at which mesh_stream() has enough, if the scene has so many triangles, which need not be
+/// in `params`. 0: not known. It reads the stream and takes the memory of some bricks. Asked for after a refusal: a
+/// step that is refused knows what it takes itself, and the next one would be refused in the run after that.
+[[nodiscard]] std::uint64_t mesh_limit(BrickSource& source, const PassContext& context, const MeshParams& params,
+                                       std::uint64_t triangles);
+
 }  // namespace bp

@@ -98,7 +98,7 @@ LatticeMesh surface_of_voxels_within(const LatticeMesh& mesh, double voxel, cons
   const GridFrame frame = voxelize_mesh(mesh, voxel, FillMode::winding, make_shelf, memory, *shelf);
   voxelize_mesh(mesh, voxel, FillMode::none, make_shelf, memory, *touched);
   take_away(*touched, *shelf);
-  check_work(count_faces(ShelfSurface(*shelf, frame)), memory);
+  check_dense(count_faces(ShelfSurface(*shelf, frame)), memory);
   return inward_surface(*shelf, frame, make_shelf, *around);
 }
 
@@ -124,14 +124,19 @@ LatticeMesh surface_within(const LatticeMesh& outer, double voxel, const ShelfFa
   fail(ErrorCode::bad_input, {Remedy::smaller_voxels}, "the inside of the scene is too thin for one more level");
 }
 
-LatticeMesh inward_surface(const BrickShelf& solid, const GridFrame& frame, const ShelfFactory& make_shelf,
-                           BrickShelf& around) {
+std::unique_ptr<BrickShelf> repaired_within(const BrickShelf& solid, const ShelfFactory& make_shelf,
+                                            BrickShelf& around) {
   const BrickBox box = bricks_around(solid);
   complement(solid, box, around);
   repair_contacts(around);
-  const auto left = make_shelf();
+  auto left = make_shelf();
   complement(around, box, *left);
-  LatticeMesh surface = dense_surface(*left, frame);
+  return left;
+}
+
+LatticeMesh inward_surface(const BrickShelf& solid, const GridFrame& frame, const ShelfFactory& make_shelf,
+                           BrickShelf& around) {
+  LatticeMesh surface = dense_surface(*repaired_within(solid, make_shelf, around), frame);
   turn_over(surface);
   return surface;
 }

@@ -26,6 +26,9 @@ namespace bp {
 /// triangle if nothing is left.
 [[nodiscard]] LatticeMesh inward_surface(const BrickShelf& solid, const GridFrame& frame,
                                          const ShelfFactory& make_shelf, BrickShelf& around);
+/// The voxels that are left for it.
+[[nodiscard]] std::unique_ptr<BrickShelf> repaired_within(const BrickShelf& solid, const ShelfFactory& make_shelf,
+                                                          BrickShelf& around);
 
 /// Every triangle turned over.
 void turn_over(LatticeMesh& mesh);

@@ -82,7 +82,8 @@ MadeChain make_chain(Build& build) {
   build.report.begin("measure the scene");
   const StreamHeader& header = voxels.header;
   const double diagonal = header.bounds.diagonal();
-  LodChain levels(header, std::move(voxels.solid), build.backends, lod_options(build, chain.scene, chain.room));
+  LodOptions options = lod_options(build, chain.scene, chain.room);
+  LodChain levels(header, std::move(voxels.solid), build.backends, std::move(options));
   const LevelRequest request = request_for(o, chain.scene.size.triangles, diagonal, header.frame.voxel);
   const ChainRange range{request, 0, level_count(request), diagonal, is_named(voxel_request(o, diagonal))};
   chain.made = make_levels(build, levels, range, {chain.scene, chain.room, nullptr, voxels.counts.input_hash});

@@ -16,6 +16,8 @@
 #include "lib/grid/shelf_stream.h"
 #include "lib/levels/margin.h"
 #include "lib/levels/symmetry.h"
+#include "lib/pass/mesh/scene_check.h"
+#include "lib/volume/boundary_runs.h"
 #include "tools/lod/choices.h"
 #include "tools/lod/proportions.h"
 #include "tools/notes/estimate.h"
@@ -123,6 +125,14 @@ std::vector<TriangleD> scene_triangles(const Build& build, std::uint64_t triangl
   return all;
 }
 
+/// What is asked of the finest level.
+LodTarget first_target(const BuildOptions& o, const LodScene& scene) {
+  const StreamHeader& header = scene.voxels.header;
+  const LevelRequest request = request_for(o, scene.size.triangles, header.bounds.diagonal(), header.frame.voxel);
+  const bool by_voxels = !asks_for_faces(request) && request.errors_world.empty();
+  return level_target(request, 0, 0, by_voxels ? 2 * boundary_size(*scene.voxels.solid).faces : 0);
+}
+
 }  // namespace
 
 LodScene read_scene(Build& build, const ReadOptions& read) {
@@ -185,17 +195,34 @@ CageRoom make_room(Build& build, LodScene& scene) {
   return room;
 }
 
-LodOptions lod_options(const Build& build, const LodScene& scene, const CageRoom& room, double share) {
+LodOptions lod_options(const Build& build, const LodScene& scene, const CageRoom& room, double share,
+                       const std::function<std::uint64_t()>& limit) {
   const BuildOptions& o = build.options;
   LodOptions lod;
   lod.closing.element = o.closing.element;
   lod.mode = o.proxy.mode;
   lod.enclose = scene.enclosed;
-  if (o.proxy.mode == MeshMode::fit || scene.enclosed == Enclose::scene)
-    lod.scene = scene_triangles(build, scene.size.triangles);
+  lod.context = build.context(nullptr, share);
+  if (scene.voxels.solid != nullptr && !o.is_tileset()) lod.first = first_target(o, scene);
+  if (o.proxy.mode == MeshMode::fit || scene.enclosed == Enclose::scene) {
+    try {
+      lod.scene = scene_triangles(build, scene.size.triangles);
+    } catch (const NeedsMemory& e) {
+      fail_with_limit(e, [&] {
+        BrickShelf* const solid = scene.voxels.solid.get();
+        const std::uint64_t chain =
+            solid != nullptr ? chain_limit(scene.voxels.header, *solid, lod, lod.context, scene.size.triangles) : 0;
+        return std::max(chain, limit ? limit() : 0);
+      });
+    }
+  }
+  const bool encloses = lod.mode == MeshMode::bounding && lod.enclose == Enclose::scene;
+  if (encloses && scene.voxels.solid != nullptr) {  // its levels may have taken them
+    require_within(lod.scene, scene.voxels.header.frame, *scene.voxels.solid);
+    lod.is_within = true;
+  }
   lod.field = scene.field;
   if (o.is_cage()) lod.cage = CageParams{room.plane};
-  lod.context = build.context(nullptr, share);
   return lod;
 }
 

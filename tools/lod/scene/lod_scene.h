@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -54,8 +55,8 @@ struct CageRoom {
 [[nodiscard]] CageRoom make_room(Build& build, LodScene& scene);
 
 /// For LodChain. Reads the scene once more where levels lie around its triangles, or follow them. `share`: of the
-/// memory for work.
+/// memory for work. limit: tells a limit on memory at which other steps fit; a refusal asks it.
 [[nodiscard]] LodOptions lod_options(const Build& build, const LodScene& scene, const CageRoom& room = {},
-                                     double share = 1);
+                                     double share = 1, const std::function<std::uint64_t()>& limit = {});
 
 }  // namespace bp

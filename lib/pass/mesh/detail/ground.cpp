@@ -32,8 +32,8 @@ std::vector<TriangleD> rect_triangles(const BrickShelf& shelf, const GridFrame& 
   const std::uint64_t n = 2 * rects.size();
   const std::uint64_t bytes = rects.size() * sizeof(FaceRect) + n * sizeof(TriangleD) + TriangleBvh::bytes_needed(n);
   if (bytes > memory.bytes())
-    throw NeedsMemory("the surface that distances are measured from", bytes, memory.bytes(),
-                      memory.limit_with(bytes - memory.bytes()), {Remedy::larger_voxels});
+    throw NeedsMemory("the surface that distances are measured from", bytes, memory.bytes(), memory.limit_for(bytes),
+                      {Remedy::larger_voxels});
   std::vector<TriangleD> triangles;
   triangles.reserve(n);
   for (const FaceRect& r : rects) {
@@ -77,11 +77,40 @@ std::unique_ptr<Enclosed> enclosed_scene(std::vector<TriangleD> triangles, const
   return std::make_unique<EnclosedScene>(std::move(triangles), header.frame, solid, std::nullopt, std::move(near));
 }
 
+namespace {
+
+bool needs_distances(const MeshParams& params) {
+  const bool target = params.mode == MeshMode::fit && params.enclose == Enclose::scene;
+  return params.error_world > 0 || params.distances || target;
+}
+
+std::uint64_t distance_bytes(std::uint64_t triangles) {
+  return triangles * sizeof(TriangleD) + TriangleBvh::bytes_needed(triangles);
+}
+
+}  // namespace
+
+std::uint64_t ground_bytes(const Shelves& shelves, const MeshParams& params, std::uint64_t triangles,
+                           std::uint64_t flat_faces) {
+  std::uint64_t sum = 0;
+  if (needs_distances(params)) {
+    const Enclose to = params.distances_to.value_or(params.enclose);
+    sum += to == Enclose::scene   ? triangles * sizeof(TriangleD) + distance_bytes(triangles)
+           : to == Enclose::input ? distance_bytes(2 * boundary_rects(*shelves.input).size())
+                                  : distance_bytes(flat_faces);
+  }
+  if (!params.tighten) return sum;
+  if (params.enclosed != nullptr) return sum + params.enclosed->bytes();
+  if (params.enclose == Enclose::scene && params.mode != MeshMode::fit)
+    sum += triangles * EnclosedTriangles::kBytesEach;
+  const bool by_voxels = params.enclose != Enclose::scene || params.near_world || params.mode == MeshMode::fit;
+  return by_voxels ? sum + EnclosedVoxels(shelves.input ? *shelves.input : *shelves.meshed).bytes() : sum;
+}
+
 Ground make_ground(const Shelves& shelves, MeshParams& params, const Start& start, FillMode fill,
                    const PassContext& context) {
   Ground ground;
-  const bool target = params.mode == MeshMode::fit && params.enclose == Enclose::scene;
-  if (params.error_world > 0 || params.distances || target) {
+  if (needs_distances(params)) {
     const Enclose to = params.distances_to.value_or(params.enclose);
     ground.surface = to == Enclose::scene   ? params.scene
                      : to == Enclose::input ? rect_triangles(*shelves.input, start.surface->frame(), context.pieces)

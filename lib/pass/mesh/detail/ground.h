@@ -39,4 +39,9 @@ struct Ground {
 [[nodiscard]] Ground make_ground(const Shelves& shelves, MeshParams& params, const Start& start, FillMode fill,
                                  const PassContext& context);
 
+/// Returns the bytes that make_ground() takes and keeps, at most about, in place of making it. `triangles`: of the
+/// scene, which need not be in `params`. flat_faces: of the surface of what is meshed, with flat regions merged.
+[[nodiscard]] std::uint64_t ground_bytes(const Shelves& shelves, const MeshParams& params, std::uint64_t triangles,
+                                         std::uint64_t flat_faces);
+
 }  // namespace bp

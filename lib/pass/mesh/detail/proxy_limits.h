@@ -27,6 +27,8 @@ class ProxyLimits final : public StepLimits {
   /// What one takes of memory, `enclosed` aside: with an error bound 1 to 32 MiB, by the area of `enclosed`.
   [[nodiscard]] static std::uint64_t bytes_needed(const ProxyBounds& bounds, const GridFrame& frame,
                                                   const TriangleBvh* enclosed);
+  /// The most that this may be.
+  static constexpr std::uint64_t kMostBytes = (std::uint64_t(1) << 20) * NearSurface::kBytesPerPlace;
   void begin(int128 volume6) override { volume6_ = volume6; }
   void relax(bool on) override { relaxed_ = on; }
   bool take(std::span<const LatticeTriangle> before, std::span<const LatticeTriangle> after) override;

@@ -257,7 +257,7 @@ TEST_CASE("what a bound on distances takes is refused where it does not fit", "[
     MeshCounts counts;
     try {
       (void)mesh_stream(source, context, params, counts);
-    } catch (const NeedsMemory& e) {
+    } catch (const Error& e) {
       return e.what();
     }
     return "";

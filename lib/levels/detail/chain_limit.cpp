@@ -1,0 +1,36 @@
+// What the steps of a chain of levels take of memory, counted on the solid.
+#include <algorithm>
+
+#include "lib/grid/shelf_stream.h"
+#include "lib/levels/detail/ruler.h"
+#include "lib/levels/lod_chain.h"
+#include "lib/volume/topology.h"
+
+namespace bp {
+
+std::uint64_t chain_limit(const StreamHeader& header, BrickShelf& solid, const LodOptions& options,
+                          const PassContext& context, std::uint64_t triangles) {
+  if (!options.first) return 0;
+  const bool has_triangles = triangles > 0 && (options.mode == MeshMode::fit || options.enclose == Enclose::scene);
+  const LodTarget& target = *options.first;
+  const std::uint64_t held = has_triangles ? triangles * sizeof(TriangleD) : 0;
+  const RulerBytes ruler =
+      Ruler::bytes_needed({solid, options.surface.get(), nullptr, header.frame, options.mode}, has_triangles);
+  MeshParams params;
+  if (target.faces > 0) params.faces = {target.faces};
+  params.mode = options.mode;
+  params.enclose = options.mode == MeshMode::fit && !has_triangles ? Enclose::closing : options.enclose;
+  if (options.mode == MeshMode::fit && has_triangles) params.enclose = Enclose::scene;
+  params.error_world = target.error_world;
+  if (params.mode == MeshMode::bounding) {
+    params.near_world = 0;
+    if (params.enclose == Enclose::scene) params.distances_to = Enclose::input;
+  }
+  PassContext beside = context;
+  beside.pieces = context.pieces.without(held + ruler.kept);
+  ShelfSource source(header, solid, nullptr, ShelfSource::Keep::all);
+  return std::max({context.memory.limit_for(held + ruler.needed), beside.pieces.limit_for(topology_bytes(solid)),
+                   mesh_limit(source, beside, params, triangles)});
+}
+
+}  // namespace bp
