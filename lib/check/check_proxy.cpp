@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/check/detail/cells/inside_cells.h"
 #include "lib/check/detail/convex.h"
 #include "lib/check/detail/distance.h"
 #include "lib/check/detail/enclosure.h"
 #include "lib/check/detail/gap.h"
 #include "lib/check/detail/hidden.h"
 #include "lib/check/detail/inside.h"
-#include "lib/check/detail/inside_cells.h"
 #include "lib/check/detail/surface.h"
 #include "lib/core/vec3.h"
 #include "lib/geometry/signed_volume.h"

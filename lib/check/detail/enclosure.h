@@ -2,8 +2,8 @@
 #include <cmath>
 #include <optional>
 
+#include "lib/check/detail/cells/inside_cells.h"
 #include "lib/check/detail/distance.h"
-#include "lib/check/detail/inside_cells.h"
 #include "lib/check/detail/surface.h"
 #include "lib/core/triangle_source.h"
 

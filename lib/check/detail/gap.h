@@ -1,6 +1,6 @@
 #pragma once
 #include "lib/check/check_report.h"
-#include "lib/check/detail/inside_cells.h"
+#include "lib/check/detail/cells/inside_cells.h"
 #include "lib/check/detail/surface.h"
 #include "lib/core/triangle_source.h"
 #include "lib/geometry/triangle_bvh.h"

@@ -1,8 +1,8 @@
 // Cells that lie inside a surface decide what the exact tests of each triangle decide.
 #include <random>
 
+#include "lib/check/detail/cells/inside_cells.h"
 #include "lib/check/detail/enclosure.h"
-#include "lib/check/detail/inside_cells.h"
 #include "lib/core/parallel.h"
 #include "lib/core/vec3.h"
 #include "lib/exact/triangle_intersection.h"

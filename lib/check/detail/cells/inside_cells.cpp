@@ -6,7 +6,7 @@
 // in doubles, relative to a corner of the block. Each is off by at most 8 roundings of its terms' absolute values,
 // 2^-53 each; the comparison leaves room for twice as many on both sides. So a cell is never missed, and one that is
 // met needlessly costs time only.
-#include "lib/check/detail/inside_cells.h"
+#include "lib/check/detail/cells/inside_cells.h"
 
 #include <algorithm>
 #include <bit>
@@ -61,7 +61,7 @@ struct Slab {
   }
 };
 
-Vec3d absolute(const Vec3d& v) {
+Vec3d magnitudes_of(const Vec3d& v) {
   return {std::abs(v[0]), std::abs(v[1]), std::abs(v[2])};
 }
 
@@ -79,7 +79,8 @@ struct FaceSlabs {
 
  private:
   static Slab plane_of(const TriangleD& triangle, const TriangleD& t, double edge) {
-    const Vec3d u = triangle[1] - triangle[0], v = triangle[2] - triangle[0], a = absolute(u), b = absolute(v);
+    const Vec3d u = triangle[1] - triangle[0], v = triangle[2] - triangle[0], a = magnitudes_of(u),
+                b = magnitudes_of(v);
     return {cross(u, v), {a[1] * b[2] + a[2] * b[1], a[2] * b[0] + a[0] * b[2], a[0] * b[1] + a[1] * b[0]}, t, edge};
   }
   static Slab side(std::size_t i, const TriangleD& t, double edge) {
@@ -90,7 +91,7 @@ struct FaceSlabs {
   static Slab across(std::size_t i, const Vec3d& along, const TriangleD& t, double edge) {
     Vec3d d{};
     d[(i + 1) % 3] = -along[(i + 2) % 3], d[(i + 2) % 3] = along[(i + 1) % 3];
-    return {d, absolute(d), t, edge};
+    return {d, magnitudes_of(d), t, edge};
   }
   static std::array<Slab, 3> across(std::size_t i, const TriangleD& triangle, const TriangleD& t, double edge) {
     return {across(i, triangle[1] - triangle[0], t, edge), across(i, triangle[2] - triangle[1], t, edge),
