@@ -154,7 +154,7 @@ std::vector<bp::CheckReport> check(const bp::CheckRun& o, const std::vector<bp::
     if (watched == nullptr) continue;
     verdict.place_unknown = unknown;
     if (unknown.empty() && !o.inside && verdict.enclosure() == bp::Answer::refuted)
-      verdict.place_unknown = bp::missing_axes(o.files, level, watched->bounds_read(), watched->up());
+      verdict.place_unknown = bp::missing_axes(o.files, level, verdict.scene_bounds, watched->up());
   }
   progress.end();
   return verdicts;

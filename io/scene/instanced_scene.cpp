@@ -6,6 +6,7 @@
 #include <cstring>
 #include <limits>
 
+#include "io/scene/detail/ahead/instanced_bounds.h"
 #include "io/scene/detail/block_cache.h"
 #include "lib/core/error.h"
 
@@ -173,6 +174,7 @@ class InstancedSource final : public RawSource {
   [[nodiscard]] std::uint64_t instances() const override { return instances_; }
   [[nodiscard]] Rounding rounding() const override { return rounding_; }
   [[nodiscard]] std::optional<UpAxis> up() const override { return scene_.up; }
+  [[nodiscard]] std::optional<Bounds3d> bounds() override { return bounds_ahead(scene_); }
   [[nodiscard]] std::size_t levels() const override { return scene_.levels; }
   [[nodiscard]] UnreadParts unread() const override { return scene_.unread; }
   [[nodiscard]] std::size_t animations() const override { return scene_.animations; }
@@ -216,7 +218,6 @@ class InstancedSource final : public RawSource {
   [[nodiscard]] TriangleTexture texture_of(const Primitive& p, const std::array<std::uint64_t, 3>& corners);
   [[nodiscard]] LinearColor color_of(const Primitive& p, std::uint64_t vertex);
   std::uint64_t index(std::uint64_t i);
-
   InstancedScene scene_;
   ElementReader elements_;
   // The position of the stream.

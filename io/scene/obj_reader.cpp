@@ -3,6 +3,7 @@
 #include <optional>
 #include <sstream>
 
+#include "io/scene/detail/ahead/obj_vertices.h"
 #include "io/scene/detail/mtl_file.h"
 #include "io/scene/detail/text_scanner.h"
 #include "io/scene/detail/vertex_pool.h"
@@ -36,6 +37,7 @@ class ObjSource final : public PolygonSource {
   }
   [[nodiscard]] bool has_colors() const override { return has_colors_; }
   [[nodiscard]] bool has_textures() const override { return has_textures_; }
+  [[nodiscard]] std::optional<Bounds3d> bounds() override;
 
  private:
   bool next_face(std::vector<std::uint64_t>& corners) override;
@@ -148,6 +150,20 @@ char ObjSource::keyword(TextScanner& text) {
   if (word == "vn") return 'n';
   if (first == 's') return word == "surf" ? 's' : 0;
   return word.size() == 1 || word == "usemtl" || word == "mtllib" ? first : 0;
+}
+
+/// Returns the bounds of all vertices: faces seldom leave out those that are farthest out. The pool then holds all
+/// vertices before the first face.
+std::optional<Bounds3d> ObjSource::bounds() {
+  if (vertex_colors_ || !parts_.takes_all() || pool_.size() > 0) return {};
+  Bounds3d all;
+  all_loaded_ = read_plain_vertices(*file_, [&](const std::vector<Vec3d>& vertices) {
+    for (const Vec3d& p : vertices) {
+      pool_.push(p);
+      all.add(p);
+    }
+  });
+  return all_loaded_ ? std::optional(all) : std::nullopt;
 }
 
 void ObjSource::read_vertex(TextScanner& text) {

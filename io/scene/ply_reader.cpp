@@ -54,6 +54,10 @@ class PlySource final : public PolygonSource {
   [[nodiscard]] std::uint64_t vertex_count() const override { return vertex_count_; }
   [[nodiscard]] Vec3d vertex(std::uint64_t i) override { return packed_ ? (*packed_)[i] : (*pool_)[i]; }
   [[nodiscard]] bool has_colors() const override { return has_colors_; }
+  /// Returns the bounds of all vertices where they are loaded: faces seldom leave out those that are farthest out.
+  [[nodiscard]] std::optional<Bounds3d> bounds() override {
+    return pool_ ? std::optional(loaded_bounds_) : std::nullopt;
+  }
   [[nodiscard]] LinearColor corner_color(std::uint64_t i) override {
     if (!vertex_numbers_) return face_color_;
     return vertex_numbers_->color(packed_colors_ ? (*packed_colors_)[i] : (*color_pool_)[i]);
@@ -84,6 +88,7 @@ class PlySource final : public PolygonSource {
   std::uint64_t vertex_count_ = 0;
   std::unique_ptr<PlyPackedVertices> packed_;
   std::unique_ptr<VertexPool> pool_;
+  Bounds3d loaded_bounds_;                            // bounds of the pool
   std::optional<PlyColors> vertex_numbers_;           // set if colours are asked for and present
   std::unique_ptr<PlyPackedVertices> packed_colors_;  // colours, in place as packed_
   std::unique_ptr<VertexPool> color_pool_;            // colours, in memory as pool_
@@ -155,6 +160,7 @@ void PlySource<Cursor>::load_vertices(const PlyElement& element, const PlyPositi
       }
     }
     pool_->push(p);
+    loaded_bounds_.add(p);
     if (color_pool_) color_pool_->push(rgb);
     cursor_.end_record();
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/check/detail/cells/inside_cells.h"
 #include "lib/check/detail/convex.h"
 #include "lib/check/detail/distance.h"
 #include "lib/check/detail/enclosure.h"
@@ -43,49 +44,32 @@ void measure(const WeldedMesh& mesh, CheckReport& report) {
   report.angle_min_degrees = least_angle * 180 / M_PI;
 }
 
-/// What the distances need of the scene: a sample of it, and all of it as long as it fits.
-struct SceneMemory {
-  SceneMemory(const CheckOptions& options)
-      : sample(options.distances ? options.distance_samples : 0),
-        keep(options.distances),
-        limit(options.scene_memory_bytes / (TriangleBvh::bytes_needed(1) + 2 * sizeof(TriangleD))) {}
+/// Returns how many triangles of the scene fit the memory: twice while they are gathered, and their hierarchy.
+std::uint64_t most_kept(const CheckOptions& options) {
+  return options.scene_memory_bytes / (TriangleBvh::bytes_needed(1) + 2 * sizeof(TriangleD));
+}
 
-  void see(std::uint64_t first, const std::vector<TriangleD>& triangles) {
-    for (std::size_t i = 0; i < triangles.size(); ++i) sample.see(first + i, triangles[i]);
-    if (keep && all.size() + triangles.size() > limit) {
-      keep = false;
-      all = {};
-    }
-    if (keep) all.insert(all.end(), triangles.begin(), triangles.end());
-  }
-
-  TriangleSample sample;
-  bool keep;
-  std::uint64_t limit;
-  std::vector<TriangleD> all;
-};
-
-void measure_distances(const Surface& surface, const SceneMemory& scene, const CheckOptions& options,
-                       CheckReport& report) {
+void measure_distances(const Surface& surface, SceneMemory& scene, const CheckOptions& options, CheckReport& report) {
   if (!options.distances || surface.bvh().empty() || report.scene_triangles == 0) return;
   constexpr const char* kTooLarge = "no distances: the scene has coordinates that are too large or too small";
   if (report.undecidable_scene.count != 0) {
     report.distance_note = kTooLarge;
     return;
   }
-  const SampledDistance there = distances(scene.sample.points(), surface.bvh());
+  const SampledDistance there = distances(scene.sample().points(), surface.bvh());
   if (!std::isfinite(there.mean)) {
     report.distance_note = kTooLarge;
     return;
   }
   report.scene_to_proxy = there;
-  if (scene.keep && scene.all.size() <= kMostBounded) bound_largest(scene.all, surface.bvh(), *report.scene_to_proxy);
-  if (!scene.keep) {
+  if (!scene.has_all()) {
     report.distance_note =
         fmt::format("no distance from the proxy to the scene: {} triangles do not fit the {} MiB set aside for them",
                     report.scene_triangles, options.scene_memory_bytes >> 20);
     return;
   }
+  const std::vector<TriangleD> all_of_scene = scene.take_all();
+  if (all_of_scene.size() <= kMostBounded) bound_largest(all_of_scene, surface.bvh(), *report.scene_to_proxy);
   TriangleSample proxy(options.distance_samples);
   std::vector<TriangleD> all;
   for (std::size_t i = 0; i < surface.bvh().size(); ++i) {  // in an order of neighbours
@@ -93,14 +77,14 @@ void measure_distances(const Surface& surface, const SceneMemory& scene, const C
     proxy.see(item.id, item.corners);
     if (surface.bvh().size() <= kMostBounded) all.push_back(item.corners);
   }
-  const TriangleBvh tree(scene.all);
+  const TriangleBvh tree(all_of_scene);
   report.proxy_to_scene = distances(proxy.points(), tree);
   if (!all.empty()) bound_largest(all, tree, *report.proxy_to_scene);
 }
 
-/// Asks again of all that was read, once it is known by how much it may be off.
-void check_rounding(const WeldedMesh& mesh, const Surface& surface, TriangleSource& scene, const CheckOptions& options,
-                    CheckReport& report) {
+/// Asks again of all that was read, once it is known by how much it may be off. `cells`: null, or of the surface.
+void check_rounding(const WeldedMesh& mesh, const Surface& surface, const InsideCells* cells, TriangleSource& scene,
+                    const CheckOptions& options, CheckReport& report) {
   const ClearanceQuestion question{report.scene_counts.rounding, report.proxy_off, options.margin_world,
                                    options.max_examples};
   if (!question.any()) return;
@@ -108,28 +92,33 @@ void check_rounding(const WeldedMesh& mesh, const Surface& surface, TriangleSour
     report.misplaced = any_misplaced(surface, scene, question, report.wants_inside);
     return;
   }
-  ClearanceReport found = check_clearance(mesh, surface, scene, question);
+  ClearanceReport found = check_clearance(mesh, surface, cells, scene, question);
   report.within_rounding = std::move(found.within);
   if (report.too_near.count == 0) report.perhaps_near = std::move(found.within_margin);
 }
 
 void check_scene(const WeldedMesh& mesh, const Surface& surface, TriangleSource& scene, const CheckOptions& options,
                  CheckReport& report) {
-  SceneMemory memory(options);
+  SceneMemory memory(options.distances ? options.distance_samples : 0, options.distances ? most_kept(options) : 0);
   const EnclosureQuestion question{report.sides_decided, options.margin_world, options.max_examples};
-  const EnclosureReport e = check_enclosure(mesh, surface, scene, question,
-                                            [&](std::uint64_t first, const auto& t) { memory.see(first, t); });
+  // The triangles that are kept take a third of their share until their hierarchy is built.
+  std::optional<InsideCells> cells;
+  if (report.sides_decided) cells.emplace(surface, options.scene_memory_bytes / 2);
+  const InsideCells* const known = cells ? &*cells : nullptr;
+  const EnclosureReport e = check_enclosure(mesh, surface, known, scene, question, memory);
   report.has_scene = true;
   report.scene_name = scene.name();
   report.scene_counts = scene.counts();
   report.scene_triangles = e.triangles;
+  report.scene_bounds = e.bounds;
   report.touching = e.touching, report.outside = e.outside, report.undecidable_scene = e.undecidable;
   report.margin = options.margin_world;
   if (report.margin > 0 && std::isfinite(e.least_gap)) report.least_gap = e.least_gap;
   report.too_near = e.too_near, report.perhaps_near = e.perhaps_near;
   report.scene_volume = e.volume;
   report.bent = e.bent, report.bent_open = e.bent_open;
-  check_rounding(mesh, surface, scene, options, report);
+  check_rounding(mesh, surface, known, scene, options, report);
+  cells.reset();
   measure_distances(surface, memory, options, report);
 }
 
@@ -148,7 +137,7 @@ void check_scene_around(const WeldedMesh& mesh, const Surface& surface, Triangle
   report.touching = inside.touching, report.swallowed = inside.swallowed, report.outside_parts = inside.outside;
   report.unsettled_parts = inside.unsettled;
   report.undecidable_scene = inside.undecidable;
-  check_rounding(mesh, surface, scene, options, report);
+  check_rounding(mesh, surface, nullptr, scene, options, report);
   if (report.inside() || !options.hidden) return;
   const auto& [recipe, walls, free_of_scene] = *options.hidden;
   if (free_of_scene && (report.free_of_scene() != Answer::proven || report.undecidable_scene.count > 0)) return;
@@ -171,6 +160,7 @@ void check_scene_in_parts(const WeldedMesh& mesh, const Surface& surface, Triang
   report.scene_name = scene.name();
   report.scene_counts = scene.counts();
   report.scene_triangles = convex.triangles;
+  report.scene_bounds = convex.bounds;
   report.not_held = convex.not_held, report.perhaps_not_held = convex.perhaps_not_held;
   report.undecidable_scene = convex.undecidable;
   report.within_rounding = convex.within_rounding;

@@ -6,6 +6,7 @@
 
 #include "lib/check/face_counts.h"
 #include "lib/check/hiding_recipe.h"
+#include "lib/core/box.h"
 #include "lib/core/coords.h"
 #include "lib/core/triangle_source.h"
 
@@ -88,6 +89,7 @@ struct CheckReport {
   std::string scene_name;
   SceneCounts scene_counts;
   std::uint64_t scene_triangles = 0;  ///< tested: those with an area
+  Bounds3d scene_bounds;              ///< of all triangles of the scene; empty if the proxy is to lie inside
   Finding touching;                   ///< index: scene triangle, other: proxy triangle that it touches or crosses
   Finding outside;                    ///< index: scene triangle that touches nothing and has winding number < 1
   Finding undecidable_scene;          ///< index: scene triangle outside the domain of exact predicates

@@ -102,6 +102,7 @@ void for_each_batch(TriangleSource& scene, std::size_t max_examples, ConvexRepor
       check,
       [&](ConvexBatch& batch) {
         report.triangles += batch.triangles.size();
+        report.bounds.merge(batch.result.bounds);
         report.not_held.append(batch.result.not_held, max_examples);
         report.perhaps_not_held.append(batch.result.perhaps_not_held, max_examples);
         report.within_rounding.append(batch.result.within_rounding, max_examples);
@@ -114,6 +115,7 @@ void check_batch(const WeldedMesh& mesh, const std::vector<Part>& parts, const C
   std::uint32_t last = 0;  // neighbours in the scene mostly lie in the same part
   for (std::size_t i = 0; i < batch.triangles.size(); ++i) {
     const TriangleD& t = batch.triangles[i];
+    batch.result.bounds.merge(bounds_of(t));
     if (!in_predicate_domain(t[0]) || !in_predicate_domain(t[1]) || !in_predicate_domain(t[2])) {
       batch.result.undecidable.add({batch.first + i, 0, t[0]}, max_examples);
       continue;

@@ -13,6 +13,7 @@ namespace bp {
 /// Which triangles of a scene the open parts cover: each of their points lies strictly within a part.
 struct ConvexReport {
   std::uint64_t triangles = 0;  ///< of the scene, tested
+  Bounds3d bounds;              ///< of these
   Finding not_held;             ///< index: scene triangle with a point that no part holds
   Finding perhaps_not_held;     ///< index: scene triangle that is neither proved to be covered nor to be bare
   Finding within_rounding;      ///< index: scene triangle that is covered as read, but not by as much as it may be off

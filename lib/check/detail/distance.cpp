@@ -18,14 +18,57 @@ std::uint64_t mix(std::uint64_t x) {
 
 }  // namespace
 
+bool TriangleSample::may_keep(std::uint64_t number) const {
+  return capacity_ > 0 && (mix(number + 1) & mask_.load(std::memory_order_relaxed)) == 0;
+}
+
 void TriangleSample::see(std::uint64_t number, const TriangleD& t) {
   const std::uint64_t hash = mix(number + 1);
   if (capacity_ == 0 || (hash & mask_) != 0) return;
   kept_.push_back({hash, t});
   while (kept_.size() > capacity_) {
-    mask_ = 2 * mask_ + 1;
+    mask_ = 2 * mask_.load() + 1;
     std::erase_if(kept_, [&](const Kept& k) { return (k.hash & mask_) != 0; });
   }
+}
+
+SceneMemory::Part SceneMemory::part_of(const SceneBatch& batch) const {
+  Part part;
+  part.count = batch.count;
+  const bool keeps = keeps_;
+  if (keeps) part.all.reserve(batch.count);
+  batch.for_each([&](std::uint64_t number, const TriangleD& t, std::uint8_t) {
+    if (keeps) part.all.push_back(t);
+    if (sample_.may_keep(number)) part.sampled.push_back({number, t});
+  });
+  return part;
+}
+
+void SceneMemory::add(Part&& part) {
+  for (const Part::Numbered& t : part.sampled) sample_.see(t.number, t.triangle);
+  count_ += part.count;
+  if (keeps_ && count_ > most_) {
+    keeps_ = false;
+    all_ = {};
+  }
+  if (keeps_) all_.push_back(std::move(part.all));
+}
+
+std::vector<TriangleD> SceneMemory::take_all() {
+  std::vector<std::size_t> begins;
+  std::size_t count = 0;
+  for (const std::vector<TriangleD>& some : all_) {
+    begins.push_back(count);
+    count += some.size();
+  }
+  std::vector<TriangleD> all(count);
+  parallel_for(std::int64_t(all_.size()), [&](std::int64_t i) {
+    std::vector<TriangleD>& some = all_[std::size_t(i)];
+    std::copy(some.begin(), some.end(), all.begin() + std::ptrdiff_t(begins[std::size_t(i)]));
+    some = {};
+  });
+  all_ = {};
+  return all;
 }
 
 std::vector<Vec3d> TriangleSample::points() const {

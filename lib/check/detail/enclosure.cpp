@@ -15,49 +15,11 @@ namespace bp {
 
 namespace {
 
-constexpr std::size_t kBatch = 8192;  // triangles per work item
-
 struct EnclosureBatch {
-  std::uint64_t first = 0;
-  std::vector<TriangleD> triangles;
-  std::vector<std::uint8_t> inner_edges;  // TriangleSource::read_faces()
+  SceneBatch scene;
   EnclosureReport result;
   SignedVolume volume;
-};
-
-/// Pulls from a source whose reads are of any size, hands out batches of about one size and of whole polygons.
-class Batcher {
- public:
-  explicit Batcher(TriangleSource& source) : source_(source) {}
-  bool next(EnclosureBatch& batch) {
-    batch.first = count_;
-    while ((batch.triangles.size() < kBatch || (batch.inner_edges.back() & kSamePolygonAfter) != 0) && refill()) {
-      const std::size_t room = batch.triangles.size() < kBatch ? kBatch - batch.triangles.size() : 1;
-      const std::size_t n = std::min(room, read_.size() - used_);
-      const auto begin = std::ptrdiff_t(used_), end = begin + std::ptrdiff_t(n);
-      batch.triangles.insert(batch.triangles.end(), read_.begin() + begin, read_.begin() + end);
-      batch.inner_edges.insert(batch.inner_edges.end(), inner_edges_.begin() + begin, inner_edges_.begin() + end);
-      used_ += n, count_ += n;
-    }
-    return !batch.triangles.empty();
-  }
-
- private:
-  bool refill() {
-    while (used_ == read_.size() && !ended_) {
-      used_ = 0;
-      ended_ = !source_.read_faces(read_, colors_, inner_edges_);
-      if (ended_) read_.clear();
-    }
-    return !ended_;
-  }
-  TriangleSource& source_;
-  std::vector<TriangleD> read_;
-  std::vector<TriangleColors> colors_;  // not looked at
-  std::vector<std::uint8_t> inner_edges_;
-  std::size_t used_ = 0;
-  std::uint64_t count_ = 0;
-  bool ended_ = false;
+  SceneMemory::Part kept;
 };
 
 /// Sides of corners met lately. A triangle that touches nothing lies on one side, so all its corners share the answer,
@@ -128,74 +90,106 @@ bool is_flat(std::span<const TriangleD> polygon) {
                      [&](const TriangleD& t) { return std::all_of(t.begin(), t.end(), is_in_plane); });
 }
 
-/// Polygons that are not flat. A quad is read as the fan from its first or its second corner. A program may draw a quad
-/// over its other diagonal; of larger ones nothing is looked for.
-void check_polygons(const Surface& surface, const EnclosureQuestion& question, const EnclosureBatch& batch,
-                    EnclosureReport& e) {
-  SideCache cache;
-  const auto is_enclosed = [&](const TriangleD& t) {
-    return surface.touched_by(t) == Surface::kNone && question.decide_sides && winding_of(t, surface, cache) >= 1;
-  };
-  for (std::size_t begin = 0, end = 0; begin < batch.triangles.size(); begin = end) {
-    end = begin + 1;
-    while (end < batch.triangles.size() && (batch.inner_edges[end - 1] & kSamePolygonAfter) != 0 &&
-           (batch.inner_edges[end] & kSamePolygonBefore) != 0)
-      ++end;
-    const auto polygon = std::span(batch.triangles).subspan(begin, end - begin);
-    if (polygon.size() == 1 || is_flat(polygon)) continue;
-    ++e.bent;
+/// Looks at triangles of one batch after the other.
+class EnclosureCheck {
+ public:
+  EnclosureCheck(const WeldedMesh& mesh, const Surface& surface, const InsideCells* cells,
+                 const EnclosureQuestion& question, EnclosureReport& report)
+      : mesh_(mesh), surface_(surface), cells_(cells), question_(question), report_(report) {}
+
+  /// `box`: of the triangle, which is finite.
+  void add(std::uint64_t number, const TriangleD& t, const Bounds3d& box) {
+    if (!is_far_inside(box)) look_at(number, t);
+    check_gap(mesh_, surface_, question_, number, t, report_);
+  }
+  /// Counts polygons that are not flat. A quad is read as the fan from its first or its second corner. A program may
+  /// draw a quad over its other diagonal; of larger ones nothing is looked for.
+  void add_polygon(std::span<const TriangleD> polygon) {
+    if (polygon.size() < 2 || is_flat(polygon)) return;
+    ++report_.bent;
     const TriangleD &t = polygon.front(), &last = polygon.back();
     const bool both = polygon.size() == 2 && all_finite(t) && all_finite(last) && is_enclosed({t[0], t[1], last[2]}) &&
                       is_enclosed({t[1], t[2], last[2]});
-    if (!both) ++e.bent_open;
+    if (!both) ++report_.bent_open;
   }
-}
 
-void check_batch(const WeldedMesh& mesh, const Surface& surface, const EnclosureQuestion& question, const Vec3d& origin,
-                 EnclosureBatch& batch) {
-  const std::size_t max_examples = question.max_examples;
-  SideCache cache;
+ private:
+  [[nodiscard]] bool is_far_inside(const Bounds3d& box) const { return cells_ != nullptr && cells_->hold(box); }
+
+  void look_at(std::uint64_t number, const TriangleD& t) {
+    const std::int64_t touched = surface_.touched_by(t);
+    if (touched != Surface::kNone) {
+      report_.touching.add({number, mesh_.number[std::size_t(touched)], centre(t)}, question_.max_examples);
+      report_.least_gap = 0;
+    } else if (question_.decide_sides && winding_of(t, surface_, sides_) < 1) {
+      report_.outside.add({number, 0, centre(t)}, question_.max_examples);
+    }
+  }
+  bool is_enclosed(const TriangleD& t) {
+    if (is_far_inside(bounds_of(t))) return true;
+    return surface_.touched_by(t) == Surface::kNone && question_.decide_sides && winding_of(t, surface_, sides_) >= 1;
+  }
+
+  const WeldedMesh& mesh_;
+  const Surface& surface_;
+  const InsideCells* cells_;
+  const EnclosureQuestion& question_;
+  EnclosureReport& report_;
+  SideCache sides_;
+};
+
+void check_batch(const WeldedMesh& mesh, const Surface& surface, const InsideCells* cells,
+                 const EnclosureQuestion& question, const Vec3d& origin, EnclosureBatch& batch) {
   EnclosureReport& e = batch.result;
+  EnclosureCheck check(mesh, surface, cells, question, e);
+  std::vector<TriangleD> polygon;  // of several triangles, not complete yet
   batch.volume = SignedVolume(origin);
-  for (std::size_t i = 0; i < batch.triangles.size(); ++i) {
-    const TriangleD& t = batch.triangles[i];
-    const std::uint64_t number = batch.first + i;
+  batch.scene.for_each([&](std::uint64_t number, const TriangleD& t, std::uint8_t inner_edges) {
+    if (inner_edges != 0 || !polygon.empty()) {
+      if ((inner_edges & kSamePolygonBefore) == 0) {
+        check.add_polygon(polygon);
+        polygon.clear();
+      }
+      polygon.push_back(t);
+      if ((inner_edges & kSamePolygonAfter) == 0) {
+        check.add_polygon(polygon);
+        polygon.clear();
+      }
+    }
+    const Bounds3d box = bounds_of(t);
+    e.bounds.merge(box);
     if (!all_finite(t)) {
-      e.undecidable.add({number, 0, t[0]}, max_examples);
-      continue;
+      e.undecidable.add({number, 0, t[0]}, question.max_examples);
+      return;
     }
     batch.volume.add(t);
-    const std::int64_t touched = surface.touched_by(t);
-    if (touched != Surface::kNone) {
-      e.touching.add({number, mesh.number[std::size_t(touched)], centre(t)}, max_examples);
-      e.least_gap = 0;
-    } else if (question.decide_sides && winding_of(t, surface, cache) < 1) {
-      e.outside.add({number, 0, centre(t)}, max_examples);
-    }
-    check_gap(mesh, surface, question, number, t, e);
-  }
-  e.triangles = batch.triangles.size();
-  check_polygons(surface, question, batch, e);
+    check.add(number, t, box);
+  });
+  check.add_polygon(polygon);
+  e.triangles = batch.scene.count;
 }
 
 }  // namespace
 
-EnclosureReport check_enclosure(const WeldedMesh& mesh, const Surface& surface, TriangleSource& scene,
-                                const EnclosureQuestion& question,
-                                const std::function<void(std::uint64_t, const std::vector<TriangleD>&)>& see) {
+EnclosureReport check_enclosure(const WeldedMesh& mesh, const Surface& surface, const InsideCells* cells,
+                                TriangleSource& scene, const EnclosureQuestion& question, SceneMemory& memory) {
   EnclosureReport all;
   Vec3d origin{};
   if (!surface.bounds().empty()) origin = surface.bounds().min;
   SignedVolume volume(origin);
   scene.rewind();
-  Batcher batcher(scene);
+  SceneBatches batches(scene);
   pipeline<EnclosureBatch>(
-      4 * thread_count(), [&](EnclosureBatch& batch) { return batcher.next(batch); },
-      [&](EnclosureBatch& batch) { check_batch(mesh, surface, question, origin, batch); },
+      4 * thread_count(), [&](EnclosureBatch& batch) { return batches.next(batch.scene); },
       [&](EnclosureBatch& batch) {
-        see(batch.first, batch.triangles);
+        check_batch(mesh, surface, cells, question, origin, batch);
+        batch.kept = memory.part_of(batch.scene);
+      },
+      [&](EnclosureBatch& batch) {
+        memory.add(std::move(batch.kept));
         const std::size_t max_examples = question.max_examples;
         all.triangles += batch.result.triangles;
+        all.bounds.merge(batch.result.bounds);
         all.touching.append(batch.result.touching, max_examples);
         all.outside.append(batch.result.outside, max_examples);
         all.undecidable.append(batch.result.undecidable, max_examples);

@@ -1,8 +1,9 @@
 #pragma once
 #include <cmath>
-#include <functional>
 #include <optional>
 
+#include "lib/check/detail/cells/inside_cells.h"
+#include "lib/check/detail/distance.h"
 #include "lib/check/detail/surface.h"
 #include "lib/core/triangle_source.h"
 
@@ -11,6 +12,7 @@ namespace bp {
 
 struct EnclosureReport {
   std::uint64_t triangles = 0;
+  Bounds3d bounds;                         ///< of all triangles
   Finding touching, outside, undecidable;  ///< as in CheckReport
   Finding too_near, perhaps_near;          ///< as in CheckReport
   double least_gap = HUGE_VAL;             ///< as in CheckReport
@@ -26,9 +28,10 @@ struct EnclosureQuestion {
 
 /// Tests every triangle of `scene` from its start, in parallel, in bounded memory. A triangle that touches nothing lies
 /// on one side as a whole, so one of its corners decides; sides are looked at only if the question asks for them.
-/// `see(number of the first, triangles)` gets the scene in order, on one thread at a time.
-[[nodiscard]] EnclosureReport check_enclosure(
-    const WeldedMesh& mesh, const Surface& surface, TriangleSource& scene, const EnclosureQuestion& question,
-    const std::function<void(std::uint64_t, const std::vector<TriangleD>&)>& see);
+/// `cells`: those of the surface, if the question asks for sides, or null. The report does not depend on them. `memory`
+/// gets the scene.
+[[nodiscard]] EnclosureReport check_enclosure(const WeldedMesh& mesh, const Surface& surface, const InsideCells* cells,
+                                              TriangleSource& scene, const EnclosureQuestion& question,
+                                              SceneMemory& memory);
 
 }  // namespace bp

@@ -128,31 +128,32 @@ struct ClearanceBatch {
   ClearanceReport result;
 };
 
-void look_at(const WeldedMesh& mesh, const Surface& surface, std::uint64_t number, const TriangleD& t, double distance,
-             std::size_t max_examples, Finding& found) {
-  if (distance == 0) return;
+/// Adds the triangle to `found` unless it keeps the distance.
+void look_at(const WeldedMesh& mesh, const Surface& surface, const InsideCells* cells, std::uint64_t number,
+             const TriangleD& t, double distance, std::size_t max_examples, Finding& found) {
+  if (distance == 0 || (cells != nullptr && cells->hold(box_around(t, distance)))) return;
   const GapAnswer gap = keeps_gap(t, surface.bvh(), distance);
   if (gap.answer != Answer::proven) found.add({number, mesh.number[surface.triangle(gap.item)], t[0]}, max_examples);
 }
 
 /// Corners beyond the domain of exact predicates are a finding of their own.
-void check_clearance_of(const WeldedMesh& mesh, const Surface& surface, const ClearanceQuestion& question,
-                        ClearanceBatch& batch) {
+void check_clearance_of(const WeldedMesh& mesh, const Surface& surface, const InsideCells* cells,
+                        const ClearanceQuestion& question, ClearanceBatch& batch) {
   for (std::size_t i = 0; i < batch.triangles.size(); ++i) {
     const TriangleD& t = batch.triangles[i];
     if (!std::all_of(t.begin(), t.end(), [](const Vec3d& p) { return in_predicate_domain(p); })) continue;
     const double off = question.off(t);
-    look_at(mesh, surface, batch.first + i, t, off, question.max_examples, batch.result.within);
+    look_at(mesh, surface, cells, batch.first + i, t, off, question.max_examples, batch.result.within);
     if (question.margin > 0)
-      look_at(mesh, surface, batch.first + i, t, question.margin + off, question.max_examples,
+      look_at(mesh, surface, cells, batch.first + i, t, question.margin + off, question.max_examples,
               batch.result.within_margin);
   }
 }
 
 }  // namespace
 
-ClearanceReport check_clearance(const WeldedMesh& mesh, const Surface& surface, TriangleSource& scene,
-                                const ClearanceQuestion& question) {
+ClearanceReport check_clearance(const WeldedMesh& mesh, const Surface& surface, const InsideCells* cells,
+                                TriangleSource& scene, const ClearanceQuestion& question) {
   ClearanceReport all;
   if (surface.bvh().empty()) return all;
   scene.rewind();
@@ -165,7 +166,7 @@ ClearanceReport check_clearance(const WeldedMesh& mesh, const Surface& surface, 
         read += batch.triangles.size();
         return true;
       },
-      [&](ClearanceBatch& batch) { check_clearance_of(mesh, surface, question, batch); },
+      [&](ClearanceBatch& batch) { check_clearance_of(mesh, surface, cells, question, batch); },
       [&](ClearanceBatch& batch) {
         all.within.append(batch.result.within, question.max_examples);
         all.within_margin.append(batch.result.within_margin, question.max_examples);

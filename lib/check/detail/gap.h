@@ -1,5 +1,6 @@
 #pragma once
 #include "lib/check/check_report.h"
+#include "lib/check/detail/cells/inside_cells.h"
 #include "lib/check/detail/surface.h"
 #include "lib/core/triangle_source.h"
 #include "lib/geometry/triangle_bvh.h"
@@ -43,9 +44,9 @@ struct ClearanceReport {
 
 /// Reads the scene once from its start. A triangle that meets nothing as read, and whose distance from each triangle of
 /// the surface is no less than the errors of both, lies on the same side in the file. Memory does not grow with the
-/// scene.
-[[nodiscard]] ClearanceReport check_clearance(const WeldedMesh& mesh, const Surface& surface, TriangleSource& scene,
-                                              const ClearanceQuestion& question);
+/// scene. `cells`: cells of the surface, or null. The report does not depend on them.
+[[nodiscard]] ClearanceReport check_clearance(const WeldedMesh& mesh, const Surface& surface, const InsideCells* cells,
+                                              TriangleSource& scene, const ClearanceQuestion& question);
 
 /// Returns whether a corner of the scene lies on the wrong side of the surface (outside of it or, with `inside`, within
 /// it), and farther from it than the errors of both: then it does in the file, too. Reads the scene from its start.

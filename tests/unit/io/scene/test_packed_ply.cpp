@@ -127,7 +127,7 @@ TEST_CASE("files of vertices and of triangles tell their bounds before they are 
   CHECK(told == bounds_of(triangles));
   source->rewind();
   CHECK((read_all(*source) == triangles));
-  CHECK_FALSE(open_scene(dir.file("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"))->bounds());
+  CHECK_FALSE(open_scene(dir.file("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"))->bounds());
 }
 
 TEST_CASE("a packed PLY that is cut anywhere is refused", "[quick][io]") {

@@ -1,0 +1,183 @@
+// Bounds that OBJ, ASCII PLY and glTF tell before their triangles are read.
+#include <random>
+
+#include "lib/core/box.h"
+#include "lib/core/parallel.h"
+#include "tests/catch.h"
+#include "tests/unit/io/scene/gltf_document.h"
+#include "tests/unit/io/scene/scene_files.h"
+
+using namespace bp;
+using namespace bp::test;
+
+namespace {
+
+Bounds3d box_of(const std::vector<TriangleD>& triangles) {
+  Bounds3d box;
+  for (const TriangleD& t : triangles) {
+    for (const Vec3d& p : t) box.add(p);
+  }
+  return box;
+}
+
+struct Outcome {
+  std::vector<TriangleD> triangles;
+  std::string complaint;
+  friend bool operator==(const Outcome&, const Outcome&) = default;
+};
+
+/// Reads to the end, twice; with `ahead`, the bounds first.
+Outcome outcome_of(const std::string& path, bool ahead, std::optional<Bounds3d>& told) {
+  Outcome outcome;
+  try {
+    const auto source = open_scene(path);
+    if (ahead) told = source->bounds();
+    outcome.triangles = read_all(*source);
+    source->rewind();
+    CHECK((read_all(*source) == outcome.triangles));
+  } catch (const Error& e) {
+    outcome.complaint = e.what();
+  }
+  return outcome;
+}
+
+/// Compares a file with and without a question about its bounds before. Returns the bounds that were told.
+std::optional<Bounds3d> bounds_ahead(const std::string& path) {
+  std::optional<Bounds3d> told;
+  const Outcome plain = outcome_of(path, false, told), after = outcome_of(path, true, told);
+  CHECK((plain == after));
+  return told;
+}
+
+/// The same, of a file whose vertices are all used. Returns whether bounds were told.
+bool check_ahead(const std::string& path) {
+  const std::optional<Bounds3d> told = bounds_ahead(path);
+  if (told) CHECK(*told == box_of(read_all(path)));
+  return told.has_value();
+}
+
+/// Some hundred kilobytes in several blocks, with all kinds of lines that programs write.
+std::string long_obj(unsigned seed, const std::string& line_end) {
+  std::mt19937 random(seed);
+  const auto number = [&] { return std::to_string(double(int(random() % 2000001) - 1000000) / 997); };
+  const char* const blanks[] = {" ", "  ", "\t"};
+  std::string text = "# a comment" + line_end;
+  int vertices = 0;
+  while (text.size() < 1200000) {
+    for (int k = 0; k < 3; ++k, ++vertices) {
+      const std::string blank = blanks[random() % 3];
+      text += (random() % 9 == 0 ? " v" : "v") + blank + number() + blank + number() + " " + number();
+      if (random() % 5 == 0) text += blank + "0.5 0.5 0.5";
+      if (random() % 7 == 0) text += blank;
+      text += line_end;
+      if (random() % 4 == 0) text += "vn 0 0 1" + line_end + "vt 0.5 v 1 2 3" + line_end + line_end;
+      if (random() % 50 == 0) text += "# v 9 9 9 " + std::string(random() % 3000, 'x') + line_end;
+    }
+    text += "f -1 -2 -3" + line_end;
+    if (vertices > 9) text += "f 1/2/3 5//7 " + std::to_string(vertices) + line_end;
+  }
+  return text;
+}
+
+constexpr const char* kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+}  // namespace
+
+TEST_CASE("an OBJ tells its bounds, and is read as if it had not", "[quick][io][bounds]") {
+  const TempDir dir;
+  for (const int threads : {1, 4}) {
+    const ThreadLimit limit(threads);
+    for (const char* const line_end : {"\n", "\r\n"}) {
+      const std::string text = long_obj(unsigned(threads), line_end);
+      CHECK(check_ahead(dir.file("a.obj", text)));
+      CHECK(check_ahead(dir.file("b.obj", "\xEF\xBB\xBF" + text)));
+      CHECK(check_ahead(dir.file("c.obj", text.substr(0, text.size() - 1))));  // no end of the last line
+      SceneOptions little;
+      little.memory_bytes = 100000;  // vertices go to a scratch file
+      const auto source = open_scene(dir.path("a.obj"), little);
+      CHECK(source->bounds() == box_of(read_all(dir.path("a.obj"))));
+      CHECK((read_all(*source) == read_all(dir.path("a.obj"))));
+    }
+  }
+}
+
+TEST_CASE("an OBJ with odd lines is read, or refused, as if nobody had asked for its bounds", "[quick][io][bounds]") {
+  const TempDir dir;
+  const std::vector<std::string> odd{
+      "v 5 \\\n6 7\n",  "v 5 6 7\rv 8 9 9\r", "v +5 6 7\n",        "v 5 6 7#c\n",   "\fv 5 6 7\n",
+      "\vv 5 6 7\n",    "v\v5 6 7\n",         "v 5 6\n",           "v\n",           "v 1e999 0 0\n",
+      "v nan inf 0\n",  "v 1.#INF 0 0\n",     "# c \\\nv 5 6 7\n", "v 5 6 x\n",     "v 5,6,7\n",
+      "v 0x10 0 0\n",   "\x01v 5 6 7\n",      "v 1e-320 0 0\n",    "v 5 6 7\x1A\n", "v 5\f6 7\n",
+      "v 5 6 7 \\\n8\n"};
+  for (const std::string& line : odd) {
+    CAPTURE(line);
+    for (const std::string& text : {line + kTriangle, kTriangle + line + "f 1 2 4\n", kTriangle + line}) {
+      (void)bounds_ahead(dir.file("a.obj", text));
+      (void)bounds_ahead(dir.file("b.obj", long_obj(1, "\n") + text));  // in the last block
+    }
+  }
+  for (const char* const line :
+       {"vx 5 6 7\n", "v 0 0 0 1\n", "vertex\n", " \t\n", "l 1 2\n", "o \\a\\b\n", "g v 5 6 7\n"}) {
+    CAPTURE(line);
+    CHECK(bounds_ahead(dir.file("c.obj", line + std::string(kTriangle))));
+  }
+  // A line that is longer than what a block takes from the next one.
+  const std::string text = long_obj(2, "\n");
+  (void)check_ahead(dir.file("d.obj", "#" + std::string(600000, 'v') + "\n" + text));
+  CHECK(check_ahead(dir.file("e.obj", "#" + std::string(261000, ' ') + "v 9 9 9\n" + text)));
+}
+
+TEST_CASE("an OBJ tells no bounds if colours or some of its parts are asked for", "[quick][io][bounds]") {
+  const TempDir dir;
+  const std::string path = dir.file("a.obj", kTriangle);
+  SceneOptions colors, parts;
+  colors.colors = true;
+  parts.parts = "x";
+  CHECK(open_scene(path)->bounds());
+  CHECK_FALSE(open_scene(path, colors)->bounds());
+  CHECK_FALSE(open_scene(path, parts)->bounds());
+}
+
+TEST_CASE("an ASCII PLY tells the bounds of its vertices", "[quick][io][bounds]") {
+  const TempDir dir;
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float z\nproperty float y\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  CHECK(check_ahead(dir.file("a.ply", header + "0 1 2\n-3 4 5\n6 -7 8\n3 0 1 2\n")));
+}
+
+TEST_CASE("a glTF tells the bounds of its vertices as they are placed", "[quick][io][bounds]") {
+  const TempDir dir;
+  std::mt19937 random(5);
+  for (int turn = 0; turn < 20; ++turn) {
+    Document d;
+    d.json["scenes"][0]["nodes"] = Json::array();
+    const ThreadLimit threads(1 + turn % 3);
+    for (int n = 0; n < 3; ++n) {
+      const auto some = [&] { return double(int(random() % 2001) - 1000) / 7; };
+      std::vector<Vec3d> points;
+      for (int i = 0; i < 30; ++i) points.push_back({some(), some(), some()});
+      Json node{{"mesh", d.mesh(d.floats(points))}};
+      if (n == 1) node["translation"] = {some(), some(), some()}, node["scale"] = {some(), some(), some()};
+      if (n == 2) node["rotation"] = {0.5, 0.5, -0.5, 0.5}, node["translation"] = {6e6, some(), some()};
+      d.json["scenes"][0]["nodes"].push_back(d.node(node));
+    }
+    d.json["accessors"][0]["min"] = {0, 0, 0}, d.json["accessors"][0]["max"] = {0, 0, 0};  // a lie
+    CHECK(check_ahead(dir.file("a.glb", d.glb())));
+  }
+}
+
+TEST_CASE("a glTF tells no bounds if they would take more than its triangles", "[quick][io][bounds]") {
+  const TempDir dir;
+  Document d;
+  d.node({{"mesh", d.quad_mesh()}});
+  CHECK(check_ahead(dir.file("a.glb", d.glb())));
+  Document shared;  // ten triangles of many vertices each
+  const int positions = shared.floats(std::vector<Vec3d>(100, Vec3d{1, 2, 3}));
+  Json primitives = Json::array();
+  const int indices = shared.array<std::uint8_t>({0, 1, 2}, kU8, "SCALAR", 3);
+  for (int i = 0; i < 10; ++i) primitives.push_back({{"attributes", {{"POSITION", positions}}}, {"indices", indices}});
+  shared.json["meshes"].push_back({{"primitives", primitives}});
+  shared.node({{"mesh", 0}});
+  CHECK_FALSE(check_ahead(dir.file("b.glb", shared.glb())));
+}
