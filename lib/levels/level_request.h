@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "lib/levels/lod_chain.h"
+#include "lib/levels/lod_level.h"
 
 /// Which levels of detail are wanted, in numbers and scene units, and the target of each.
 namespace bp {

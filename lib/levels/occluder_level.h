@@ -2,7 +2,7 @@
 #include <optional>
 #include <vector>
 
-#include "lib/levels/lod_chain.h"
+#include "lib/levels/lod_level.h"
 #include "lib/pass/hide/hidden_pass.h"
 
 /// One mesh that lies strictly within what a scene hides from every eye outside (lib/pass/hide/hidden_pass.h).

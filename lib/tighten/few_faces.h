@@ -4,9 +4,6 @@
 /// Proxies of so few faces that the order of collapses decides more than their number.
 namespace bp {
 
-/// Proxies of fewer faces come from one sequence.
-constexpr std::uint64_t kFewFaces = 64;
-
 /// Returns the proxy of least volume with at most params.faces faces, which are fewer than kFewFaces. It comes from one
 /// sequence of proxies, which begins at kFewFaces whatever params.faces is: the next one has four faces fewer, or two
 /// below 40. So more faces do not make the result larger, as a rule: the sequence ends where proxies hold clearly more

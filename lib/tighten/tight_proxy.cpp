@@ -7,7 +7,6 @@
 #include "lib/tighten/detail/spikes.h"
 #include "lib/tighten/detail/thin.h"
 #include "lib/tighten/detail/tighten_regions.h"
-#include "lib/tighten/few_faces.h"
 
 namespace bp {
 

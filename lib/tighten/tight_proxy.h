@@ -5,6 +5,9 @@
 /// From the dense surface to a tight proxy of a given number of faces.
 namespace bp {
 
+/// Proxies of fewer faces come from one sequence (few_faces.h).
+constexpr std::uint64_t kFewFaces = 64;
+
 /// A proxy, and what led to it.
 struct TightProxy {
   LatticeMesh mesh;

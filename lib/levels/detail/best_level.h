@@ -3,7 +3,7 @@
 #include <string>
 
 #include "lib/levels/detail/ruler.h"
-#include "lib/levels/lod_chain.h"
+#include "lib/levels/lod_level.h"
 
 namespace bp {
 

@@ -3,7 +3,7 @@
 
 #include "lib/grid/shelf_stream.h"
 #include "lib/levels/detail/ruler.h"
-#include "lib/levels/lod_chain.h"
+#include "lib/levels/lod_level.h"
 #include "lib/volume/topology.h"
 
 namespace bp {

@@ -2,7 +2,7 @@
 #include <span>
 #include <vector>
 
-#include "lib/levels/lod_chain.h"
+#include "lib/levels/detail/convex_level.h"
 
 /// Convex meshes in place of a bounding level: a box around all that is enclosed; of a flat scene also the prism around
 /// its outline, and of a convex one its hull. They are exact where the scene is such a thing, and near where few faces
@@ -19,12 +19,5 @@ struct ConvexLevel {
 /// voxels are known.
 [[nodiscard]] std::vector<ConvexLevel> convex_levels(const LodLevel& place, const Bounds3d& bounds,
                                                      std::span<const Vec3d> corners, std::uint64_t faces);
-
-/// Corners of all triangles, in lattice units of the frame. None if there are more than 2^20 triangles, whose corners
-/// take 72 MiB.
-[[nodiscard]] std::vector<Vec3d> scene_corners(const GridFrame& frame, std::span<const TriangleD> scene);
-
-/// `mesh`, which lies around all that is enclosed, and of which only vertices and triangles count, as a level.
-[[nodiscard]] LodLevel convex_level(const LodLevel& place, const LatticeMesh& mesh);
 
 }  // namespace bp

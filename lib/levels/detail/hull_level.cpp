@@ -5,7 +5,7 @@
 
 #include "lib/core/vec3.h"
 #include "lib/hulls/convex_hull.h"
-#include "lib/levels/detail/convex_levels.h"
+#include "lib/levels/detail/convex_level.h"
 #include "lib/mesh/lattice_geometry.h"
 
 namespace bp {

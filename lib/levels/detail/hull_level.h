@@ -1,7 +1,7 @@
 #pragma once
 #include <span>
 
-#include "lib/levels/lod_chain.h"
+#include "lib/levels/lod_level.h"
 
 namespace bp {
 

@@ -4,7 +4,7 @@
 #include <mutex>
 
 #include "lib/device/backend.h"
-#include "lib/levels/lod_chain.h"
+#include "lib/levels/lod_level.h"
 
 namespace bp {
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/levels/lod_chain.h"
+#include "lib/levels/lod_level.h"
 #include "lib/volume/boundary_runs.h"
 
 namespace bp {

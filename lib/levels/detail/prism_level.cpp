@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "lib/core/vec3.h"
-#include "lib/levels/detail/convex_levels.h"
+#include "lib/levels/detail/convex_level.h"
 #include "lib/mesh/lattice_geometry.h"
 
 namespace bp {

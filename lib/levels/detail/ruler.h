@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "lib/geometry/triangle_bvh.h"
-#include "lib/levels/lod_chain.h"
+#include "lib/levels/lod_level.h"
 #include "lib/volume/boundary_rects.h"
 #include "lib/volume/boundary_runs.h"
 

@@ -23,7 +23,6 @@
 #include "lib/quads/quads.h"
 #include "lib/simplify/surface_tree.h"
 #include "lib/surface/repair.h"
-#include "lib/tighten/few_faces.h"
 #include "lib/tighten/tight_proxy.h"
 #include "lib/volume/boundary_runs.h"
 
