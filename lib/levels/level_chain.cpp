@@ -4,6 +4,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "lib/levels/lod_chain.h"
+
 namespace bp {
 
 namespace {

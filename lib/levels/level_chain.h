@@ -11,6 +11,8 @@
 /// The levels of a chain: each has fewer faces than the one before, and spends its budget as far as the voxels can.
 namespace bp {
 
+class LodChain;
+
 struct VoxelizedScene {
   StreamHeader header;
   std::unique_ptr<BrickShelf> solid;

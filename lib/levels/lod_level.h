@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "lib/closing/closing.h"
-#include "lib/pass/context.h"
 #include "lib/grid/scale_field.h"
+#include "lib/pass/context.h"
 #include "lib/pass/mesh/mesh_pass.h"
 
 /// A level of detail, what it is asked to be, and what a chain of levels is made by (lod_chain.h).

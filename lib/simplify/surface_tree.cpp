@@ -220,7 +220,7 @@ class SurfaceTree {
 }  // namespace
 
 void check_dense(std::uint64_t faces, const PieceMemory& memory) {
-  const std::uint64_t needed = faces * kBytesPerDenseFace, left = memory.bytes();
+  const std::uint64_t needed = faces * kBytesPerMeshedFace, left = memory.bytes();
   if (needed > left)
     throw NeedsMemory(fmt::format("a surface of {} triangles in one mesh", faces), needed, left,
                       memory.limit_for(needed), {Remedy::larger_voxels});

@@ -36,7 +36,7 @@ template <class Work>
 
 // Bytes of each triangle of a dense surface in one mesh: two meshes of 12 and half a vertex of 24, and what joins them,
 // while it is made; then one mesh, and a list of its triangles by bricks (MeshSurface).
-constexpr std::uint64_t kBytesPerDenseFace = 64, kBytesPerKeptFace = 28;
+constexpr std::uint64_t kBytesPerMeshedFace = 64, kBytesPerKeptFace = 28;
 
 /// Throws out_of_resource if `memory` does not suffice to make a dense surface of `faces` triangles in one mesh.
 void check_dense(std::uint64_t faces, const PieceMemory& memory);

@@ -12,6 +12,7 @@
 #include "io/tiles/tileset_folder.h"
 #include "lib/core/parallel.h"
 #include "lib/levels/cut_levels.h"
+#include "lib/levels/lod_chain.h"
 #include "lib/levels/whole_levels.h"
 #include "lib/pass/leaf/scene_leaf.h"
 #include "lib/store/hex.h"

@@ -127,7 +127,7 @@ class LevelMaker {
     if (params_.error_world > 0) held += ProxyLimits::kMostBytes;
     const std::uint64_t faces = inside() ? count_faces(dense) : 0;
     return std::max(pieces_.without(held + faces * kBytesPerKeptFace).limit_for(work.whole_bytes, work.cell_bytes),
-                    pieces_.limit_for(faces * kBytesPerDenseFace));
+                    pieces_.limit_for(faces * kBytesPerMeshedFace));
   }
 
  private:
@@ -246,6 +246,7 @@ class LevelMaker {
         params_.enclose == Enclose::scene ? scene_target(*ground_.tree, dense.frame(), kInset) : inset_target(kInset);
     const FineFit fine = fine_fit(dense, faces[0], target, edges_for(dense.frame()), memory_);
     std::vector<LatticeMesh> levels;
+    levels.reserve(faces.size());
     for (const std::uint64_t n : faces) {
       levels.push_back(finish(dense.frame(), n, [&](SimplifyParams params, LevelCounts& counts) {
         params.enclosed = &near;

@@ -59,7 +59,7 @@ Solid random_solid(Dice& dice) {
   return solid;
 }
 
-/// Of any size, many of them small; corners on lattices and on corners of the solid are frequent.
+/// Boxes have any size, and many are small; corners on lattices and on corners of the solid are frequent.
 TriangleD random_triangle(const Solid& solid, Dice& dice) {
   const double size = solid.size * std::exp2(-double(dice(12)));
   const double unit = solid.size / std::exp2(double(dice(12)));
@@ -94,7 +94,7 @@ bool is_enclosed(const Surface& surface, const TriangleD& t) {
   return surface.touched_by(t) == Surface::kNone && surface.winding(t[0]) >= 1;
 }
 
-/// The same of all that a box holds: nothing crosses its sides, it holds no corner, and a corner of it is inside.
+/// All that a box holds is asked about: nothing crosses its sides, it holds no corner, and a corner of it is inside.
 bool is_enclosed(const Surface& surface, const IndexedMesh& proxy, const Bounds3d& b) {
   for (const TriangleD& side : triangles_of(box(b.min, b.max))) {
     if (!is_enclosed(surface, side)) return false;

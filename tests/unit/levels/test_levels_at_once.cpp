@@ -4,6 +4,7 @@
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/levels/level_chain.h"
+#include "lib/levels/lod_chain.h"
 #include "tests/catch.h"
 #include "tests/support/voxelized.h"
 

@@ -8,6 +8,7 @@
 #include "lib/grid/shelf_stream.h"
 #include "lib/hulls/convex_budget.h"
 #include "lib/hulls/convex_scene.h"
+#include "lib/levels/lod_chain.h"
 #include "tools/lod/choices.h"
 #include "tools/lod/collision/collision_files.h"
 

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "lib/levels/lod_chain.h"
 #include "lib/levels/margin.h"
 #include "lib/pass/color/vertex_colors.h"
 #include "tools/cli/names.h"

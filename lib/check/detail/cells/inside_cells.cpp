@@ -23,8 +23,8 @@ constexpr std::uint32_t kSide = 8;    // cells along a side of a block
 constexpr std::uint32_t kVisits = 3;  // boxes that meet a block before it is worth a look
 // States of a block. Below kVisits: the number of boxes that met it. kVisits: a thread is looking at it.
 constexpr std::uint32_t kNowhere = kVisits + 1;  // no cell is inside, or that is not known
-constexpr std::uint32_t kEverywhere = kNowhere + 1;
-constexpr std::uint32_t kFirstKept = kEverywhere + 1;  // and its number
+constexpr std::uint32_t kWholeSpace = kNowhere + 1;
+constexpr std::uint32_t kFirstKept = kWholeSpace + 1;  // and its number
 
 constexpr std::uint64_t kLeastBlocks = 1 << 12, kMostBlocks = 1 << 21, kBlocksPerFace = 64;
 constexpr std::uint64_t kBlocksPerKept = 8;    // a surface meets few of them
@@ -210,7 +210,7 @@ bool InsideCells::hold(const Bounds3d& box) const {
     for (std::uint32_t by = low[1] / kSide; by <= high[1] / kSide; ++by) {
       for (std::uint32_t bx = low[0] / kSide; bx <= high[0] / kSide; ++bx) {
         const std::uint32_t state = state_of({bx, by, bz});
-        if (state == kEverywhere) continue;
+        if (state == kWholeSpace) continue;
         if (state < kFirstKept) return false;
         const Layers& inside = kept_[state - kFirstKept];
         const auto first = [](std::uint32_t from, std::uint32_t block) {
@@ -283,8 +283,8 @@ bool InsideCells::continues(const Layers& part, const Place& block) const {
     other[axis] += to;
     if (other[axis] >= blocks_[axis]) return false;
     const std::uint32_t state = states_[number_of(other)].load(std::memory_order_acquire);
-    if (state < kEverywhere) return false;
-    const Layers& inside = state == kEverywhere ? kFull : kept_[state - kFirstKept];
+    if (state < kWholeSpace) return false;
+    const Layers& inside = state == kWholeSpace ? kFull : kept_[state - kFirstKept];
     std::uint64_t shared = 0;
     for (std::size_t z = 0; z < kSide; ++z) shared |= part[z] & beside(inside, z);
     return shared != 0;
@@ -302,7 +302,7 @@ std::uint32_t InsideCells::keep(const Layers& inside) const {
   std::uint64_t any = 0, all = kAll;
   for (const std::uint64_t layer : inside) any |= layer, all &= layer;
   if (any == 0) return kNowhere;
-  if (~all == 0) return kEverywhere;
+  if (~all == 0) return kWholeSpace;
   const std::uint32_t number = kept_count_.fetch_add(1);
   if (number >= most_kept_) return kNowhere;
   kept_[number] = inside;

@@ -49,7 +49,7 @@ std::optional<Bounds3d> bounds_ahead(const std::string& path) {
   return told;
 }
 
-/// The same, of a file whose vertices are all used. Returns whether bounds were told.
+/// Checks the same for a file whose vertices are all used. Returns whether bounds were told.
 bool check_ahead(const std::string& path) {
   const std::optional<Bounds3d> told = bounds_ahead(path);
   if (told) CHECK(*told == box_of(read_all(path)));
