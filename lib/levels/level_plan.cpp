@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "lib/levels/level_tiles.h"
+#include "lib/levels/tiles/level_tiles.h"
 #include "lib/levels/voxel_choice.h"
 #include "lib/volume/boundary_runs.h"
 #include "lib/volume/reduce.h"

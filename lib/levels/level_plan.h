@@ -1,5 +1,5 @@
 #pragma once
-#include "lib/levels/tile_plan.h"
+#include "lib/levels/tiles/tile_plan.h"
 
 /// What a run will make, as far as the triangles of the scene tell: nothing here needs a voxel.
 namespace bp {

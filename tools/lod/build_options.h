@@ -4,7 +4,7 @@
 
 #include "io/mesh/lod_writer.h"
 #include "lib/hulls/convex_parts.h"
-#include "lib/levels/tile_plan.h"
+#include "lib/levels/tiles/tile_plan.h"
 #include "tools/cli/common_options.h"
 #include "tools/cli/options/closing.h"
 #include "tools/cli/options/levels.h"

@@ -13,7 +13,7 @@
 #include "lib/core/parallel.h"
 #include "lib/levels/level_plan.h"
 #include "lib/levels/occluder_level.h"
-#include "lib/levels/tile_plan.h"
+#include "lib/levels/tiles/tile_plan.h"
 #include "tools/lod/bake_levels.h"
 #include "tools/lod/build.h"
 #include "tools/lod/choices.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "lib/core/vec3.h"
-#include "lib/levels/tile_plan.h"
+#include "lib/levels/tiles/tile_plan.h"
 
 namespace bp {
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "lib/levels/level_tiles.h"
+#include "lib/levels/tiles/level_tiles.h"
 #include "lib/volume/boundary_runs.h"
 
 namespace bp {

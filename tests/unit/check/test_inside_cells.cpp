@@ -94,7 +94,8 @@ bool is_enclosed(const Surface& surface, const TriangleD& t) {
   return surface.touched_by(t) == Surface::kNone && surface.winding(t[0]) >= 1;
 }
 
-/// All that a box holds is asked about: nothing crosses its sides, it holds no corner, and a corner of it is inside.
+/// A box is asked about with all that it holds: nothing crosses its sides, it holds no corner, and a corner of it is
+/// inside.
 bool is_enclosed(const Surface& surface, const IndexedMesh& proxy, const Bounds3d& b) {
   for (const TriangleD& side : triangles_of(box(b.min, b.max))) {
     if (!is_enclosed(surface, side)) return false;

@@ -1,5 +1,5 @@
 #include "lib/device/cpu/cpu_backend.h"
-#include "lib/levels/tile_pyramid.h"
+#include "lib/levels/tiles/tile_pyramid.h"
 #include "tests/catch.h"
 #include "tests/support/memory_results.h"
 #include "tests/support/voxelized.h"

@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "lib/levels/level_request.h"
-#include "lib/levels/tile_plan.h"
+#include "lib/levels/tiles/tile_plan.h"
 #include "lib/pass/voxelize/voxelize_pass.h"
 #include "tests/catch.h"
 #include "tests/support/memory_scene.h"

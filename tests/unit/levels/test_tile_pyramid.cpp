@@ -5,7 +5,7 @@
 #include "lib/check/detail/surface.h"
 #include "lib/check/tile_cover.h"
 #include "lib/core/parallel.h"
-#include "lib/levels/tile_pyramid.h"
+#include "lib/levels/tiles/tile_pyramid.h"
 #include "lib/pass/mesh/surface_around.h"
 #include "tests/catch.h"
 #include "tests/support/each_member.h"

@@ -1,8 +1,8 @@
 #pragma once
 #include <string>
 
-#include "lib/levels/tile_plan.h"
-#include "lib/levels/tile_pyramid.h"
+#include "lib/levels/tiles/tile_plan.h"
+#include "lib/levels/tiles/tile_pyramid.h"
 #include "lib/pass/color/scene_colors.h"
 #include "lib/tileset/tile_tree.h"
 

@@ -1,4 +1,4 @@
-#include "lib/levels/tile_plan.h"
+#include "lib/levels/tiles/tile_plan.h"
 
 #include <algorithm>
 

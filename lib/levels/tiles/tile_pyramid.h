@@ -1,7 +1,7 @@
 #pragma once
 #include "lib/device/backend.h"
-#include "lib/levels/level_tiles.h"
-#include "lib/levels/tile_plan.h"
+#include "lib/levels/tiles/level_tiles.h"
+#include "lib/levels/tiles/tile_plan.h"
 #include "lib/pass/close/cell_closing.h"
 #include "lib/pass/context.h"
 

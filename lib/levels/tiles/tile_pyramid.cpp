@@ -1,4 +1,4 @@
-#include "lib/levels/tile_pyramid.h"
+#include "lib/levels/tiles/tile_pyramid.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "lib/levels/cut_levels.h"
+#include "lib/levels/tiles/cut_levels.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "lib/levels/level_tiles.h"
+#include "lib/levels/tiles/level_tiles.h"
 
 #include <algorithm>
 #include <mutex>
