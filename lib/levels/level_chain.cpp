@@ -145,7 +145,8 @@ std::optional<LodLevel> LevelSequence::closed_as(const LodLevel& next, LodTarget
 }
 
 /// Where a level is farther off than the next one, which has fewer faces, it gives way to one with the closing of that
-/// if it is nearer; else it is left out unless it has the lower price, since it holds less.
+/// if it is at least as near as the next one, for no higher price; else it is left out unless it has the lower price,
+/// since it holds less.
 void LevelSequence::keep_front() {
   std::vector<MadeLevel>& levels = made_.levels;
   for (std::size_t i = levels.size(); i-- > 1;) {

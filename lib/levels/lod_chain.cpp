@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <span>
 #include <utility>
 
 #include "lib/core/error.h"
@@ -12,14 +13,16 @@ namespace bp {
 
 namespace {
 
-constexpr std::size_t kMostAtOnce = 4;  // levels
+// Levels at once, at most: the default list has four, and each level keeps about four threads busy.
+constexpr std::size_t kMostAtOnce = 4;
 
-/// For one of n levels at work; the progress is that of all.
+/// For one of n levels at work. A refusal within a share is not counted out: the level is made alone then.
 PassContext share_of(const PassContext& all, std::uint64_t n) {
   PassContext one = all;
   one.memory.bytes /= n;
-  one.memory.share /= double(n);
+  one.memory.limit = {};
   one.pieces = all.pieces.split(n);
+  one.pieces.limit = {};
   one.progress = {};
   return one;
 }
@@ -32,60 +35,76 @@ struct LodChain::State {
 
   std::vector<LodLevel> make(const std::vector<LodTarget>& targets) {
     std::vector<LodLevel> levels(targets.size());
-    if (targets.empty()) return levels;
     std::size_t first = 0;
-    if (!start) {  // the first level leaves one
-      begin(targets);
-      LevelSearch search(scene, scene.context(), targets[0], start_for(targets[0]));
-      levels[first++] = search.make();
-      if (search.start()) start = std::move(search.start());
+    if (!std::exchange(is_begun, true)) {
+      if (any_may_follow(targets)) begin_with(scene.own_surface());
+      if (targets.size() == 1 || any_may_follow(std::span(targets).subspan(1))) {  // it leaves what these begin from
+        LevelSearch search(scene, scene.context(), targets[0], start_for(targets[0]));
+        levels[first++] = search.make();
+        if (search.start()) begin_with(std::move(search.start()));
+      }
     }
-    make_at_once(first, targets.size(), [&](std::size_t i, const PassContext& context) {
-      levels[i] = LevelSearch(scene, context, targets[i], start_for(targets[i])).make();
-    });
+    make_at_once(targets, first, levels);
     return levels;
   }
 
   LevelScene scene;
 
  private:
-  void begin(const std::vector<LodTarget>& targets) {
-    const auto asks = [&](const LodTarget& target) { return may_follow(scene, target); };
-    if (std::any_of(targets.begin(), targets.end(), asks)) start = scene.own_surface();
+  [[nodiscard]] bool any_may_follow(std::span<const LodTarget> targets) const {
+    return std::any_of(targets.begin(), targets.end(), [&](const LodTarget& t) { return may_follow(scene, t); });
+  }
+
+  void begin_with(std::optional<LevelStart> found) {
+    start = std::move(found);
+    if (start)
+      scene.take_off(start->mesh.vertices.size() * sizeof(LatticeCoord) +
+                     start->mesh.triangles.size() * sizeof(Triangle));
   }
 
   [[nodiscard]] const LevelStart* start_for(const LodTarget& target) const {
     return start && follows_from(scene, target, *start) ? &*start : nullptr;
   }
 
-  /// make(i, context) for [first, end), several at the same time, each with its share of the memory. Those whose share
-  /// does not suffice follow one by one, with all of it.
-  template <class Make>
-  void make_at_once(std::size_t first, std::size_t end, const Make& make) {
-    const std::size_t n = std::min({end - first, kMostAtOnce, std::size_t(thread_count())});
-    std::vector<std::size_t> alone;
+  [[nodiscard]] LodLevel made(const LodTarget& target, const PassContext& context) {
+    return LevelSearch(scene, context, target, start_for(target)).make();
+  }
+
+  /// As many levels as the memory surely holds, beside each other.
+  [[nodiscard]] std::size_t most_at_once() const {
+    const std::uint64_t each = scene.bytes_of_level(start ? start->mesh.triangles.size() : 0);
+    const std::uint64_t fitting = scene.context().pieces.bytes() / std::max<std::uint64_t>(each, 1);
+    return std::clamp<std::size_t>(fitting, 1, std::min(kMostAtOnce, std::size_t(thread_count())));
+  }
+
+  /// From `first` on, several at the same time, each with its share of the memory. Those whose share does not suffice
+  /// after all follow one by one, with all of it.
+  void make_at_once(const std::vector<LodTarget>& targets, std::size_t first, std::vector<LodLevel>& levels) {
+    std::vector<char> is_made(targets.size());
+    const std::size_t n = std::min(targets.size() - first, most_at_once());
     if (n > 1) {
       const PassContext share = share_of(scene.context(), n);
       std::mutex mutex;
-      std::size_t next = first;
+      std::size_t next = first, done = first;
       run_jobs<std::size_t>(
-          int(n), [&](std::size_t& i) { return (i = next++) < end; },
+          int(n), [&](std::size_t& i) { return (i = next++) < targets.size(); },
           [&](std::size_t& i) {
             try {
-              make(i, share);
-            } catch (const Error& e) {
-              if (e.code() != ErrorCode::out_of_resource) throw;
-              const std::lock_guard lock(mutex);
-              alone.push_back(i);
+              levels[i] = made(targets[i], share);
+            } catch (const NeedsMemory&) {
+              return;
             }
+            const std::lock_guard lock(mutex);
+            is_made[i] = 1;
+            scene.context().report("meshing", "levels", ++done, targets.size());
           });
-      std::sort(alone.begin(), alone.end());
-    } else {
-      for (std::size_t i = first; i < end; ++i) alone.push_back(i);
     }
-    for (const std::size_t i : alone) make(i, scene.context());
+    for (std::size_t i = first; i < targets.size(); ++i) {
+      if (is_made[i] == 0) levels[i] = made(targets[i], scene.context());
+    }
   }
 
+  bool is_begun = false;
   std::optional<LevelStart> start;  // of the levels whose faces suffice for it
 };
 

@@ -30,7 +30,7 @@ class LodChain {
   ///   - of a bounding level, the scene's box, prism or hull (detail/convex_levels.h); nothing else is proposed where
   ///     one of these is exact;
   ///   - a mesh around the scene with fewer faces, where these are 50 for each of its parts and holes: the surface of a
-  ///     scene that is a closed one, of the first level; what is left halfway of the first level, of others;
+  ///     scene that is a closed one, for the first level; the mesh that the first level was halfway, for others;
   ///   - else closings: at the least scale, from an eighth of first_scale() on (a half in a fit), that leaves each part
   ///     and hole so many faces, or at first_scale(). Where parts and holes take more faces than there are, twice the
   ///     scale is tried, on coarser voxels where the budget allows, until there are enough or the scale is half the

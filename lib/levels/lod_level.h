@@ -18,7 +18,7 @@ namespace bp {
 struct LodTarget {
   std::uint64_t faces = 0;            ///< 0: none
   double error_world = 0;             ///< largest distance of a point of the level to the scene, scene units; 0: none
-  std::optional<double> scale_world;  ///< closing radius to begin with, scene units; never below the level before's
+  std::optional<double> scale_world;  ///< closing radius to begin with, scene units; at least the chain's least scale
   bool keep_voxels = false;           ///< they are not doubled for this level: somebody named them
 };
 
@@ -37,10 +37,10 @@ struct LodGround {
   std::int64_t longest_side_vox = 0;  ///< of the solid
 };
 
-/// The scale, scene units, before it is halved, at least `last`, that of the level before.
-[[nodiscard]] double first_scale(const LodGround& ground, const LodTarget& target, double last);
-/// How often the voxels are doubled: while the target leaves enough of them, and the scale is not below one. At least
-/// `before` times.
+/// Returns the scale of the target's own budget or error, scene units, and at least `least`.
+[[nodiscard]] double first_scale(const LodGround& ground, const LodTarget& target, double least);
+/// Returns how often the voxels are doubled: while the target leaves enough of them, and the scale is not below one. At
+/// least `before` times: the number at a smaller scale of the same level.
 [[nodiscard]] int reductions_for(const LodGround& ground, const LodTarget& target, double scale, int before);
 /// The finest scale that the voxels of a level of `scale` have to tell; `field`: as in LodOptions.
 [[nodiscard]] double finest_scale(const std::optional<ScalePlan>& field, double scale);

@@ -205,6 +205,7 @@ TightProxy tight_from(const TightProxy& grown, const Enclosed& enclosed, const S
   other.simplified.add(counts);
   if (other.mesh.triangles.size() >= proxy.mesh.triangles.size()) return proxy;
   other = Steps(std::move(other), enclosed, params).finish();
+  other.halfway = proxy.halfway;
   return is_above_target(other.mesh, params) && price(other) > price(proxy) ? proxy : other;
 }
 

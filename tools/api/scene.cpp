@@ -73,19 +73,21 @@ void bp_arrays_defaults(bp_arrays* arrays, size_t size) {
 
 bp_status bp_scene_from_arrays(const bp_arrays* arrays, const char* name, bp_scene** out) {
   return guarded([&] {
+    bp_scene*& made = needed(out, "the result");
     bp_arrays defaults{};
     defaults.triangle_type = BP_UINT32;
     auto scene = std::make_shared<Scene>();
     scene->name = name == nullptr ? "the scene" : name;
     scene->arrays.emplace(take_struct(&needed(arrays, "arrays"), defaults, "bp_arrays"));
-    needed(out, "the result") = new bp_scene{std::move(scene)};
+    made = new bp_scene{std::move(scene)};
   });
 }
 
 bp_status bp_scene_from_files(const char* const* paths, size_t count, const char* format, bp_scene** out) {
   return guarded([&] {
+    bp_scene*& made = needed(out, "the result");
     auto scene = std::make_shared<const Scene>(scene_of_files(paths, count, format));
-    needed(out, "the result") = new bp_scene{std::move(scene)};
+    made = new bp_scene{std::move(scene)};
   });
 }
 

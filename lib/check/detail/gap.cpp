@@ -122,6 +122,8 @@ double gap_within(const TriangleD& t, const TriangleBvh& surface, double most) {
 
 namespace {
 
+constexpr double kGapRounding = 0x1p-40;  // of sizes and coordinates; keeps_gap() errs by some 1e-14 of these
+
 struct ClearanceBatch {
   std::uint64_t first = 0;
   std::vector<TriangleD> triangles;
@@ -131,7 +133,12 @@ struct ClearanceBatch {
 /// Adds the triangle to `found` unless it keeps the distance.
 void look_at(const WeldedMesh& mesh, const Surface& surface, const InsideCells* cells, std::uint64_t number,
              const TriangleD& t, double distance, std::size_t max_examples, Finding& found) {
-  if (distance == 0 || (cells != nullptr && cells->hold(box_around(t, distance)))) return;
+  if (distance == 0) return;
+  // keeps_gap() decides nothing within its own rounding beyond the distance: the cells must not decide there, either.
+  const Bounds3d near = box_around(t, distance);
+  double far = surface.bounds().diagonal() + near.diagonal();
+  for (std::size_t i = 0; i < 3; ++i) far = std::max({far, std::abs(near.min[i]), std::abs(near.max[i])});
+  if (cells != nullptr && cells->hold(box_around(t, distance + kGapRounding * far))) return;
   const GapAnswer gap = keeps_gap(t, surface.bvh(), distance);
   if (gap.answer != Answer::proven) found.add({number, mesh.number[surface.triangle(gap.item)], t[0]}, max_examples);
 }

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "lib/core/parallel.h"
+#include "lib/enclosed/enclosed_triangles.h"
 #include "lib/pass/mesh/mesh_measures.h"
 #include "lib/pass/mesh/outward_scene.h"
 #include "lib/pass/mesh/scene_check.h"
@@ -38,6 +39,13 @@ void LevelScene::take_off(std::uint64_t bytes) {
 std::uint64_t LevelScene::all_steps_limit() {
   const LevelVoxels::Solid& solid = voxels_.reduced(0);
   return chain_limit(solid.header, *solid.shelf, options_, all_, options_.scene.size());
+}
+
+std::uint64_t LevelScene::bytes_of_level(std::uint64_t faces) const {
+  constexpr std::uint64_t kBytesPerFace = 256, kBytesOfFit = 400;
+  const std::uint64_t triangles = has_triangles() ? options_.scene.size() : 0;
+  const std::uint64_t each = is_bounding() ? EnclosedTriangles::kBytesEach : kBytesOfFit;
+  return faces * kBytesPerFace + triangles * each + ruler_->bytes_of_measure();
 }
 
 LodGround LevelScene::ground() const {

@@ -51,11 +51,16 @@ class LevelScene {
   /// time share them.
   [[nodiscard]] std::shared_ptr<const Enclosed> enclosed(const LevelVoxels::Solid& solid);
 
+  /// Takes bytes off the memory that levels have.
+  void take_off(std::uint64_t bytes);
+  /// Returns about the most bytes that a level takes which begins with a mesh of so many faces, or with a closing (0):
+  /// the mesh, the triangles that stay inside or that a fit follows, and the measure of its error (docs/levels.md).
+  [[nodiscard]] std::uint64_t bytes_of_level(std::uint64_t faces) const;
+
   /// The scene's surface as a start, if it bounds a solid, and is smaller than that of the voxels.
   [[nodiscard]] std::optional<LevelStart> own_surface();
 
  private:
-  void take_off(std::uint64_t bytes);
   [[nodiscard]] std::uint64_t all_steps_limit();
 
   LodOptions options_;

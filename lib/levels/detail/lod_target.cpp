@@ -23,13 +23,12 @@ double edge_of(const LodGround& ground, std::uint64_t faces) {
 
 }  // namespace
 
-double first_scale(const LodGround& ground, const LodTarget& target, double last) {
-  if (target.scale_world) return std::max(*target.scale_world, last);
+double first_scale(const LodGround& ground, const LodTarget& target, double least) {
+  if (target.scale_world) return std::max(*target.scale_world, least);
   double scale = ground.diagonal;
   if (target.faces > 0) scale = std::min(scale, edge_of(ground, target.faces) / kScalesPerEdge);
   if (target.error_world > 0) scale = std::min(scale, target.error_world / kScalesPerError);
-  // Never below the level before: a coarser level closes at least as much.
-  return std::max({scale, last, kLeastScaleVox * ground.voxel});
+  return std::max({scale, least, kLeastScaleVox * ground.voxel});
 }
 
 int reductions_for(const LodGround& ground, const LodTarget& target, double scale, int before) {

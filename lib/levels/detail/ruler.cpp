@@ -87,6 +87,12 @@ std::uint64_t Ruler::bytes() const {
          segments_.capacity() * sizeof(TriangleD) + kept_segments_.bytes() + scene_.bytes();
 }
 
+std::uint64_t Ruler::bytes_of_measure() const {
+  const std::uint64_t segments = segments_.empty() ? segment_bytes(runs_.size()) : 0;
+  const bool has_tree = triangles_ == nullptr || scene_.bytes() > 0;
+  return segments + (has_tree ? 0 : TriangleBvh::bytes_needed(triangles_->size()));
+}
+
 template <class Use>
 decltype(auto) Ruler::with_segments(Use&& use) const {
   return segments_.empty() ? use(segments_of(runs_, frame_)) : use(segments_);

@@ -45,6 +45,9 @@ class Ruler {
   /// What the ruler takes of the memory while it lives.
   [[nodiscard]] std::uint64_t bytes() const;
 
+  /// Returns what one measurement takes, beside the mesh, where trees are not kept.
+  [[nodiscard]] std::uint64_t bytes_of_measure() const;
+
   /// LodLevel::error_world of a mesh; nothing if it surely exceeds `limit`. Around triangles that is found early; else
   /// all is measured.
   [[nodiscard]] std::optional<double> error(const LatticeMesh& mesh, double limit) const;

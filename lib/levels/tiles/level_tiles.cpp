@@ -34,7 +34,8 @@ bool unpack_tile(std::string_view bytes, LevelTile& tile) {
 /// Of the voxels of a tile, four times: leave_out_fringes().
 std::uint64_t voxel_bytes(const Cells& cells) {
   const auto edge = std::uint64_t(cells.edge_vox);
-  return 4 * (edge + 2 * kBrickEdge) * (edge + 2) * (edge + 2) / 8 + kBytesPerTile;
+  constexpr std::uint64_t brick = kBrickEdge;
+  return 4 * (edge + 2 * brick) * (edge + 2) * (edge + 2) / 8 + kBytesPerTile;
 }
 
 /// A cell with something to mesh.

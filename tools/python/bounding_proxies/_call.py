@@ -83,7 +83,7 @@ class _Job:
     def tell(self, progress):
         """Tells of the passes since it was last called, in their order."""
         latest, self.latest = self.latest, {}
-        for name, (done, total) in latest.items():
+        for name, (done, total) in list(latest.items()):  # _hear() may still add to it
             if progress(name, done, total):
                 lib().bp_stop_set(self.stop)
 

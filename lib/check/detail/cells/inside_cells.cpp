@@ -200,7 +200,7 @@ bool InsideCells::hold(const Bounds3d& box) const {
   Place low, high;
   for (std::size_t i = 0; i < 3; ++i) {
     const double from = box.min[i] * per_edge_ - first_[i], to = box.max[i] * per_edge_ - first_[i];
-    if (!(from >= 0 && to < double(cells_[i]))) return false;
+    if (!(from >= 0 && from <= to && to < double(cells_[i]))) return false;
     low[i] = std::uint32_t(from), high[i] = std::uint32_t(to);
     // Whatever was rounded: these cells hold the box.
     if (!(plane(i, low[i]) <= box.min[i] && box.max[i] <= plane(i, high[i] + 1))) return false;
