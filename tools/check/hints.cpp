@@ -140,8 +140,10 @@ std::string rounding_hint(const std::string& scene, const std::string& proxy,
   });
   if (!is_open) return "";
   return fmt::format(
-      "{} may stick out by what reading has rounded: write the scene as PLY, OBJ, COLLADA or AC3D, which are read in "
-      "double, and make a proxy of that; or make one that keeps a distance (bplod --profile cage --margin)",
+      "{} may stick out by what reading has rounded: write the scene as PLY or OBJ with all transforms applied, which "
+      "is "
+      "read in double as it is, and make a proxy of that; or make one that keeps a distance (bplod --profile cage "
+      "--margin)",
       scene);
 }
 

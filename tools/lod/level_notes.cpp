@@ -31,12 +31,13 @@ std::string faces_note(const LevelFacts& level, bool asked, std::uint64_t triang
   const std::uint64_t budget = level.target.faces;
   FaceAdvice advice;
   advice.exact = level.error_world < kExactVox * level.voxel;
+  if (level.scale_world < level.voxel) advice.scale.clear();  // nothing is closed by less
   if (asked && level.reached && level.faces >= triangles && clearly_fewer(level.faces, budget))
     return fmt::format(
         "{} faces instead of {}: the scene has {}{}", level.faces, budget, counted(triangles, "triangle"),
-        advice.exact
-            ? ""
-            : ", and more faces would show steps of voxels; smaller voxels, or a smaller --scale, come nearer");
+        advice.exact ? ""
+                     : fmt::format(", and more faces would show steps of voxels; smaller voxels{} come nearer",
+                                   advice.scale.empty() ? "" : ", or a smaller --scale,"));
   if (!level.reached)
     return fmt::format("{} faces instead of {}, even closed at {:.4g}: no further edge can be merged", level.faces,
                        budget, level.scale_world);
@@ -103,7 +104,7 @@ std::string left_out_note(const LeftOut& level, double diagonal) {
     why = fmt::format("with an error of {:.4g} it would hardly be nearer than the next one, which has {} faces",
                       level.error_world, level.faces_after);
   } else if (level.volume_ratio > 0) {
-    why = fmt::format("it would hold {:.1f} times the volume of the one before; --levels asks for it all the same",
+    why = fmt::format("it would hold {:.1f} times the volume of the one before; --levels asks for them all the same",
                       level.volume_ratio);
   } else if (level.faces >= level.faces_before) {
     why = fmt::format("it would have {} faces, and the one before it has {}", level.faces, level.faces_before);
@@ -111,7 +112,8 @@ std::string left_out_note(const LeftOut& level, double diagonal) {
     why = fmt::format("its error would be {:.4g}, more than the diagonal of the scene, {:.4g}", level.error_world,
                       diagonal);
   }
-  return fmt::format("the level of {} is left out: {}", name, why);
+  return fmt::format("the level of {}{} left out: {}", name, level.volume_ratio > 0 ? ", and all after it, are" : " is",
+                     why);
 }
 
 std::string origin_note(const BuildOptions& o, const StreamHeader& header) {
