@@ -77,6 +77,24 @@ class RawSource {
 };
 using RawSourcePtr = std::unique_ptr<RawSource>;
 
+/// Base of formats that are read in two steps, next() and complete().
+class TwoStepSource : public RawSource {
+ public:
+  bool read(std::vector<TriangleD>& out) final {
+    bool more;
+    do {  // a batch may hold bad faces only
+      more = next(one_);
+      complete(one_);
+      bad_faces_ += one_.bad_faces;
+      out.swap(one_.triangles);
+    } while (more && out.empty());
+    return more;
+  }
+
+ private:
+  RawBatch one_;
+};
+
 /// Cuts a polygon into triangles, by the positions of its corners or by their number alone. Holds the polygon that was
 /// cut last.
 class FaceTriangles {

@@ -20,7 +20,7 @@ constexpr std::size_t kHeaderBytes = 84, kTriangleBytes = 50;
 
 static_assert(std::endian::native == std::endian::little, "binary STL is decoded in place");
 
-class BinaryStl final : public RawSource {
+class BinaryStl final : public TwoStepSource {
  public:
   BinaryStl(SceneFilePtr file, std::uint64_t triangles) : file_(std::move(file)), triangles_(triangles) {
     const std::uint64_t room = (file_->size() - kHeaderBytes) / kTriangleBytes;
@@ -32,12 +32,6 @@ class BinaryStl final : public RawSource {
       fail(ErrorCode::bad_input, "{}: promises {} triangles, but has room for {}; the file is truncated", file_->name(),
            triangles, room);
     }
-  }
-  bool read(std::vector<TriangleD>& out) override {
-    const bool more = next(one_);
-    complete(one_);
-    out.swap(one_.triangles);
-    return more;
   }
   bool next(RawBatch& batch) override {
     batch.bad_faces = 0;
@@ -86,7 +80,6 @@ class BinaryStl final : public RawSource {
   const SceneFilePtr file_;
   const std::uint64_t triangles_;
   std::uint64_t next_ = 0;
-  RawBatch one_;
 };
 
 class AsciiStl final : public RawSource {

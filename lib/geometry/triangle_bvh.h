@@ -77,6 +77,10 @@ class TriangleBvh {
 
   /// Returns an upper bound of the bytes of a hierarchy over n triangles, the build included.
   [[nodiscard]] static std::uint64_t bytes_needed(std::uint64_t n);
+  /// Returns the sum of these and of the bytes of the triangles.
+  [[nodiscard]] static std::uint64_t bytes_with_triangles(std::uint64_t n) {
+    return n * sizeof(TriangleD) + bytes_needed(n);
+  }
 
  private:
   static constexpr int kLeaf = 4;    // triangles in a leaf, at most

@@ -39,9 +39,9 @@ struct LodChain::State {
     if (!std::exchange(is_begun, true)) {
       if (any_may_follow(targets)) begin_with(scene.own_surface());
       if (targets.size() == 1 || any_may_follow(std::span(targets).subspan(1))) {  // it leaves what these begin from
-        LevelSearch search(scene, scene.context(), targets[0], start_for(targets[0]));
-        levels[first++] = search.make();
-        if (search.start()) begin_with(std::move(search.start()));
+        std::optional<LevelStart> left;
+        levels[first++] = LevelSearch(scene, scene.context(), targets[0], start_for(targets[0])).make(&left);
+        if (left) begin_with(std::move(left));
       }
     }
     make_at_once(targets, first, levels);
@@ -70,7 +70,7 @@ struct LodChain::State {
     return LevelSearch(scene, context, target, start_for(target)).make();
   }
 
-  /// As many levels as the memory surely holds, beside each other.
+  /// Returns how many levels the memory surely holds beside each other.
   [[nodiscard]] std::size_t most_at_once() const {
     const std::uint64_t each = scene.bytes_of_level(start ? start->mesh.triangles.size() : 0);
     const std::uint64_t fitting = scene.context().pieces.bytes() / std::max<std::uint64_t>(each, 1);
@@ -123,9 +123,7 @@ std::int64_t LodChain::longest_side_vox() const {
 }
 
 std::vector<LodLevel> LodChain::make(const std::vector<LodTarget>& targets) {
-  std::vector<LodLevel> levels;
-  state_->scene.naming_all([&] { levels = state_->make(targets); });
-  return levels;
+  return naming_limit([&] { return state_->make(targets); }, [&] { return state_->scene.all_steps_limit(); });
 }
 
 }  // namespace bp

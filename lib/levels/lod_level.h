@@ -45,6 +45,9 @@ struct LodGround {
 /// The finest scale that the voxels of a level of `scale` have to tell; `field`: as in LodOptions.
 [[nodiscard]] double finest_scale(const std::optional<ScalePlan>& field, double scale);
 
+/// Bytes of each triangle of the scene that a fit follows: twice, and a hierarchy over them.
+constexpr std::uint64_t kBytesOfFit = 400;
+
 struct LodOptions {
   ClosingParams closing;
   MeshMode mode = MeshMode::bounding;  ///< bounding or fit

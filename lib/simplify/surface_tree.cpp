@@ -26,7 +26,6 @@ constexpr double kNearlyAll = 0.95;  // cells are joined only after a round that
 constexpr double kBoundPerLevel = 16;
 constexpr std::int64_t kBrickLattice = std::int64_t(kBrickEdge) * kLatticePerVoxel;
 constexpr std::uint64_t kLargeCell = std::uint64_t(1) << 17;  // faces: few cells grow beyond that
-constexpr std::uint64_t kWorkPerFace = 256;  // bytes: the piece, its half-edges, quadrics, boxes and their tree
 
 /// Calls body(i) for i in [0, n), with at most `in_flight` calls begun and not ended.
 template <class Body>

@@ -10,6 +10,9 @@
 /// A store for the pieces of a surface that wait until the cell around them is made.
 namespace bp {
 
+/// Bytes of each triangle while a surface is simplified: the piece, its half-edges, quadrics, boxes and their tree.
+constexpr std::uint64_t kWorkPerFace = 256;
+
 /// Memory that simplifying a surface takes.
 struct SurfaceWork {
   std::uint64_t whole_bytes = 0;  ///< in all

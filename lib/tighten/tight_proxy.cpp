@@ -40,7 +40,8 @@ class Steps {
   Steps(TightProxy grown, const Enclosed& enclosed, const SimplifyParams& params)
       : proxy_(std::move(grown)), enclosed_(enclosed), params_(params) {}
 
-  TightProxy run() {
+  /// halfway: as tight_proxy() has it.
+  TightProxy run(LatticeMesh* halfway) {
     if (params_.limits != nullptr) {
       relax();
     } else if (params_.faces > 0) {
@@ -48,7 +49,7 @@ class Steps {
       pause();
     }
     if (params_.faces > 0 || params_.limits != nullptr) collapse_by_error(by_error_to());
-    if (by_volume(params_)) proxy_.halfway = proxy_.mesh;
+    if (halfway != nullptr && by_volume(params_)) *halfway = proxy_.mesh;
     return finish();
   }
 
@@ -193,9 +194,10 @@ double price(const TightProxy& proxy) {
 
 /// All that follows (1). Few tight faces may jam where growing goes on. That way is taken if it leads further, and to
 /// the end or for a lower price.
-TightProxy tight_from(const TightProxy& grown, const Enclosed& enclosed, const SimplifyParams& params) {
+TightProxy tight_from(const TightProxy& grown, const Enclosed& enclosed, const SimplifyParams& params,
+                      LatticeMesh* halfway) {
   if (grown.mesh.triangles.empty()) return grown;
-  TightProxy proxy = Steps(grown, enclosed, params).run();
+  TightProxy proxy = Steps(grown, enclosed, params).run(halfway);
   if (!is_above_target(proxy.mesh, params) || proxy.mesh.triangles.size() > kSmall) return proxy;
   TightProxy other = grown;
   SimplifyParams on = params;
@@ -205,21 +207,23 @@ TightProxy tight_from(const TightProxy& grown, const Enclosed& enclosed, const S
   other.simplified.add(counts);
   if (other.mesh.triangles.size() >= proxy.mesh.triangles.size()) return proxy;
   other = Steps(std::move(other), enclosed, params).finish();
-  other.halfway = proxy.halfway;
   return is_above_target(other.mesh, params) && price(other) > price(proxy) ? proxy : other;
 }
 
 /// Where the surface of the voxels has few faces for each that is wanted, many of the proxy's may be steps of voxels,
 /// which tightening does not take away. Half or a third of the surface's do, and are used if they leave less volume.
-TightProxy least_from(const TightProxy& grown, const Enclosed& enclosed, const SimplifyParams& params) {
-  TightProxy proxy = tight_from(grown, enclosed, params);
+TightProxy least_from(const TightProxy& grown, const Enclosed& enclosed, const SimplifyParams& params,
+                      LatticeMesh* halfway) {
+  TightProxy proxy = tight_from(grown, enclosed, params, halfway);
   if (!by_volume(params)) return proxy;
   for (const std::uint64_t parts : {2, 3}) {
     SimplifyParams fewer = params;
     fewer.faces = grown.mesh.triangles.size() / parts;
     if (fewer.faces >= params.faces || fewer.faces < kFewFaces) continue;
-    TightProxy other = tight_from(grown, enclosed, fewer);
+    LatticeMesh halfway_of_other;
+    TightProxy other = tight_from(grown, enclosed, fewer, halfway != nullptr ? &halfway_of_other : nullptr);
     if (other.tightened.volume_after >= proxy.tightened.volume_after) continue;
+    if (halfway != nullptr) *halfway = std::move(halfway_of_other);
     other.simplified.stop = StopReason::least_volume;
     proxy = std::move(other);
   }
@@ -271,7 +275,7 @@ SimplifyParams growing_part_of(const SimplifyParams& params) {
 }
 
 TightProxy tight_proxy(const SurfaceSource& dense, const GridFrame& frame, const Enclosed& enclosed,
-                       const SimplifyParams& params) {
+                       const SimplifyParams& params, LatticeMesh* halfway) {
   const Refining refining(dense.frame(), frame);
   SimplifyParams growing = growing_part_of(params);
   growing.room = refining.before(params.room);
@@ -279,13 +283,14 @@ TightProxy tight_proxy(const SurfaceSource& dense, const GridFrame& frame, const
   grown.mesh = simplify(dense, growing, grown.simplified);
   grown.mesh.frame = frame;
   for (LatticeCoord& p : grown.mesh.vertices) p = refining.after(p);
-  return least_from(grown, enclosed, params);
+  return least_from(grown, enclosed, params, halfway);
 }
 
-TightProxy tight_proxy(const LatticeMesh& mesh, const Enclosed& enclosed, const SimplifyParams& params) {
+TightProxy tight_proxy(const LatticeMesh& mesh, const Enclosed& enclosed, const SimplifyParams& params,
+                       LatticeMesh* halfway) {
   TightProxy grown;
   grown.mesh = simplify(mesh, growing_part_of(params), grown.simplified);
-  TightProxy proxy = tight_from(grown, enclosed, params);
+  TightProxy proxy = tight_from(grown, enclosed, params, halfway);
   proxy.mesh.provenance = mesh.provenance;
   return proxy;
 }

@@ -13,22 +13,23 @@ struct TightProxy {
   LatticeMesh mesh;
   SimplifyCounts simplified;
   TightenCounts tightened;
-  LatticeMesh halfway;  ///< what was left when collapses by error had ended: coarser proxies may begin from it
 };
 
 /// `dense`: a dense surface of repaired voxels. Growing collapses to a few times the target, tightening, then collapses
 /// that only keep `enclosed` inside, tightening again: growth that a coarse face could not take back is never made
 /// (docs/decisions/0003-order-of-steps.md). The result is in `frame`, the one of `enclosed` and `params`. The voxels of
-/// `dense` are as large, or 2, 4, 8 ... times larger.
+/// `dense` are as large, or 2, 4, 8 ... times larger. `halfway` receives what was left when collapses by error had
+/// ended, and those by volume began: coarser proxies may begin from it. Null: nobody asks.
 [[nodiscard]] TightProxy tight_proxy(const SurfaceSource& dense, const GridFrame& frame, const Enclosed& enclosed,
-                                     const SimplifyParams& params);
+                                     const SimplifyParams& params, LatticeMesh* halfway = nullptr);
 [[nodiscard]] inline TightProxy tight_proxy(const SurfaceSource& dense, const Enclosed& enclosed,
                                             const SimplifyParams& params) {
   return tight_proxy(dense, dense.frame(), enclosed, params);
 }
 
 /// The same from a mesh, dense or not as params.dense tells.
-[[nodiscard]] TightProxy tight_proxy(const LatticeMesh& mesh, const Enclosed& enclosed, const SimplifyParams& params);
+[[nodiscard]] TightProxy tight_proxy(const LatticeMesh& mesh, const Enclosed& enclosed, const SimplifyParams& params,
+                                     LatticeMesh* halfway = nullptr);
 
 /// How a proxy made with `params` is tightened in the end.
 [[nodiscard]] TightenParams tightening_of(const SimplifyParams& params);

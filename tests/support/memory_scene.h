@@ -83,6 +83,17 @@ inline void add_box(Triangles& out, const Vec3d& lo, const Vec3d& hi) {
   }
 }
 
+/// Returns two boxes that lie apart, turned and sheared, so that no face of a voxel lies in their sides.
+inline Triangles turned_boxes() {
+  Triangles scene;
+  add_box(scene, {0, 0, 0}, {8, 7, 6});
+  add_box(scene, {20, 0, 0}, {27, 9, 6});
+  for (TriangleD& t : scene) {
+    for (Vec3d& p : t) p = {0.8 * p[0] - 0.6 * p[1], 0.6 * p[0] + 0.8 * p[1], p[2] + 0.3 * p[0]};
+  }
+  return scene;
+}
+
 /// Appends a closed sphere with outward faces, `n` rings; `snap` > 0 rounds coordinates to multiples of it.
 inline void add_sphere(Triangles& out, const Vec3d& centre, double radius, int n, double snap = 0) {
   const auto point = [&](int ring, int sector) {

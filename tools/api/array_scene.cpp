@@ -25,17 +25,10 @@ std::size_t bytes_of(std::int32_t type) {
 }
 
 /// The same triangles as a file of them would give.
-class ArraySource final : public RawSource {
+class ArraySource final : public TwoStepSource {
  public:
   explicit ArraySource(const ArrayScene& scene) : scene_(scene) {}
 
-  bool read(std::vector<TriangleD>& out) override {
-    RawBatch batch;
-    const bool more = next(batch);
-    complete(batch);
-    out.swap(batch.triangles);
-    return more;
-  }
   bool next(RawBatch& batch) override {
     batch.bad_faces = 0;
     batch.records = at_;

@@ -6,6 +6,7 @@
 #include "lib/core/length.h"
 #include "lib/pass/context.h"
 #include "tools/api/include/bp/bp.h"
+#include "tools/api/structs.h"
 #include "tools/cli/common_options.h"
 #include "tools/cli/report.h"
 
@@ -46,6 +47,15 @@ class Call {
 bp_status guarded(const std::function<void()>& body) noexcept;
 /// Does the same in an arena of the call's threads, and hands the notes to the caller if `body` succeeds.
 bp_status guarded_call(const bp_run* run, const std::function<void(Call&)>& body) noexcept;
+
+/// Calls `make` as guarded_call() does, and gives the caller a new T of what it returns.
+template <class T, class Make>
+bp_status guarded_result(const bp_run* run, T** out, const Make& make) noexcept {
+  return guarded_call(run, [&](Call& call) {
+    T*& result = needed(out, "the result");  // before anything is made
+    result = new T{make(call)};
+  });
+}
 
 /// Returns the text as users of the library know it. Members are named as options are: --keep-cavities, and bpclose
 /// --keep-cavities, is keep_cavities.

@@ -139,10 +139,7 @@ using namespace bp::api;
 extern "C" {
 
 bp_status bp_grid_load(const char* path, const bp_run* run, bp_grid** out) {
-  return guarded_call(run, [&](Call& call) {
-    bp_grid*& result = needed(out, "the result");
-    result = new bp_grid{load(path, call)};
-  });
+  return guarded_result(run, out, [&](Call& call) { return load(path, call); });
 }
 
 bp_status bp_grid_save(const bp_grid* grid, const char* path, int overwrite, const bp_run* run) {

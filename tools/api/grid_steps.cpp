@@ -150,10 +150,7 @@ void bp_voxelize_defaults(bp_voxelize_options* options, size_t size) {
 }
 
 bp_status bp_voxelize(const bp_scene* scene, const bp_voxelize_options* options, const bp_run* run, bp_grid** out) {
-  return guarded_call(run, [&](Call& call) {
-    bp_grid*& result = needed(out, "the result");
-    result = new bp_grid{voxelize(needed(scene, "scene").scene, options, call)};
-  });
+  return guarded_result(run, out, [&](Call& call) { return voxelize(needed(scene, "scene").scene, options, call); });
 }
 
 void bp_close_defaults(bp_close_options* options, size_t size) {
@@ -161,10 +158,7 @@ void bp_close_defaults(bp_close_options* options, size_t size) {
 }
 
 bp_status bp_close(const bp_grid* grid, const bp_close_options* options, const bp_run* run, bp_grid** out) {
-  return guarded_call(run, [&](Call& call) {
-    bp_grid*& result = needed(out, "the result");
-    result = new bp_grid{close(*needed(grid, "grid").grid, options, call)};
-  });
+  return guarded_result(run, out, [&](Call& call) { return close(*needed(grid, "grid").grid, options, call); });
 }
 
 }  // extern "C"

@@ -173,7 +173,8 @@ void add_leaves(const Shop& shop, const std::vector<CellCoord>& cells, const Gri
 void tell_time(const Shop& shop, const VoxelizedScene& scene, double share) {
   if (shop.tells_time || shop.task != Task::tileset) return;
   Estimate work = estimate_build(shop.options(), scene.header.bounds, scene.counts, scene.header.frame.voxel);
-  work.core_seconds *= share, work.serial_seconds *= share;
+  work.core_seconds *= share;
+  work.serial_seconds *= share;
   note_estimate(work, shop.options().common, shop.build.progress, shop.build.report);
 }
 

@@ -26,17 +26,15 @@ using Kind = EncloseOption::Kind;
 
 /// Returns the bytes that the triangles of a scene take, from reading them to the end.
 std::uint64_t bytes_of(std::uint64_t triangles, const EnclosureInput& in) {
-  const std::uint64_t tree = triangles * sizeof(TriangleD) + TriangleBvh::bytes_needed(triangles);
+  const std::uint64_t tree = TriangleBvh::bytes_with_triangles(triangles);
   if (in.mode == MeshMode::fit) return triangles * sizeof(TriangleD) + tree;
   return triangles * EnclosedTriangles::kBytesEach + (in.distances ? tree : 0);
 }
 
-/// Throws the error `e` again with a limit at which so many triangles fit, and what comes after them.
-[[noreturn]] void fail_with_all(const Error& e, std::uint64_t triangles, const EnclosureInput& in) {
-  fail_with_limit(e, [&] {
-    const std::uint64_t after = in.limit ? in.limit(triangles) : 0;
-    return std::max(in.memory.limit_for(bytes_of(triangles, in)), after);
-  });
+/// Returns a limit at which so many triangles fit, and what comes after them.
+std::uint64_t limit_of_all(std::uint64_t triangles, const EnclosureInput& in) {
+  const std::uint64_t after = in.limit ? in.limit(triangles) : 0;
+  return std::max(in.memory.limit_for(bytes_of(triangles, in)), after);
 }
 
 void check_memory(const std::string& name, std::uint64_t triangles, const EnclosureInput& in) {
@@ -44,7 +42,7 @@ void check_memory(const std::string& name, std::uint64_t triangles, const Enclos
   if (bytes <= most) return;
   const NeedsMemory refusal(fmt::format("{}: enclosing its triangles", name), bytes, most, in.memory.limit_for(bytes),
                             {in.mode == MeshMode::fit ? Remedy::enclose_closing : Remedy::enclose_input});
-  fail_with_all(refusal, triangles, in);
+  fail_with_limit(refusal, [&] { return limit_of_all(triangles, in); });
 }
 
 /// Voxels and surface do not exist yet, so half of the memory is for the reader's vertices.
@@ -199,12 +197,9 @@ Enclosure enclosure_of(const EncloseOption& option, const EnclosureInput& in) {
 
 /// Segments and points are dropped for a fit, since it follows surfaces.
 Enclosure make_enclosure(const EncloseOption& option, const EnclosureInput& in) {
-  Enclosure out;
-  try {
-    out = enclosure_of(option, in);
-  } catch (const NeedsMemory& e) {  // what describes the scene: of named files, it is taken to be the stream's scene
-    fail_with_all(e, in.header.scene.triangles, in);
-  }
+  // A refusal is of what describes the scene: of named files, it is taken to be the stream's scene.
+  Enclosure out = naming_limit([&] { return enclosure_of(option, in); },
+                               [&] { return limit_of_all(in.header.scene.triangles, in); });
   if (in.mode == MeshMode::fit)
     std::erase_if(out.scene, [](const TriangleD& t) { return collinear(t[0], t[1], t[2]); });
   return out;

@@ -130,15 +130,19 @@ struct ClearanceBatch {
   ClearanceReport result;
 };
 
-/// Adds the triangle to `found` unless it keeps the distance.
-void look_at(const WeldedMesh& mesh, const Surface& surface, const InsideCells* cells, std::uint64_t number,
-             const TriangleD& t, double distance, std::size_t max_examples, Finding& found) {
-  if (distance == 0) return;
-  // keeps_gap() decides nothing within its own rounding beyond the distance: the cells must not decide there, either.
+/// Whether cells that lie inside hold all points nearer to the triangle than the distance. keeps_gap() decides nothing
+/// within its own rounding beyond the distance, and the cells must not decide there, either.
+bool is_deep_inside(const Surface& surface, const InsideCells& cells, const TriangleD& t, double distance) {
   const Bounds3d near = box_around(t, distance);
   double far = surface.bounds().diagonal() + near.diagonal();
   for (std::size_t i = 0; i < 3; ++i) far = std::max({far, std::abs(near.min[i]), std::abs(near.max[i])});
-  if (cells != nullptr && cells->hold(box_around(t, distance + kGapRounding * far))) return;
+  return cells.hold(box_around(t, distance + kGapRounding * far));
+}
+
+/// Adds the triangle to `found` unless it keeps the distance.
+void look_at(const WeldedMesh& mesh, const Surface& surface, const InsideCells* cells, std::uint64_t number,
+             const TriangleD& t, double distance, std::size_t max_examples, Finding& found) {
+  if (distance == 0 || (cells != nullptr && is_deep_inside(surface, *cells, t, distance))) return;
   const GapAnswer gap = keeps_gap(t, surface.bvh(), distance);
   if (gap.answer != Answer::proven) found.add({number, mesh.number[surface.triangle(gap.item)], t[0]}, max_examples);
 }

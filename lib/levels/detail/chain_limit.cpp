@@ -2,8 +2,7 @@
 #include <algorithm>
 
 #include "lib/grid/shelf_stream.h"
-#include "lib/levels/detail/ruler.h"
-#include "lib/levels/lod_level.h"
+#include "lib/levels/detail/level_search.h"
 #include "lib/volume/topology.h"
 
 namespace bp {
@@ -12,20 +11,11 @@ std::uint64_t chain_limit(const StreamHeader& header, BrickShelf& solid, const L
                           const PassContext& context, std::uint64_t triangles) {
   if (!options.first) return 0;
   const bool has_triangles = triangles > 0 && (options.mode == MeshMode::fit || options.enclose == Enclose::scene);
-  const LodTarget& target = *options.first;
   const std::uint64_t held = has_triangles ? triangles * sizeof(TriangleD) : 0;
   const RulerBytes ruler =
       Ruler::bytes_needed({solid, options.surface.get(), nullptr, header.frame, options.mode}, has_triangles);
-  MeshParams params;
-  if (target.faces > 0) params.faces = {target.faces};
-  params.mode = options.mode;
-  params.enclose = options.mode == MeshMode::fit && !has_triangles ? Enclose::closing : options.enclose;
-  if (options.mode == MeshMode::fit && has_triangles) params.enclose = Enclose::scene;
-  params.error_world = target.error_world;
-  if (params.mode == MeshMode::bounding) {
-    params.near_world = 0;
-    if (params.enclose == Enclose::scene) params.distances_to = Enclose::input;
-  }
+  MeshParams params = params_of_level(options, *options.first, has_triangles);
+  if (params.mode == MeshMode::bounding) params.near_world = 0;
   PassContext beside = context;
   beside.pieces = context.pieces.without(held + ruler.kept);
   ShelfSource source(header, solid, nullptr, ShelfSource::Keep::all);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/pass/mesh/mesh_measures.h"
 #include "lib/pass/mesh/outward_scene.h"
@@ -20,13 +21,16 @@ LevelScene::LevelScene(const StreamHeader& header, std::unique_ptr<BrickShelf> s
   // The scene is checked here, and not at each level, whose voxels may be larger.
   if (is_bounding() && options_.enclose == Enclose::scene && !options_.is_within)
     require_within(options_.scene, header.frame, voxels);
-  naming_all([&] {
-    ruler_.emplace(RulerScene{voxels, options_.surface.get(), has_triangles() ? &options_.scene : nullptr, header.frame,
-                              options_.mode},
-                   context().memory);
-  });
+  naming_limit([&] { make_ruler(); }, [&] { return all_steps_limit(); });
   options_.surface.reset();
   take_off(ruler_->bytes());
+}
+
+void LevelScene::make_ruler() {
+  const LevelVoxels::Solid& solid = voxels_.reduced(0);
+  const std::vector<TriangleD>* const triangles = has_triangles() ? &options_.scene : nullptr;
+  ruler_.emplace(RulerScene{*solid.shelf, options_.surface.get(), triangles, solid.header.frame, options_.mode},
+                 context().memory);
 }
 
 void LevelScene::take_off(std::uint64_t bytes) {
@@ -41,10 +45,9 @@ std::uint64_t LevelScene::all_steps_limit() {
 }
 
 std::uint64_t LevelScene::bytes_of_level(std::uint64_t faces) const {
-  constexpr std::uint64_t kBytesPerFace = 256, kBytesOfFit = 400;
   const std::uint64_t triangles = has_triangles() ? options_.scene.size() : 0;
   const std::uint64_t each = is_bounding() ? EnclosedTriangles::kBytesEach : kBytesOfFit;
-  return faces * kBytesPerFace + triangles * each + ruler_->bytes_of_measure();
+  return faces * kWorkPerFace + triangles * each + ruler_->bytes_of_measure();
 }
 
 LodGround LevelScene::ground() const {

@@ -4,7 +4,6 @@
 #include <mutex>
 #include <optional>
 
-#include "lib/core/error.h"
 #include "lib/levels/detail/level_voxels.h"
 #include "lib/levels/detail/ruler.h"
 
@@ -27,15 +26,8 @@ class LevelScene {
   [[nodiscard]] const LodOptions& options() const { return options_; }
   /// Its memory is what the scene leaves for levels.
   [[nodiscard]] const PassContext& context() const { return options_.context; }
-  /// Calls work(). A refusal for memory names a limit for all steps of the chain.
-  template <class Work>
-  void naming_all(const Work& work) {
-    try {
-      work();
-    } catch (const NeedsMemory& e) {
-      fail_with_limit(e, [&] { return all_steps_limit(); });
-    }
-  }
+  /// Returns the limit on memory at which all steps of the chain fit; 0: not known.
+  [[nodiscard]] std::uint64_t all_steps_limit();
   [[nodiscard]] const Bounds3d& bounds() const { return bounds_; }
   [[nodiscard]] const Ruler& ruler() const { return *ruler_; }
   [[nodiscard]] LevelVoxels& voxels() { return voxels_; }
@@ -61,7 +53,7 @@ class LevelScene {
   [[nodiscard]] std::optional<LevelStart> own_surface();
 
  private:
-  [[nodiscard]] std::uint64_t all_steps_limit();
+  void make_ruler();
 
   LodOptions options_;
   const PassContext all_;  // with the memory that the scene takes, too

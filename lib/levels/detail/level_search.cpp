@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 namespace bp {
@@ -48,6 +49,20 @@ bool follows_from(const LevelScene& scene, const LodTarget& target, const LevelS
   return may_follow(scene, target) && start.parts_and_holes * kFacesPerPart <= target.faces;
 }
 
+MeshParams params_of_level(const LodOptions& options, const LodTarget& target, bool has_triangles) {
+  MeshParams params;
+  if (target.faces > 0) params.faces = {target.faces};
+  params.error_world = target.error_world;
+  params.mode = options.mode;
+  params.enclose = options.enclose;
+  if (options.mode == MeshMode::fit) {
+    params.enclose = has_triangles ? Enclose::scene : Enclose::closing;
+  } else if (options.enclose == Enclose::scene) {
+    params.distances_to = Enclose::input;  // its voxels, as without
+  }
+  return params;
+}
+
 LevelSearch::LevelSearch(LevelScene& scene, const PassContext& context, const LodTarget& target,
                          const LevelStart* start)
     : scene_(scene),
@@ -58,7 +73,8 @@ LevelSearch::LevelSearch(LevelScene& scene, const PassContext& context, const Lo
       ground_(scene.ground()),
       best_(scene.ruler(), options_.mode, target.faces) {}
 
-LodLevel LevelSearch::make() {
+LodLevel LevelSearch::make(std::optional<LevelStart>* left) {
+  left_ = left;
   if (options_.cage) {
     best_.propose("cage", cage());
     return best_.take();
@@ -116,7 +132,7 @@ bool LevelSearch::has_too_many_parts(const Closing& closing, std::uint64_t faces
 /// joins, few faces need not show; what it leaves apart, they follow.
 void LevelSearch::propose_closings() {
   const double least = options_.least_scale_world, whole = first_scale(ground_, target_, least);
-  std::optional<Closing> closing_of_best;
+  std::unique_ptr<Closing> closing_of_best;
   const Solid* solid = nullptr;
   int attempts = 1, reductions = 0;
   for (double scale = is_by_budget(target_) ? std::max(whole / finest(), least) : whole;;
@@ -131,11 +147,11 @@ void LevelSearch::propose_closings() {
     }
     LatticeMesh halfway;
     MeshParams params = mesh_params(*solid, scale);
-    params.halfway = &halfway;
+    if (left_ != nullptr) params.halfway = &halfway;
     LodLevel level = mesh(std::move(params), *solid, closing, is_of_few_faces() ? Keep::all : Keep::solid);
     const bool by_volume = is_of_few_faces() && may_reach_by_volume(level, target_.faces);
     const bool keeps_near = is_within(level) || !by_volume;
-    if (!keeps_near) level = mesh(least_volume(), *solid, closing, Keep::all);
+    if (!keeps_near) level = mesh(least_volume(*solid), *solid, closing, Keep::all);
     if (!is_within(level) && !last) {
       attempts += scale >= whole;
       continue;
@@ -144,7 +160,7 @@ void LevelSearch::propose_closings() {
     const std::uint64_t parts = parts_and_handles(level.counts.levels.front().measures);
     if (best_.propose(keeps_near ? "closing" : "least volume", std::move(level))) {
       closing_of_best.reset();
-      if (by_volume && keeps_near) closing_of_best = std::move(closing);
+      if (by_volume && keeps_near) closing_of_best = std::make_unique<Closing>(std::move(closing));
       leave_start(std::move(halfway), *solid, parts, scale);
     }
     if (!is_simple() || best_.is_exact() || last || scale >= 2 * whole) break;
@@ -155,7 +171,7 @@ void LevelSearch::propose_closings() {
 /// Around the closing of the best mesh.
 void LevelSearch::propose_least_volume(const Closing& closing) {
   const Solid& solid = scene_.voxels().reduced(best_.level().reductions);
-  LodLevel level = mesh(least_volume(), solid, closing, Keep::solid);
+  LodLevel level = mesh(least_volume(solid), solid, closing, Keep::solid);
   level.attempts = best_.level().attempts;
   best_.propose("least volume", std::move(level));
 }
@@ -175,7 +191,7 @@ LodLevel LevelSearch::coarser() {
   MeshParams params = mesh_params(solid, first_scale(ground_, target_, options_.least_scale_world));
   params.start = &start_->mesh;
   LatticeMesh halfway;
-  params.halfway = &halfway;
+  if (left_ != nullptr) params.halfway = &halfway;
   LodLevel level = mesh(std::move(params), solid, LevelVoxels::as_it_is(solid, start_->scale_world), Keep::solid);
   leave_start(std::move(halfway), solid, parts_and_handles(level.counts.levels.front().measures), start_->scale_world);
   level.attempts = 1;
@@ -184,10 +200,11 @@ LodLevel LevelSearch::coarser() {
 
 /// `parts`: and handles, of the level.
 void LevelSearch::leave_start(LatticeMesh halfway, const Solid& solid, std::uint64_t parts, double scale) {
-  own_start_.reset();
+  if (left_ == nullptr) return;
+  left_->reset();
   if (halfway.triangles.empty()) return;
   halfway.provenance = solid.header.provenance;
-  own_start_ = LevelStart{std::move(halfway), solid.reductions, parts, scale};
+  *left_ = LevelStart{std::move(halfway), solid.reductions, parts, scale};
 }
 
 /// Around the voxels as they are.
@@ -214,30 +231,22 @@ LodLevel LevelSearch::mesh(MeshParams params, const Solid& solid, const Closing&
   return level;
 }
 
-MeshParams LevelSearch::least_volume() {
-  MeshParams params = mesh_params(scene_.voxels().reduced(0), {});
+MeshParams LevelSearch::least_volume(const Solid& solid) const {
+  MeshParams params = mesh_params(solid, {});
   params.convex = false;  // hulls and boxes are proposals of their own
   return params;
 }
 
 /// near_world: as MeshParams has it.
 MeshParams LevelSearch::mesh_params(const Solid& solid, std::optional<double> near_world) const {
-  MeshParams params;
-  if (target_.faces > 0) params.faces = {target_.faces};
+  MeshParams params = params_of_level(options_, target_, scene_.has_triangles());
   // What is enclosed is within a diagonal of a voxel of the scene.
   if (target_.error_world > 0)
     params.error_world =
         std::max(target_.error_world - std::sqrt(3.0) * (solid.header.frame.voxel + scene_.ruler().voxel()),
                  target_.error_world / 4);
   params.near_world = near_world;
-  params.mode = options_.mode;
-  params.enclose = options_.enclose;
-  if (options_.enclose == Enclose::scene) params.distances_to = Enclose::input;  // its voxels, as without
-  if (options_.mode == MeshMode::fit) {
-    params.distances_to.reset();
-    params.enclose = options_.scene.empty() ? Enclose::closing : Enclose::scene;
-    params.scene = options_.scene;
-  }
+  if (options_.mode == MeshMode::fit) params.scene = options_.scene;
   return params;
 }
 

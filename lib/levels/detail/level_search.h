@@ -14,6 +14,9 @@ namespace bp {
 /// Whether it follows from this one: the faces suffice for its parts and holes.
 [[nodiscard]] bool follows_from(const LevelScene& scene, const LodTarget& target, const LevelStart& start);
 
+/// Returns what every mesh of a level is made by. has_triangles: those of the scene are known (LevelScene).
+[[nodiscard]] MeshParams params_of_level(const LodOptions& options, const LodTarget& target, bool has_triangles);
+
 /// Makes one level: proposes what may be best, and takes the best (LodChain::make). Searches in one scene may work at
 /// the same time.
 class LevelSearch {
@@ -21,10 +24,9 @@ class LevelSearch {
   /// `context`: its memory is for this level. `start`: what the level follows from; null: none. Keeps references.
   LevelSearch(LevelScene& scene, const PassContext& context, const LodTarget& target, const LevelStart* start);
 
-  /// Throws as close_stream() and mesh_stream().
-  [[nodiscard]] LodLevel make();
-  /// After make(): what coarser levels may follow from; none if the best mesh was made in a way that leaves nothing.
-  [[nodiscard]] std::optional<LevelStart>& start() { return own_start_; }
+  /// `left` receives what coarser levels may follow from, unless the best mesh was made in a way that leaves nothing;
+  /// null: no level follows. Throws as close_stream() and mesh_stream().
+  [[nodiscard]] LodLevel make(std::optional<LevelStart>* left = nullptr);
 
  private:
   using Solid = LevelVoxels::Solid;
@@ -46,7 +48,7 @@ class LevelSearch {
   [[nodiscard]] LodLevel cage();
 
   LodLevel mesh(MeshParams params, const Solid& solid, const Closing& closing, Keep keep);
-  [[nodiscard]] MeshParams least_volume();
+  [[nodiscard]] MeshParams least_volume(const Solid& solid) const;
   [[nodiscard]] MeshParams mesh_params(const Solid& solid, std::optional<double> near_world) const;
 
   LevelScene& scene_;
@@ -56,7 +58,7 @@ class LevelSearch {
   const LevelStart* start_;
   const LodGround ground_;
   BestLevel best_;
-  std::optional<LevelStart> own_start_;
+  std::optional<LevelStart>* left_ = nullptr;  // as make() has it
 };
 
 }  // namespace bp

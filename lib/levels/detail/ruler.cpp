@@ -19,7 +19,7 @@ constexpr std::uint64_t kSmallShare = 16;  // a tree is kept if it takes at most
 
 /// What segments of runs, and a tree over them, take for a moment.
 std::uint64_t segment_bytes(std::uint64_t runs) {
-  return runs * sizeof(TriangleD) + TriangleBvh::bytes_needed(runs);
+  return TriangleBvh::bytes_with_triangles(runs);
 }
 
 /// What distances to triangles that are shown take for a moment, and the faces that are kept for it.
@@ -27,6 +27,21 @@ std::uint64_t shown_bytes(std::uint64_t faces) {
   return faces * sizeof(FaceRect) +
          std::min(faces, kMostShownPoints) * (2 * sizeof(TriangleD) + TriangleBvh::bytes_needed(1));
 }
+
+/// What a ruler knows of the surface of the voxels.
+struct SurfaceSize {
+  std::uint64_t runs = 0;
+  std::uint64_t shown_faces = 0;  ///< that tell which triangles are shown
+
+  SurfaceSize(const RulerScene& scene, const BoundarySize& size, bool has_triangles)
+      : runs(scene.surface != nullptr ? count_runs(*scene.surface, size.box) : size.runs),
+        shown_faces(has_triangles && scene.surface == nullptr ? size.faces : 0) {}
+  /// While distances are measured.
+  [[nodiscard]] std::uint64_t bytes() const {
+    return runs * sizeof(VoxelRun) + segment_bytes(runs) + shown_bytes(shown_faces);
+  }
+  [[nodiscard]] std::uint64_t kept_bytes() const { return runs * sizeof(VoxelRun) + shown_faces * sizeof(FaceRect); }
+};
 
 bool is_small(std::uint64_t bytes, const MemoryShare& memory) {
   return bytes <= memory.bytes / kSmallShare;
@@ -43,34 +58,22 @@ Ruler::Ruler(const RulerScene& scene, const BoundarySize& size, const MemoryShar
     scene_ = Surface(triangles_, is_small(TriangleBvh::bytes_needed(triangles_->size()), memory));
 }
 
-namespace {
-
-/// Of runs, and of faces where triangles are shown.
-std::uint64_t surface_bytes(std::uint64_t runs, std::uint64_t shown_faces) {
-  return runs * sizeof(VoxelRun) + segment_bytes(runs) + shown_bytes(shown_faces);
-}
-
-}  // namespace
-
 RulerBytes Ruler::bytes_needed(const RulerScene& scene, bool has_triangles) {
   if (scene.mode != MeshMode::fit && has_triangles) return {};
-  const BoundarySize size = boundary_size(scene.solid);
-  const std::uint64_t runs = scene.surface != nullptr ? count_runs(*scene.surface, size.box) : size.runs;
-  const std::uint64_t shown = has_triangles && scene.surface == nullptr ? size.faces : 0;
-  return {surface_bytes(runs, shown), runs * sizeof(VoxelRun) + shown * sizeof(FaceRect)};
+  const SurfaceSize surface(scene, boundary_size(scene.solid), has_triangles);
+  return {surface.bytes(), surface.kept_bytes()};
 }
 
 void Ruler::take_surface(const RulerScene& scene, const BoundarySize& size, const MemoryShare& memory) {
-  const bool shows_triangles = triangles_ != nullptr && scene.surface == nullptr;
-  const std::uint64_t runs = scene.surface != nullptr ? count_runs(*scene.surface, box) : size.runs;
-  const std::uint64_t bytes = surface_bytes(runs, shows_triangles ? size.faces : 0);
+  const SurfaceSize surface(scene, size, triangles_ != nullptr);
+  const std::uint64_t bytes = surface.bytes();
   if (bytes > memory.bytes)
     throw NeedsMemory("measuring distances to the outside of the scene", bytes, memory.bytes,
                       memory.limit_with(bytes - memory.bytes), {Remedy::larger_voxels});
   runs_ = scene.surface != nullptr ? runs_of(*scene.surface, box) : boundary_of(scene.solid).runs;
   runs_.shrink_to_fit();
-  if (shows_triangles) faces_ = boundary_rects(scene.solid);
-  if (!is_small(segment_bytes(runs), memory)) return;
+  if (surface.shown_faces > 0) faces_ = boundary_rects(scene.solid);
+  if (!is_small(segment_bytes(surface.runs), memory)) return;
   segments_ = segments_of(runs_, frame_);
   kept_segments_ = Surface(&segments_, true);
 }

@@ -17,15 +17,6 @@ namespace {
 
 constexpr double kMostOverLeast = 3;  // what a cell takes that is full, over one where little is occupied
 
-}  // namespace
-
-std::uint64_t least_cell_bytes(const Cells& cells, std::int32_t halo_vox) {
-  const double side = double(cells.edge_vox) + 2.0 * halo_vox + 64;
-  return std::uint64_t((12 * side * side * side / 8 + (16 << 20)) / kMostOverLeast);
-}
-
-namespace {
-
 constexpr const char* kJob = "closing of a cell";
 
 /// Packs the bricks of a box that are not empty: place, fill, and bits unless full; then an end mark.
@@ -205,6 +196,11 @@ class CellCloser {
 };
 
 }  // namespace
+
+std::uint64_t least_cell_bytes(const Cells& cells, std::int32_t halo_vox) {
+  const double side = double(cells.edge_vox) + 2.0 * halo_vox + 64;
+  return std::uint64_t((12 * side * side * side / 8 + (16 << 20)) / kMostOverLeast);
+}
 
 CellClosingCounts close_cells(const StreamHeader& header, const BrickShelf& solid, Backends& backends,
                               double scale_world, const CellClosing& options, BrickShelf& closing) {

@@ -101,12 +101,7 @@ class LevelMaker {
 
   std::vector<LatticeMesh> run(const Shelves& shelves) {
     const std::uint64_t triangles = params_.scene.size();
-    try {
-      return make(shelves);
-    } catch (const NeedsMemory& e) {
-      if (pieces_.limit.bytes == 0) throw;  // nobody would learn a number
-      fail_with_limit(e, [&] { return least_limit(shelves, triangles); });
-    }
+    return naming_limit([&] { return make(shelves); }, [&] { return least_limit(shelves, triangles); });
   }
 
   /// Returns the limit on memory at which all steps of the first level fit, if the scene has so many triangles.
@@ -280,7 +275,7 @@ class LevelMaker {
           faces > 0 && params.limits == nullptr && !params.edge_limit && !params_.near_world && !inside();
       const bool few = only_faces && faces < kFewFaces;
       params.dense = params_.start == nullptr;
-      LatticeMesh proxy = params_.start ? take(tight_proxy(*params_.start, *enclosed, params), params_.halfway, counts)
+      LatticeMesh proxy = params_.start ? take(tight_proxy(*params_.start, *enclosed, params, params_.halfway), counts)
                                         : make_level(dense, starts, enclosed, params, few, params_.halfway, counts);
       if (only_faces && params_.convex && enclosed != nullptr) take_convex(proxy, *enclosed, faces, counts);
       if (!params_.quads) return proxy;
@@ -338,10 +333,6 @@ class LevelMaker {
   ProxyBounds bounds_;
   Ground ground_;
 };
-
-}  // namespace
-
-namespace {
 
 /// The voxels of a stream, repaired where proxies lie around them.
 Shelves read_voxels(BrickSource& source, const PassContext& context, const MeshParams& params, MeshCounts& counts) {

@@ -6,22 +6,8 @@
 
 namespace bp::test {
 
-namespace {
-
-void add_turned_box(Triangles& scene, const Vec3d& lo, const Vec3d& hi) {
-  const std::size_t first = scene.size();
-  add_box(scene, lo, hi);
-  for (std::size_t i = first; i < scene.size(); ++i) {
-    for (Vec3d& p : scene[i]) p = {0.8 * p[0] - 0.6 * p[1], 0.6 * p[0] + 0.8 * p[1], p[2] + 0.3 * p[0]};
-  }
-}
-
-}  // namespace
-
 TEST_CASE("a coarser level follows from the finer one while its parts have faces enough", "[quick][pass][lod]") {
-  Triangles scene;  // turned, so that no face of a voxel lies in its sides
-  add_turned_box(scene, {0, 0, 0}, {8, 7, 6});
-  add_turned_box(scene, {20, 0, 0}, {27, 9, 6});
+  const Triangles scene = turned_boxes();
   Backends backends = plain_backends(2);
   LodOptions options;
   options.context.make_shelf = memory_shelves();

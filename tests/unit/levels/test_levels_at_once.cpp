@@ -12,17 +12,6 @@ namespace bp::test {
 
 namespace {
 
-/// Two turned boxes that lie apart: no face of a voxel lies in their sides.
-Triangles two_boxes() {
-  Triangles scene;
-  add_box(scene, {0, 0, 0}, {8, 7, 6});
-  add_box(scene, {20, 0, 0}, {27, 9, 6});
-  for (TriangleD& t : scene) {
-    for (Vec3d& p : t) p = {0.8 * p[0] - 0.6 * p[1], 0.6 * p[0] + 0.8 * p[1], p[2] + 0.3 * p[0]};
-  }
-  return scene;
-}
-
 LodChain chain_of(const Triangles& scene, Backends& backends, std::uint64_t bytes) {
   LodOptions options;
   options.context.make_shelf = memory_shelves();
@@ -54,7 +43,7 @@ constexpr std::uint64_t kPlenty = std::uint64_t(1) << 30;
 }  // namespace
 
 TEST_CASE("levels made at the same time do not depend on threads or memory", "[quick][pass][lod]") {
-  const Triangles scene = two_boxes();
+  const Triangles scene = turned_boxes();
   const std::vector<LodTarget> targets{{600, 0, {}}, {300, 0, {}}, {110, 0, {}}, {30, 0, {}}, {12, 0, {}}};
   const std::vector<LodLevel> alone = levels_of(scene, targets, 1, kPlenty);
   for (const LodLevel& level : alone) {
@@ -79,7 +68,7 @@ TEST_CASE("levels made at the same time do not depend on threads or memory", "[q
 }
 
 TEST_CASE("levels made at the same time, and one by one, are the same", "[quick][pass][lod]") {
-  const Triangles scene = two_boxes();
+  const Triangles scene = turned_boxes();
   const std::vector<LodTarget> targets{{600, 0, {}}, {110, 0, {}}, {30, 0, {}}};
   Backends backends = plain_backends(2);
   LodChain chain = chain_of(scene, backends, kPlenty);
@@ -89,7 +78,7 @@ TEST_CASE("levels made at the same time, and one by one, are the same", "[quick]
 }
 
 TEST_CASE("a sequence makes the first level alone only where the others follow from it", "[quick][pass][lod]") {
-  const Triangles scene = two_boxes();
+  const Triangles scene = turned_boxes();
   Backends backends = plain_backends(2);
   LodChain chain = chain_of(scene, backends, kPlenty);
   LevelRequest request;

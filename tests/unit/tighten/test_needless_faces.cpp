@@ -116,8 +116,7 @@ TEST_CASE("flat sides take few faces however many are wanted, and none sticks ou
     CAPTURE(faces);
     SimplifyParams params;
     params.faces = faces;
-    const TightProxy tight = tight_proxy(ShelfSurface(shelf, GridFrame{}), enclosed, params);
-    const auto& [proxy, simplified, tightened, halfway] = tight;
+    const auto [proxy, simplified, tightened] = tight_proxy(ShelfSurface(shelf, GridFrame{}), enclosed, params);
     CHECK(proxy.triangles.size() < 50);
     CHECK(simplified.stop == StopReason::least_volume);
     CHECK(simplified.faces_out == proxy.triangles.size());

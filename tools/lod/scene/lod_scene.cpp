@@ -107,9 +107,9 @@ std::vector<TriangleD> scene_triangles(const Build& build, std::uint64_t triangl
   std::vector<TriangleD> all;
   if (std::count(o.voxels.scenes.begin(), o.voxels.scenes.end(), "-") > 0) return all;  // stdin cannot be read again
   if (fit && triangles > kMost) return all;
-  // Fits: twice, and a hierarchy over them. Else here, and in what is enclosed, or then in what measures distances.
+  // Around triangles they are held here, and in what is enclosed or in what measures distances.
   const std::uint64_t others = std::max(EnclosedTriangles::kBytesEach, TriangleBvh::bytes_needed(1));
-  const std::uint64_t bytes = triangles * (fit ? 400 : sizeof(TriangleD) + others);
+  const std::uint64_t bytes = triangles * (fit ? kBytesOfFit : sizeof(TriangleD) + others);
   const MemoryShare& work = build.budget.work;
   const MemoryShare memory{work.bytes / (fit ? 2 : 1), work.share / (fit ? 2 : 1), work.limit};
   if (bytes > memory.bytes)
@@ -205,16 +205,14 @@ LodOptions lod_options(const Build& build, const LodScene& scene, const CageRoom
   lod.context = build.context(nullptr, share);
   if (scene.voxels.solid != nullptr && !o.is_tileset()) lod.first = first_target(o, scene);
   if (o.proxy.mode == MeshMode::fit || scene.enclosed == Enclose::scene) {
-    try {
-      lod.scene = scene_triangles(build, scene.size.triangles);
-    } catch (const NeedsMemory& e) {
-      fail_with_limit(e, [&] {
-        BrickShelf* const solid = scene.voxels.solid.get();
-        const std::uint64_t chain =
-            solid != nullptr ? chain_limit(scene.voxels.header, *solid, lod, lod.context, scene.size.triangles) : 0;
-        return std::max(chain, limit ? limit() : 0);
-      });
-    }
+    lod.scene = naming_limit(
+        [&] { return scene_triangles(build, scene.size.triangles); },
+        [&] {
+          BrickShelf* const solid = scene.voxels.solid.get();
+          const std::uint64_t chain =
+              solid != nullptr ? chain_limit(scene.voxels.header, *solid, lod, lod.context, scene.size.triangles) : 0;
+          return std::max(chain, limit ? limit() : 0);
+        });
   }
   const bool encloses = lod.mode == MeshMode::bounding && lod.enclose == Enclose::scene;
   if (encloses && scene.voxels.solid != nullptr) {  // its levels may have taken them

@@ -93,7 +93,7 @@ std::optional<Layout> layout_of(const PlyHeader& header, std::uint64_t file_byte
   return {};
 }
 
-class PackedPly final : public RawSource {
+class PackedPly final : public TwoStepSource {
  public:
   PackedPly(SceneFilePtr file, const SceneOptions& options, const Layout& layout)
       : file_(std::move(file)),
@@ -119,14 +119,6 @@ class PackedPly final : public RawSource {
       all.merge(part);
     });
     return all;
-  }
-
-  bool read(std::vector<TriangleD>& out) override {
-    const bool more = next(one_);
-    complete(one_);
-    bad_faces_ += one_.bad_faces;
-    out.swap(one_.triangles);
-    return more && (!out.empty() || read(out));  // a batch may hold bad faces only
   }
 
   bool next(RawBatch& batch) override {
@@ -349,7 +341,6 @@ class PackedPly final : public RawSource {
   mutable std::once_flag hold_once_;
   mutable std::unique_ptr<std::byte[]> held_;  // records of all vertices
   mutable std::unique_ptr<Pool<std::unique_ptr<BlockCache>>> caches_;
-  RawBatch one_;
 };
 
 }  // namespace

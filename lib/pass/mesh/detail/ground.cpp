@@ -15,6 +15,11 @@ namespace bp {
 
 namespace {
 
+bool needs_distances(const MeshParams& params) {
+  const bool target = params.mode == MeshMode::fit && params.enclose == Enclose::scene;
+  return params.error_world > 0 || params.distances || target;
+}
+
 /// The same surface with few triangles.
 std::vector<TriangleD> merged_triangles(const SurfaceSource& surface, const PieceMemory& memory) {
   SimplifyParams params;
@@ -30,7 +35,7 @@ std::vector<TriangleD> merged_triangles(const SurfaceSource& surface, const Piec
 std::vector<TriangleD> rect_triangles(const BrickShelf& shelf, const GridFrame& frame, const PieceMemory& memory) {
   const std::vector<FaceRect> rects = boundary_rects(shelf);
   const std::uint64_t n = 2 * rects.size();
-  const std::uint64_t bytes = rects.size() * sizeof(FaceRect) + n * sizeof(TriangleD) + TriangleBvh::bytes_needed(n);
+  const std::uint64_t bytes = rects.size() * sizeof(FaceRect) + TriangleBvh::bytes_with_triangles(n);
   if (bytes > memory.bytes())
     throw NeedsMemory("the surface that distances are measured from", bytes, memory.bytes(), memory.limit_for(bytes),
                       {Remedy::larger_voxels});
@@ -77,27 +82,14 @@ std::unique_ptr<Enclosed> enclosed_scene(std::vector<TriangleD> triangles, const
   return std::make_unique<EnclosedScene>(std::move(triangles), header.frame, solid, std::nullopt, std::move(near));
 }
 
-namespace {
-
-bool needs_distances(const MeshParams& params) {
-  const bool target = params.mode == MeshMode::fit && params.enclose == Enclose::scene;
-  return params.error_world > 0 || params.distances || target;
-}
-
-std::uint64_t distance_bytes(std::uint64_t triangles) {
-  return triangles * sizeof(TriangleD) + TriangleBvh::bytes_needed(triangles);
-}
-
-}  // namespace
-
 std::uint64_t ground_bytes(const Shelves& shelves, const MeshParams& params, std::uint64_t triangles,
                            std::uint64_t flat_faces) {
   std::uint64_t sum = 0;
   if (needs_distances(params)) {
     const Enclose to = params.distances_to.value_or(params.enclose);
-    sum += to == Enclose::scene   ? triangles * sizeof(TriangleD) + distance_bytes(triangles)
-           : to == Enclose::input ? distance_bytes(2 * boundary_rects(*shelves.input).size())
-                                  : distance_bytes(flat_faces);
+    sum += to == Enclose::scene   ? triangles * sizeof(TriangleD) + TriangleBvh::bytes_with_triangles(triangles)
+           : to == Enclose::input ? TriangleBvh::bytes_with_triangles(2 * boundary_rects(*shelves.input).size())
+                                  : TriangleBvh::bytes_with_triangles(flat_faces);
   }
   if (!params.tighten) return sum;
   if (params.enclosed != nullptr) return sum + params.enclosed->bytes();

@@ -42,8 +42,7 @@ SimplifyParams simplify_params(const StreamHeader& header, const GridFrame& fram
   return out;
 }
 
-LatticeMesh take(TightProxy&& proxy, LatticeMesh* halfway, LevelCounts& counts) {
-  if (halfway != nullptr) *halfway = std::move(proxy.halfway);
+LatticeMesh take(TightProxy&& proxy, LevelCounts& counts) {
   counts.simplify = std::move(proxy.simplified);
   counts.tighten = proxy.tightened;
   return std::move(proxy.mesh);
@@ -52,11 +51,11 @@ LatticeMesh take(TightProxy&& proxy, LatticeMesh* halfway, LevelCounts& counts) 
 LatticeMesh make_level(const SurfaceSource& dense, const CoarseStarts* starts, const Enclosed* enclosed,
                        const SimplifyParams& params, bool few, LatticeMesh* halfway, LevelCounts& counts) {
   if (enclosed == nullptr) return simplify(dense, params, counts.simplify);
-  if (few) return take(tight_proxy_of_few(dense, *enclosed, params), halfway, counts);
+  if (few) return take(tight_proxy_of_few(dense, *enclosed, params), counts);
   CoarseStart start;
   if (starts != nullptr) start = starts->first(params.faces);
   const SurfaceSource& from = start.surface ? *start.surface : dense;
-  LatticeMesh proxy = take(tight_proxy(from, dense.frame(), *enclosed, params), halfway, counts);
+  LatticeMesh proxy = take(tight_proxy(from, dense.frame(), *enclosed, params, halfway), counts);
   return params.limits == nullptr ? proxy : use_room(std::move(proxy), *enclosed, params, counts);
 }
 

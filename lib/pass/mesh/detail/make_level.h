@@ -11,12 +11,11 @@ namespace bp {
 [[nodiscard]] SimplifyParams simplify_params(const StreamHeader& header, const GridFrame& frame,
                                              const MeshParams& params, const PieceMemory& memory, std::uint64_t faces);
 
-/// Returns the mesh of a proxy; `counts` get what it counted. `halfway` receives TightProxy::halfway; null: nobody asks
-/// for it.
-[[nodiscard]] LatticeMesh take(TightProxy&& proxy, LatticeMesh* halfway, LevelCounts& counts);
+/// Returns the mesh of a proxy; `counts` get what it counted.
+[[nodiscard]] LatticeMesh take(TightProxy&& proxy, LevelCounts& counts);
 
 /// One level, from the surface of all that it must enclose, or a coarse one around it. `few`: nothing but a number of
-/// faces below kFewFaces matters. `halfway`: as in take().
+/// faces below kFewFaces matters. `halfway`: as tight_proxy() has it.
 [[nodiscard]] LatticeMesh make_level(const SurfaceSource& dense, const CoarseStarts* starts, const Enclosed* enclosed,
                                      const SimplifyParams& params, bool few, LatticeMesh* halfway, LevelCounts& counts);
 
