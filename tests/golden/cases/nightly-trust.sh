@@ -93,7 +93,6 @@ rm bplod.pid
 chmod +x bin/bplod
 PATH=$PWD/bin:$PATH "$BP_ROOT/samples/nightly" scenes out "${options[@]}" --levels 1 > /dev/null 2>&1 & night=$!
 until [ -s bplod.pid ]; do sleep 0.05; done
-kill -9 $night
-{ wait $night; } 2> /dev/null
+{ kill -9 $night; wait $night; } 2> /dev/null  # the shell tells of the kill as soon as it sees it
 echo "= $?"
 nightly scenes out "${options[@]}" --levels 1
