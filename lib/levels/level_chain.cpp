@@ -10,38 +10,39 @@ namespace bp {
 
 namespace {
 
-// Which levels that nobody asked for are left out. A smooth body's error grows by 4 with a quarter of the faces, so
-// errors end no list.
-constexpr double kWorthHaving = 1.3;  // times as near as the level after it, at least
-constexpr double kCrumpled = 3;       // volumes of the level before
+// A level that nobody asked for is left out by these two thresholds. Errors alone end no list: the error of a smooth
+// body grows by 4 when its faces fall to a quarter.
+constexpr double kWorthHaving = 1.3;  // the next level's error is at least this many times larger
+constexpr double kCrumpled = 3;       // a level of more than this many volumes of the level before is crumpled
 
-/// Whether there are clearly fewer faces than the level's budget: its voxels, or its scale, show no more.
+/// Returns whether the level has clearly fewer faces than its budget, because its voxels or its scale show no more.
 bool falls_short(const LodLevel& level, const LodTarget& target) {
   return clearly_fewer(level.mesh.triangles.size(), target.faces);
 }
 
-/// Faces of a level that follow from a first one which fell short.
+/// Returns the budget of a level whose first level fell short: a quarter of the faces for each step.
 std::uint64_t following(std::uint64_t first_faces, std::size_t steps) {
   return std::max(steps < 32 ? first_faces >> (2 * steps) : 0, kLeastFaces);
 }
 
-/// Whether a level is worth having after the one before.
+/// Returns whether a level is worth having after the level `before`.
 bool is_coarser(const LodLevel& level, const LodLevel& before, double diagonal) {
   if (level.mesh.triangles.size() >= before.mesh.triangles.size()) return false;
-  return !(level.error_world > diagonal);  // beyond it, the scene is a point where the level would be drawn
+  return !(level.error_world > diagonal);  // from a distance at which this error is tolerated, the whole scene is a
+                                           // point
 }
 
-/// Whether a level is as near as another one, for no higher price.
+/// Returns whether the error and the price of a level are both at most those of another one.
 bool is_in_front(const LodLevel& level, const LodLevel& other) {
   return level.error_world <= other.error_world && level.price <= other.price;
 }
 
-/// Whether the target of a level follows from the first level, not from a list.
+/// Returns whether the level's budget is derived from the first level's instead of taken from a list.
 bool follows(const ChainRange& range, std::size_t i, const LodTarget& target) {
   return i > 0 && target.error_world == 0 && range.first + i >= range.request.faces.size();
 }
 
-/// first_faces: of a first level that fell short, from which the others follow; else 0.
+/// first_faces: the faces of a first level that fell short, from which the others follow; else 0.
 LodTarget target_of(const ChainRange& range, std::size_t i, std::uint64_t dense_faces, std::uint64_t first_faces) {
   LodTarget target = level_target(range.request, range.first + i, range.first, dense_faces);
   target.keep_voxels = range.keep_voxels && i == 0;
@@ -49,7 +50,7 @@ LodTarget target_of(const ChainRange& range, std::size_t i, std::uint64_t dense_
   return target;
 }
 
-/// Why a level is left out that follows `before`; faces 0: it is not.
+/// Returns why a level after `before` is left out; with faces 0 it is kept.
 LeftOut not_worth_having(const MadeLevel& now, const LodLevel& before, const ChainRange& range) {
   const LodLevel& level = now.level;
   LeftOut reason{now.target, before.mesh.triangles.size(), level.mesh.triangles.size(), level.error_world};
@@ -59,7 +60,8 @@ LeftOut not_worth_having(const MadeLevel& now, const LodLevel& before, const Cha
   return {};
 }
 
-/// Whether nobody asked for a level, and the next one, which has fewer faces, is nearly as near.
+/// Returns whether the level may go: nobody asked for it, and the next one has nearly as small an error with fewer
+/// faces.
 bool is_needless(const LodLevel& level, const LodLevel& next, const ChainRange& range) {
   return range.request.is_chosen && level.error_world * kWorthHaving > next.error_world;
 }
@@ -137,16 +139,17 @@ void LevelSequence::make_next() {
   }
 }
 
-/// Another try at the level's faces, closed as the next one; nothing if that is no way to make it.
+/// Makes the level once more with the scale of the next level's closing. Returns nothing if a scale or an error decides
+/// the level, or if the next level has no closing.
 std::optional<LodLevel> LevelSequence::closed_as(const LodLevel& next, LodTarget target) {
   if (target.faces == 0 || target.error_world > 0 || target.scale_world || next.scale_world == 0) return std::nullopt;
   target.scale_world = next.scale_world;
   return chain_.make(target);
 }
 
-/// Where a level is farther off than the next one, which has fewer faces, it gives way to one with the closing of that
-/// if it is at least as near as the next one, for no higher price; else it is left out unless it has the lower price,
-/// since it holds less.
+/// Treats levels whose error is larger than that of the next level, which has fewer faces. Such a level is made again
+/// with the next level's closing, and the new one is kept if its error and its price are at most the next level's. If
+/// this fails, the level is left out, unless its price is lower: then it holds less volume.
 void LevelSequence::keep_front() {
   std::vector<MadeLevel>& levels = made_.levels;
   for (std::size_t i = levels.size(); i-- > 1;) {
@@ -163,7 +166,7 @@ void LevelSequence::keep_front() {
   }
 }
 
-/// Notes that the level is not there, for the next one is nearly as near.
+/// Records that the level was left out because the next one has nearly the same error or a smaller one.
 void LevelSequence::leave_out(const MadeLevel& made, const LodLevel& next) {
   const LodLevel& level = made.level;
   made_.left_out.push_back(

@@ -8,7 +8,8 @@
 #include "lib/levels/voxel_choice.h"
 #include "lib/pass/voxelize/voxelize_pass.h"
 
-/// The levels of a chain: each has fewer faces than the one before, and spends its budget as far as the voxels can.
+/// Makes the levels of a chain. Each has fewer faces than the level before, and as many of its budget as the voxels can
+/// show.
 namespace bp {
 
 class LodChain;
@@ -18,18 +19,18 @@ struct VoxelizedScene {
   std::unique_ptr<BrickShelf> solid;
   VoxelizeCounts counts;
 };
-/// Another solid, of which the header's box holds all bricks, besides those that it holds.
+/// Replaces `scene.solid`, and grows `scene.header.bricks` to hold its bricks.
 void put_solid(VoxelizedScene& scene, std::unique_ptr<BrickShelf> solid);
 
-/// What is known of a level that was made: for lists, reports and notes.
+/// The facts about a level that lists, reports and notes tell.
 struct LevelFacts {
   LodTarget target;
   std::uint64_t faces = 0;
   double error_world = 0;  ///< as in LodLevel; NaN: not measured
   double scale_world = 0, voxel = 0;
   double volume = 0;              ///< scene units cubed
-  std::uint64_t voxels = 0;       ///< of its closing
-  std::uint64_t faces_dense = 0;  ///< of the surface of its voxels
+  std::uint64_t voxels = 0;       ///< of the level's closing
+  std::uint64_t faces_dense = 0;  ///< triangles of the dense surface of the closing
   int attempts = 0;
   bool reached = true;          ///< as in LodLevel
   std::string stopped_by;       ///< as in LevelCounts
@@ -37,25 +38,27 @@ struct LevelFacts {
 };
 [[nodiscard]] LevelFacts facts_of(const LodLevel& level, const LodTarget& target);
 
-/// Which levels of a request are made.
+/// The part of a request that a sequence makes.
 struct ChainRange {
   LevelRequest request;              ///< as with_defaults() gives it
-  std::size_t first = 0, count = 0;  ///< `first` is the first in one mesh
-  double diagonal = 0;               ///< of the scene
-  bool keep_voxels = false;          ///< LodTarget::keep_voxels of the first
+  std::size_t first = 0, count = 0;  ///< `first`: the request's number of the first level that is one mesh
+  double diagonal = 0;               ///< diagonal of the scene's bounds
+  bool keep_voxels = false;          ///< LodTarget::keep_voxels of the first level
 };
 
-/// A level of a request that is not there, and why.
+/// A level of a request that was left out, and why.
 struct LeftOut {
   LodTarget target;
-  std::uint64_t faces_before = 0;  ///< of the level before
-  std::uint64_t faces = 0;         ///< it would have; 0: it was not made, for the level before has its budget
-  double error_world = 0;          ///< it would have
-  std::uint64_t faces_after = 0;   ///< of the next level, which is nearly as near, or nearer; 0: another reason
-  double volume_ratio = 0;         ///< its volume over that of the level before, if that is why; else 0
+  std::uint64_t faces_before = 0;  ///< faces of the level before
+  std::uint64_t faces = 0;         ///< faces that it would have; 0: it was not made, since the level before has no more
+                                   ///< faces than its budget
+  double error_world = 0;          ///< error that it would have
+  std::uint64_t faces_after = 0;   ///< faces of the next level, if that is the reason: its error is nearly as small, or
+                                   ///< smaller; else 0
+  double volume_ratio = 0;         ///< volume over that of the level before, if that is the reason; else 0
 };
 
-/// A level with what it was asked to be.
+/// A level and its target.
 struct MadeLevel {
   LodLevel level;
   LodTarget target;
@@ -66,23 +69,26 @@ struct MadeLevels {
   std::vector<LeftOut> left_out;
 };
 
-/// Makes at most range.count levels, several at the same time; finest first. A level that has no fewer faces than the
-/// one before, or an error above the scene's diagonal, is left out. Of levels that nobody asked for
-/// (LevelRequest::is_chosen), one is left out where the next one, which has fewer faces, is nearly as near; and the
-/// list ends before a level that holds more than three times the volume of the one before: it is crumpled. A
-/// level that is farther off than the next one is made once more with the closing of that; if this does not help, it is
-/// left out, unless it holds so much less that it has the lower price. Errors never fall: where less is measured, that
-/// of the finer level stands for both. Where the first has clearly fewer faces than its budget, the budgets that follow
-/// from it are quarters of what it has, and scales double.
+/// Makes at most range.count levels, finest first, several at the same time. These levels are left out:
+///   - a level that has no fewer faces than the level before, or an error above the scene's diagonal;
+///   - a level that nobody asked for (LevelRequest::is_chosen), if the next one has nearly as small an error with fewer
+///     faces;
+///   - a level that nobody asked for, and all after it, if it holds more than three times the volume of the level
+///     before: it is crumpled;
+///   - a level with a larger error than the next one. First it is made again with the closing of the next level. If
+///     this does not help, it is left out, unless its price is lower, since it holds much less volume.
+/// Errors never fall from level to level: if a coarser one measures less, it gets the finer one's error. If the first
+/// level has clearly fewer faces than its budget, the budgets that follow from it are quarters of the faces that it
+/// has.
 class LevelSequence {
  public:
   /// Keeps a reference to `chain`.
   LevelSequence(LodChain& chain, ChainRange range) : chain_(chain), range_(std::move(range)) {}
 
-  /// Returns the numbers, of those in the request, of the levels that make_next() makes; none if all are made. The
-  /// first one is alone where the budgets of others follow from it.
+  /// Returns the levels that make_next() makes, by their numbers in the request; none if all are made. The first level
+  /// is made alone if the budgets of others follow from it.
   [[nodiscard]] std::vector<std::size_t> next();
-  /// Once after each next() that returns numbers.
+  /// Makes these levels. Call it once after each next() that returns numbers.
   void make_next();
   /// Returns the levels that are worth having. Ends the sequence.
   [[nodiscard]] MadeLevels take();
@@ -95,8 +101,8 @@ class LevelSequence {
 
   LodChain& chain_;
   ChainRange range_;
-  std::size_t at_ = 0;              // of the range
-  std::vector<std::size_t> batch_;  // of the range: what make_next() makes
+  std::size_t at_ = 0;              // the next level, counted in the range
+  std::vector<std::size_t> batch_;  // the levels that make_next() makes, counted in the range
   bool is_first_made_ = false;
   std::uint64_t first_faces_ = 0;  // above 0: the first level fell short
   MadeLevels made_;

@@ -24,7 +24,8 @@ PlannedLevel planned(const CutLevel& cut, double area, const Bounds3d& bounds) {
   return level;
 }
 
-/// Levels in one mesh: `count` from `levels.size()` on, as LodChain begins. `header`: of their solid.
+/// Appends `count` levels that are one mesh each, at the scales and voxels that LodChain tries first. `header`: the
+/// header of their solid.
 void add_whole(std::vector<PlannedLevel>& levels, const LevelRequest& request, const StreamHeader& header,
                std::size_t count, double area, bool keep_voxels) {
   const VoxelCoord side = voxel_bounds(header.frame, header.bounds).size();

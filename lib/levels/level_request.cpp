@@ -13,13 +13,14 @@ std::size_t list_size(const LevelRequest& r) {
   return std::max({r.faces.size(), r.shares.size(), r.errors_world.size()});
 }
 
-/// Of a finest level. In a scene of few triangles each of them may be needed.
+/// Returns the default budget of a finest level. In a scene of few triangles each of them may be needed.
 std::uint64_t default_faces(std::uint64_t triangles, double triangles_per_face) {
   const auto share = std::uint64_t(double(triangles) / triangles_per_face);
   return std::max({share, std::min(triangles, kLeastFirstFaces), kLeastFaces});
 }
 
-/// As many as have at least kLeastFaces, if each has a quarter of those before.
+/// Returns the number of levels that have at least kLeastFaces if each has a quarter of the faces before; at most
+/// kDefaultLevels.
 std::uint64_t levels_from(std::uint64_t faces) {
   std::uint64_t levels = 1;
   while (levels < kDefaultLevels && (faces >> (2 * levels)) >= kLeastFaces) ++levels;
@@ -46,7 +47,7 @@ bool asks_for_nothing(const LevelRequest& r) {
 }
 
 LevelRequest with_defaults(LevelRequest r, std::uint64_t triangles, const LevelDefaults& defaults) {
-  constexpr double kLeast = 4;  // of a closed surface
+  constexpr double kLeast = 4;  // the least faces of a closed surface
   for (const double share : r.shares)
     r.faces.push_back(std::uint64_t(std::max(std::round(share / 100 * double(triangles)), kLeast)));
   r.shares.clear();
@@ -83,7 +84,7 @@ LodTarget level_target(const LevelRequest& r, std::size_t i, std::size_t since, 
 
 bool clearly_fewer(std::uint64_t faces, std::uint64_t asked) {
   constexpr double kClearly = 0.95;
-  // A collapse takes two faces at a time, so that merging ends one below an odd number.
+  // A collapse removes two faces at a time, so merging may end one face below an odd number.
   return faces + 2 <= asked && double(faces) < kClearly * double(asked);
 }
 

@@ -13,10 +13,11 @@ namespace bp {
 
 namespace {
 
-// Levels at once, at most: the default list has four, and each level keeps about four threads busy.
+// The most levels at once: the default list has four, and each level keeps about four threads busy.
 constexpr std::size_t kMostAtOnce = 4;
 
-/// For one of n levels at work. A refusal within a share is not counted out: the level is made alone then.
+/// Returns the context of one of n levels that are made at the same time. If its share of the memory is refused, no
+/// limit is computed, since the level is then made alone.
 PassContext share_of(const PassContext& all, std::uint64_t n) {
   PassContext one = all;
   one.memory.bytes /= n;
@@ -38,7 +39,8 @@ struct LodChain::State {
     std::size_t first = 0;
     if (!std::exchange(is_begun, true)) {
       if (any_may_follow(targets)) begin_with(scene.own_surface());
-      if (targets.size() == 1 || any_may_follow(std::span(targets).subspan(1))) {  // it leaves what these begin from
+      if (targets.size() == 1 || any_may_follow(std::span(targets).subspan(1))) {  // the first level leaves the start
+                                                                                   // of these
         std::optional<LevelStart> left;
         levels[first++] = LevelSearch(scene, scene.context(), targets[0], start_for(targets[0])).make(&left);
         if (left) begin_with(std::move(left));
@@ -70,15 +72,15 @@ struct LodChain::State {
     return LevelSearch(scene, context, target, start_for(target)).make();
   }
 
-  /// Returns how many levels the memory surely holds beside each other.
+  /// Returns how many levels surely fit into the memory at the same time.
   [[nodiscard]] std::size_t most_at_once() const {
     const std::uint64_t each = scene.bytes_of_level(start ? start->mesh.triangles.size() : 0);
     const std::uint64_t fitting = scene.context().pieces.bytes() / std::max<std::uint64_t>(each, 1);
     return std::clamp<std::size_t>(fitting, 1, std::min(kMostAtOnce, std::size_t(thread_count())));
   }
 
-  /// From `first` on, several at the same time, each with its share of the memory. Those whose share does not suffice
-  /// after all follow one by one, with all of it.
+  /// Makes the levels from number `first` on, several at the same time, each with its share of the memory. A level
+  /// whose share was refused is made afterwards, alone, with all of the memory.
   void make_at_once(const std::vector<LodTarget>& targets, std::size_t first, std::vector<LodLevel>& levels) {
     std::vector<char> is_made(targets.size());
     const std::size_t n = std::min(targets.size() - first, most_at_once());
@@ -105,7 +107,7 @@ struct LodChain::State {
   }
 
   bool is_begun = false;
-  std::optional<LevelStart> start;  // of the levels whose faces suffice for it
+  std::optional<LevelStart> start;  // for the levels whose faces suffice for its parts and holes
 };
 
 LodChain::LodChain(const StreamHeader& header, std::unique_ptr<BrickShelf> solid, Backends& backends,

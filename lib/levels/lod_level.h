@@ -9,104 +9,110 @@
 #include "lib/pass/context.h"
 #include "lib/pass/mesh/mesh_pass.h"
 
-/// A level of detail, what it is asked to be, and what a chain of levels is made by (lod_chain.h).
+/// A level of detail, its target, and the options of a chain of levels (lod_chain.h).
 namespace bp {
 
-/// What a level is asked to be. With no scale, faces decide it: a quarter of the edge that `faces` equilateral
-/// triangles over the scene's surface would have, or half of that where the closing leaves few parts and holes
-/// then, twice as many for a fit; and an error: a quarter of it.
+/// The target of a level. If it has no scale, the scale is chosen. For faces it is a quarter of the edge that `faces`
+/// equilateral triangles over the scene's surface would have; smaller scales are tried first, from an eighth of it on
+/// (a half for a fit). For an error, it is a quarter of the error.
 struct LodTarget {
-  std::uint64_t faces = 0;            ///< 0: none
+  std::uint64_t faces = 0;            ///< budget of faces; 0: none
   double error_world = 0;             ///< largest distance of a point of the level to the scene, scene units; 0: none
   std::optional<double> scale_world;  ///< closing radius to begin with, scene units; at least the chain's least scale
-  bool keep_voxels = false;           ///< they are not doubled for this level: somebody named them
+  bool keep_voxels = false;           ///< the voxels are not doubled for this level, since the user named their size
 };
 
-/// Triangles of the dense surface below which voxels are not doubled, nor chosen, for a budget: they take a second or
-/// two, and larger voxels cost more error and volume than the budget does.
+/// A budget never doubles the voxels, nor chooses larger ones, below this many triangles of the dense surface. Meshing
+/// so many takes one or two seconds, and larger voxels would add more error and volume than the budget does.
 constexpr double kLeastDenseFaces = 500000;
-constexpr double kVoxelsPerError = 8;  ///< the error holds the voxels' diagonal, the closing and the simplification
-constexpr double kScalesPerError = 4;  ///< the cube's dilation reaches sqrt(3) scales
-/// That a budget leads to, before smaller scales are tried; below 1, closing is the identity.
+constexpr double kVoxelsPerError = 8;  ///< voxels in the target's error, which holds the voxels' diagonal, the closing
+                                       ///< and the simplification
+constexpr double kScalesPerError = 4;  ///< scales in the target's error; the cube's dilation reaches sqrt(3) scales
+/// The least scale that a budget chooses, before smaller scales are tried. Closing below one voxel changes nothing.
 constexpr double kLeastScaleVox = 1 + kBeyondWholeVox;
 
-/// What decides at which scale, and on which voxels, a level is tried first.
+/// The facts about a scene that decide at which scale and on which voxels a level is tried first.
 struct LodGround {
-  double voxel = 0, diagonal = 0;     ///< of the solid; scene units
+  double voxel = 0, diagonal = 0;     ///< edge of a voxel of the solid, and diagonal of the scene; scene units
   std::uint64_t dense_faces = 0;      ///< triangles of the dense surface of the solid
-  std::int64_t longest_side_vox = 0;  ///< of the solid
+  std::int64_t longest_side_vox = 0;  ///< longest side of the solid, in voxels
 };
 
-/// Returns the scale of the target's own budget or error, scene units, and at least `least`.
+/// Returns the scale that follows from the target's budget or error, scene units, and at least `least`.
 [[nodiscard]] double first_scale(const LodGround& ground, const LodTarget& target, double least);
-/// Returns how often the voxels are doubled: while the target leaves enough of them, and the scale is not below one. At
-/// least `before` times: the number at a smaller scale of the same level.
+/// Returns how often the voxels are doubled: while the target leaves enough of them, and the scale is at least a voxel.
+/// The result is at least `before`, the number at a smaller scale of the same level.
 [[nodiscard]] int reductions_for(const LodGround& ground, const LodTarget& target, double scale, int before);
-/// The finest scale that the voxels of a level of `scale` have to tell; `field`: as in LodOptions.
+/// Returns the finest scale that occurs in a level of `scale`, so that its voxels must be fine enough for it. `field`:
+/// as in LodOptions.
 [[nodiscard]] double finest_scale(const std::optional<ScalePlan>& field, double scale);
 
-/// Bytes of each triangle of the scene that a fit follows: twice, and a hierarchy over them.
+/// Bytes for each triangle of the scene that a fit follows: two copies, and a hierarchy over them.
 constexpr std::uint64_t kBytesOfFit = 400;
 
 struct LodOptions {
   ClosingParams closing;
   MeshMode mode = MeshMode::bounding;  ///< bounding or fit
-  Enclose enclose = Enclose::input;    ///< of bounding levels
-  /// The scene's triangles, scene units: of Enclose::scene, and those that fits follow; without, these follow the
-  /// closing.
+  Enclose enclose = Enclose::input;    ///< for bounding levels
+  /// The scene's triangles, scene units. With Enclose::scene they stay inside; a fit follows them. Without them a fit
+  /// follows the closing.
   std::vector<TriangleD> scene;
-  /// The scene is known to lie within the solid, which was reduced from finer voxels. These told so: in larger voxels a
-  /// corner may lie so near to a side, as these are rounded, that the voxel beyond it would have been set.
+  /// The scene is known to lie within the solid, which was reduced from finer voxels. It cannot be tested in the larger
+  /// voxels: a corner may lie so near to a side of theirs that rounding puts it into the next voxel.
   bool is_within = false;
-  /// Voxels of the solid that hold a point of what the scene shows to the outside; null: those of its boundary.
+  /// The voxels of the solid that hold a point of what the scene shows to the outside; null: those of its boundary.
   std::shared_ptr<const BrickShelf> surface;
-  double least_scale_world = 0;  ///< no level is closed at less
-  /// Where a level's scale is finer or coarser: times the level's scale over the base, which is above 0. Rules by shape
-  /// are measured on the level's voxels, and keep their lengths. None: nowhere.
+  double least_scale_world = 0;  ///< the least scale of any closing
+  /// Rules that make a level's scale finer or coarser at some places. The field is multiplied by the level's scale over
+  /// the field's base, which is above 0. Rules by shape are measured on the level's voxels, and keep their lengths.
+  /// None: the scale is the same everywhere.
   std::optional<ScalePlan> field;
-  /// The level that will be made first: a refusal for memory names a limit at which it fits, too.
+  /// The level that will be made first: a refusal for memory then also tells the limit at which this level fits.
   std::optional<LodTarget> first;
-  std::optional<CageParams> cage;  ///< levels are cages of quads around the voxels as they are, of faces alone
-  /// The memory is for tiles at work and, between them, for surfaces. The scene's outer surface and `scene` are
-  /// subtracted from both.
+  std::optional<CageParams> cage;  ///< levels are cages of quads around the voxels, without a closing; only budgets of
+                                   ///< faces are possible
+  /// The memory serves tiles at work and, between them, surfaces. The bytes of the scene's outer surface and of `scene`
+  /// are subtracted from it.
   PassContext context;
 };
 
-/// A mesh that was proposed for a level.
+/// A mesh that was proposed for a level, as reports list it.
 struct TriedWay {
-  /// box, prism, hull; surface: from the scene's own; finer: from the finest level, halfway; closing; least
-  /// volume; cage
+  /// One of: box, prism, hull; surface: simplified from the scene's own surface; finer: simplified from the finest
+  /// level, halfway; closing; least volume; cage.
   std::string way;
-  double scale_world = 0;  ///< of its closing
+  double scale_world = 0;  ///< of the mesh's closing
   std::uint64_t faces = 0;
   double volume = 0;       ///< scene units cubed
-  double error_world = 0;  ///< NaN: so large that it was not measured to the end
+  double error_world = 0;  ///< NaN: too large to be measured to the end
 };
 
 struct LodLevel {
   LatticeMesh mesh;        ///< in the frame of its voxels
-  double scale_world = 0;  ///< that it was closed at; 0: nothing was, as for boxes, hulls and the scene's own surface
+  double scale_world = 0;  ///< scale of the closing; 0: there was none, as for boxes, hulls and the scene's own surface
   int reductions = 0;      ///< the voxels are 2^reductions times those of the solid
-  int attempts = 0;        ///< scales, from the first one on, at which parts and holes left too many faces; and one
-  bool reached = true;     ///< it has at most the faces asked for
-  /// Upper bound of the distances that a viewer can see, scene units: from a point of the level to the outer surface of
-  /// the scene, and from a point of that surface which lies outside the level (only of fits) to the level. Around
-  /// triangles (Enclose::scene) the bound is too large by a 16th of a voxel of the solid or 0.1 % at most, of a fit to
-  /// triangles as a rule by a voxel, else by three voxels and 4 %.
+  int attempts = 0;        ///< number of scales at which the level was closed, from first_scale() on
+  bool reached = true;     ///< it has at most the budget's faces
+  /// Upper bound of the distances that a viewer can see, scene units. These are the distances from a point of the level
+  /// to the outer surface of the scene; for fits also those from a point of that surface outside the level to the
+  /// level. The bound is too large by at most:
+  ///   - around triangles (Enclose::scene), a 16th of a voxel of the solid or 0.1 %;
+  ///   - for a fit to triangles, as a rule a voxel;
+  ///   - else three voxels and 4 %.
   double error_world = 0;
-  double price = 0;  ///< by which it was chosen (detail/best_level.h); levels of a chain compare
+  double price = 0;  ///< price by which it was chosen (detail/best_level.h); comparable between the levels of a chain
   MeshCounts counts;
-  std::vector<TriedWay> tried;  ///< in this order; the level is one of them
+  std::vector<TriedWay> tried;  ///< in the order of the proposals; the level is one of them
 };
 
-/// What a level holds, scene units cubed.
+/// Returns the volume that a level holds, scene units cubed.
 [[nodiscard]] inline double volume_of(const LodLevel& level) {
   return level.counts.levels.front().measures.volume;
 }
 
-/// Returns the limit on memory at which options.first fits, with all steps before it, if the scene has so many
-/// triangles, which need not be in `options`. 0: not known. `solid` holds the bricks of `header`; `context` has all of
-/// the memory. Asked for after a refusal; takes the memory of some bricks.
+/// Returns the limit on memory at which options.first fits, with all steps before it; 0: not known. `triangles`: number
+/// of the scene's triangles, which need not be in `options`. `solid` holds the bricks of `header`; `context` has all of
+/// the memory. Callers ask after a refusal; the call itself takes the memory of some bricks.
 [[nodiscard]] std::uint64_t chain_limit(const StreamHeader& header, BrickShelf& solid, const LodOptions& options,
                                         const PassContext& context, std::uint64_t triangles);
 

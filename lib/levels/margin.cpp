@@ -8,7 +8,7 @@
 namespace bp {
 
 void add_margin(VoxelizedScene& scene, double margin_world, const PassContext& context) {
-  constexpr double kRounding = 1 + 1e-12;  // of the quotient and of squares
+  constexpr double kRounding = 1 + 1e-12;  // rounding of the quotient and of squares
   const double reach = margin_world / scene.header.frame.voxel * kRounding;
   if (!(reach <= kMostReach))
     fail(ErrorCode::bad_argument, {Remedy::larger_voxels}, "a margin of {} is {:.0f} voxels, more than {}",
@@ -21,7 +21,7 @@ void add_margin(VoxelizedScene& scene, double margin_world, const PassContext& c
 }
 
 double farthest_of_margin(double margin_world, double voxel) {
-  // The grown voxel holds the point, the voxel that it is near to holds one of the scene.
+  // The grown voxel holds the point, and the voxel that it is near to holds a point of the scene; each adds a diagonal.
   return margin_world + 2 * std::sqrt(3.0) * voxel;
 }
 

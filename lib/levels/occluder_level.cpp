@@ -13,19 +13,24 @@ namespace bp {
 
 namespace {
 
-constexpr double kAsMuch = 0.95;                                 // of what the best scale hides
-constexpr double kGroundGains = 1.25;                            // times what is hidden without
-constexpr double kLeastTriedVox = 2;                             // that is tried
-constexpr double kMostScale = 1.0 / 16, kMostOpening = 1.0 / 8;  // of the scene's diagonal
-constexpr double kLeastPart = 1e-3, kMostLeastPart = 0.3;        // of the largest one, by volume
-constexpr std::uint64_t kFewFacesPerPart = kFacesOfBox;          // with fewer, parts are left out
+constexpr double kAsMuch = 0.95;                                 // the chosen scale hides at least this part of what
+                                                                 // the best one does
+constexpr double kGroundGains = 1.25;                            // standing on the ground must multiply what is hidden
+                                                                 // by more than this
+constexpr double kLeastTriedVox = 2;                             // the least scale that is tried
+constexpr double kMostScale = 1.0 / 16, kMostOpening = 1.0 / 8;  // the largest scales that are tried, as parts of the
+                                                                 // scene's diagonal
+constexpr double kLeastPart = 1e-3, kMostLeastPart = 0.3;        // thresholds below which parts are left out, as parts
+                                                                 // of the largest part's volume
+constexpr std::uint64_t kFewFacesPerPart = kFacesOfBox;          // parts are left out if there are fewer faces for each
 
 HiddenOptions at_scale(HiddenOptions options, double scale_world) {
   options.scale_world = scale_world;
   return options;
 }
 
-/// Shows steps done of those that may come; passes within a step draw the same line again.
+/// Shows progress in steps of the whole search. The passes within a step report nothing new: they only draw the same
+/// line again.
 class ShownSteps {
  public:
   ShownSteps(const PassContext& context, const char* pass, const char* unit, std::size_t total)
@@ -46,7 +51,7 @@ class ShownSteps {
   std::size_t done_ = 0, total_;
 };
 
-/// What a scene hides at the scale that is asked for, or at the best one.
+/// Finds what a scene hides, at the scale that is asked for or at the best one.
 class HiddenSearch {
  public:
   HiddenSearch(const StreamHeader& header, BrickShelf& touched, Backends& backends, const OccluderRequest& request,
@@ -71,12 +76,13 @@ class HiddenSearch {
   }
 
  private:
-  /// Scales that hide less than one before them are never the least that hides enough: their voxels are not kept.
+  /// Computes what is hidden at a scale. The voxels are kept only if they are more than at all scales before: else a
+  /// smaller scale hides as much.
   void attempt(double scale) {
     const bool first = tried_.empty();
     const auto unreached = unreached_voxels(header_, *enclosed_, backends_, at_scale(options_, scale));
     tried_.push_back({scale, first ? 0 : tried_.front().hidden_voxels});
-    if (!unreached && !first) return;  // as much as without a scale
+    if (!unreached && !first) return;  // nothing more is hidden than without a scale
     HiddenScene hidden;
     hidden.scale_world = scale;
     hidden.voxels = unseen_voxels(unreached ? *unreached : *enclosed_, touched_, options_);
@@ -90,17 +96,17 @@ class HiddenSearch {
   const StreamHeader& header_;
   BrickShelf& touched_;
   Backends& backends_;
-  const bool asked_;  // for one scale
+  const bool asked_;  // whether one scale is asked for
   const std::vector<double> scales_;
   ShownSteps steps_;
   const HiddenOptions options_;
   const std::unique_ptr<BrickShelf> enclosed_;
   std::vector<HiddenScene::Tried> tried_;
-  std::vector<HiddenScene> promising_;  // each with more voxels than the one before
+  std::vector<HiddenScene> promising_;  // the last ones hide more than those before
   std::uint64_t most_ = 0;
 };
 
-/// The mesh within hidden voxels.
+/// Makes the mesh within hidden voxels.
 class OccluderMesh {
  public:
   OccluderMesh(const StreamHeader& header, const HiddenScene& hidden, Backends& backends,
@@ -127,7 +133,8 @@ class OccluderMesh {
   [[nodiscard]] std::uint64_t faces() const { return faces_; }
 
  private:
-  /// Of an opening, with ever fewer parts while they are too many for the faces. Whether one was the best so far.
+  /// Tries one opening. While its parts are too many for the faces, larger and larger parts are left out. Returns
+  /// whether a mesh was the best so far.
   bool attempt(double scale) {
     bool any = false;
     for (double least = kLeastPart; least <= kMostLeastPart; least *= std::sqrt(10.0)) {
@@ -155,7 +162,8 @@ class OccluderMesh {
     return true;
   }
 
-  /// Of the best mesh: all that is hidden. No other one holds more, since each lies in hidden voxels.
+  /// Returns whether the best mesh has the volume of all hidden voxels. No mesh holds more, since each lies in hidden
+  /// voxels.
   [[nodiscard]] bool holds_all() const {
     return volume6_of(best_.mesh) >= int128(hidden_.voxels.count) * kVolume6OfVoxel;
   }
@@ -169,7 +177,7 @@ class OccluderMesh {
     return header;
   }
 
-  /// False if nothing is left of what is hidden.
+  /// Opens the hidden voxels. Returns false if nothing is left.
   bool open_by(double scale) {
     opened_.reset();
     if (scale == 0) return true;
@@ -177,7 +185,7 @@ class OccluderMesh {
     return opened_ != nullptr;
   }
 
-  /// False if it is too thin to be meshed.
+  /// Makes the mesh. Returns false if the opened voxels are too thin to be meshed.
   bool mesh_at(double scale, double least_part, LodLevel& level) {
     ShelfSource shelf(header_at(scale), *hidden_.voxels.voxels, opened_.get(), ShelfSource::Keep::all);
     MeshParams params;
@@ -200,7 +208,7 @@ class OccluderMesh {
   const HiddenOptions& options_;
   const std::vector<double> openings_;
   ShownSteps steps_;
-  std::unique_ptr<BrickShelf> opened_;  // of what is hidden; null: all of it
+  std::unique_ptr<BrickShelf> opened_;  // the opening of the hidden voxels; null: all of them
   std::uint64_t faces_;                 // 0: not known
   LodLevel best_;
   double opening_ = 0;

@@ -4,14 +4,14 @@
 #include "lib/grid/mirror_plane.h"
 #include "lib/levels/level_chain.h"
 
-/// Scenes that are their own mirror image, and voxels that are made so.
+/// Finds scenes that are their own mirror image, and makes solids symmetric.
 namespace bp {
 
-/// The plane between voxels that is nearest to the middle of the scene.
+/// Returns the plane between voxels that is nearest to the middle of the scene.
 [[nodiscard]] MirrorPlane middle_plane(const StreamHeader& header, int axis);
 
-/// The first of the axes x, y, z across which the scene is its own mirror image, to two voxels: one for the plane,
-/// which lies between voxels, and one for the voxels themselves.
+/// Returns the first of the axes x, y, z across which the scene is its own mirror image, within two voxels: one because
+/// the plane lies between voxels, and one because of the voxels themselves.
 [[nodiscard]] std::optional<MirrorPlane> symmetry_of(const VoxelizedScene& scene, const PassContext& context);
 
 /// Adds the mirror image of the solid.

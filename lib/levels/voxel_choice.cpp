@@ -10,9 +10,11 @@ namespace bp {
 
 namespace {
 
-constexpr std::uint64_t kDensePerFaceAsked = 190;  // as kDensePerFace, where faces choose the voxels
+constexpr std::uint64_t kDensePerFaceAsked = 190;  // like kDensePerFace, if the voxels are chosen from a budget of
+                                                   // faces
 
-/// Of the cube of the same volume: a flat scene shows what is in it along its thickness, too.
+/// Returns the surface of the cube that has the box's volume, since a flat scene shows its contents along its
+/// thickness, too.
 double area_of_cube_like(const Bounds3d& b) {
   constexpr double kFlattest = 1.0 / 64;
   double volume = 1;
@@ -21,7 +23,8 @@ double area_of_cube_like(const Bounds3d& b) {
   return 6 * edge * edge;
 }
 
-/// The edge for a dense surface of `dense_faces` triangles over `area`, within two resolutions.
+/// Returns the edge for a dense surface of `dense_faces` triangles over `area`. It is at most that of the default
+/// resolution, and at least that of the resolution `most`.
 double voxel_for(double dense_faces, double area, const Bounds3d& bounds, std::int64_t most) {
   const double coarse = voxel_size_of(bounds, kDefaultResolution);
   const double fine = std::min(coarse, std::sqrt(2 * kSlantedSteps * area / dense_faces));

@@ -1,24 +1,26 @@
 #pragma once
 #include "lib/levels/level_request.h"
 
-/// The edge of the voxels that levels of detail are made of.
+/// Chooses the edge of the voxels that levels of detail are made of.
 namespace bp {
 
-/// Voxels along the longest side, where they are chosen.
+/// Voxels along the longest side.
 constexpr std::int64_t kDefaultResolution = 256, kMostResolution = 1024, kMostTilesetResolution = 4096;
-constexpr std::int64_t kOccluderResolution = 512;  ///< an occluder gives away a voxel or two of each wall
-constexpr std::uint64_t kTilesetFaces = 40000;  ///< over the bounds, at most, that voxels of a tileset are chosen for
+constexpr std::int64_t kOccluderResolution = 512;  ///< finer than the default, since an occluder gives away one or two
+                                                   ///< voxels at each wall
+constexpr std::uint64_t kTilesetFaces = 40000;     ///< the most faces over the bounds that the voxels of a tileset are
+                                                   ///< chosen for
 
-/// What is known of a scene before it is voxelized.
+/// The facts about a scene that are known before it is voxelized.
 struct SceneSize {
   Bounds3d bounds;
   std::uint64_t triangles = 0;
-  std::uint64_t without_area = 0;  ///< of these
+  std::uint64_t without_area = 0;  ///< how many of the triangles have no area
 };
 
 enum class VoxelUse { meshes, tiles, occluder };
 
-/// What is asked of the voxels. At most one of voxel and resolution is given.
+/// The user's wishes for the voxels. At most one of voxel and resolution is given.
 struct VoxelRequest {
   double voxel = 0;             ///< edge, scene units; 0: not given
   std::int64_t resolution = 0;  ///< voxels along the longest side; 0: not given
@@ -28,20 +30,20 @@ struct VoxelRequest {
   return r.voxel > 0 || r.resolution > 0;
 }
 
-/// The edge of a voxel, scene units. `levels` comes from with_defaults(), but for tiles. The first of these that is
-/// there decides:
+/// Returns the edge of a voxel, scene units. `levels` comes from with_defaults(), except for tiles. The first of these
+/// that applies decides:
 ///   - the voxel or the resolution that is asked for;
 ///   - an eighth of the finest error;
-///   - kOccluderResolution, of an occluder;
-///   - the faces of the finest level, at most four for each triangle of the scene: a surface as large as that of the
-///     bounds has 190 triangles for each, and at least kLeastDenseFaces, within
-///     kDefaultResolution and kMostResolution;
-///   - for tiles without a budget: the triangles of the scene, at most kTilesetFaces. The cube as large as the bounds
-///     has kDensePerFace triangles for each. The most is kMostTilesetResolution;
+///   - for an occluder, kOccluderResolution;
+///   - the faces of the finest level, at most four for each triangle of the scene. A surface as large as that of the
+///     bounds gets 190 dense triangles for each face, and at least kLeastDenseFaces, within kDefaultResolution and
+///     kMostResolution;
+///   - for tiles without a budget, the triangles of the scene, at most kTilesetFaces. The cube of the same volume as
+///     the bounds gets kDensePerFace dense triangles for each. The most is kMostTilesetResolution;
 ///   - kDefaultResolution.
 [[nodiscard]] double chosen_voxel(const VoxelRequest& voxels, const LevelRequest& levels, const SceneSize& scene);
 
-/// Of the six sides of a box.
+/// Returns the area of the six sides of a box.
 [[nodiscard]] double area_of(const Bounds3d& bounds);
 
 }  // namespace bp

@@ -11,8 +11,8 @@ namespace bp {
 
 ResultKey key_of(const WholeInput& input) {
   const auto& [header, solid, first, count, request, lod, colors, encoding] = input;
-  // No byte depends on the memory, which is all of `context` and of how `surface` is kept. Who checked the scene, and
-  // what refusals count, changes none.
+  // The memory decides no byte; that is all of `context`, and how `surface` is kept. The fields about refusals and
+  // about an earlier check of the scene decide none either.
   const auto& [closing, mode, enclose, scene, is_within, surface, least_scale_world, field, foreseen, quads, context] =
       lod;
   const GridFrame& frame = header.frame;
@@ -20,7 +20,8 @@ ResultKey key_of(const WholeInput& input) {
   hash.add(encoding, first, count, frame, header.bounds, header.scene.triangles, request.faces.size());
   hash.add(closing, mode, enclose, std::as_bytes(std::span(scene)), least_scale_world, quads,
            field ? to_json(*field) : "");
-  for (std::size_t i = 0; i < count; ++i) {  // dense faces are of the solid
+  for (std::size_t i = 0; i < count; ++i) {  // a fixed number of dense faces will do, since the solid decides the true
+                                             // one
     hash.add(level_target(request, first + i, first, 1000000));
   }
   add_voxels(hash, *solid, voxels_of(header.bricks), {});
@@ -56,7 +57,7 @@ Bounds3d bounds_of(const LatticeMesh& mesh) {
 Vec3d common_origin(const std::vector<LodLevel>& levels) {
   double voxel = 0;
   Bounds3d bounds;
-  for (const LodLevel& level : levels) {  // a corner of the largest voxels
+  for (const LodLevel& level : levels) {  // the origin is a corner of the largest voxels, and so of all
     voxel = std::max(voxel, level.mesh.frame.voxel);
     bounds.merge(bounds_of(level.mesh));
   }

@@ -3,10 +3,10 @@
 #include "lib/pass/color/scene_colors.h"
 #include "lib/store/result_store.h"
 
-/// The levels of a tileset that are not cut, as one job.
+/// Makes the levels of a tileset that are one mesh each, together as one job.
 namespace bp {
 
-/// A level in one mesh, as a file.
+/// A level that is one mesh, as a file.
 struct WholeLevel {
   std::string content;
   Bounds3d bounds;  ///< of its vertices
@@ -15,32 +15,33 @@ struct WholeLevel {
 };
 
 struct WholeLevels {
-  Vec3d origin{};  ///< that all contents are relative to
+  Vec3d origin{};  ///< all contents are relative to it
   std::vector<WholeLevel> levels;
   std::vector<LeftOut> left_out;
 };
 
-/// What they are made from.
+/// Everything that the levels are made from.
 struct WholeInput {
   StreamHeader header;
   std::unique_ptr<BrickShelf> solid;
-  std::size_t first = 0, count = 0;  ///< levels, at most; those below are cut
+  std::size_t first = 0, count = 0;  ///< `first`: number of the first level; the levels before it are cut. `count`: the
+                                     ///< most levels
   LevelRequest request;
-  LodOptions lod;                 ///< with the surface (LodOptions::surface), and the scene of a fit
+  LodOptions lod;                 ///< with the surface (LodOptions::surface), and for a fit with the scene
   SceneColors* colors = nullptr;  ///< null: none
   /// Everything else that the contents depend on: names, options.
   std::string encoding;
 };
 
-/// Makes the key of everything that the levels depend on.
+/// Returns the key of everything that the levels depend on.
 [[nodiscard]] ResultKey key_of(const WholeInput& input);
-/// What was kept under a key; nothing if it is not there.
+/// Returns the levels that were kept under a key; nothing if there are none.
 [[nodiscard]] std::optional<WholeLevels> kept_levels(const ResultKey& key, ResultStore& store);
 void keep_levels(const ResultKey& key, const WholeLevels& levels, ResultStore& store);
 
-/// A point that is a lattice point of every level, near the middle of all. Levels are not empty.
+/// Returns a point that is a lattice point of every level, near the middle of all. No level may be empty.
 [[nodiscard]] Vec3d common_origin(const std::vector<LodLevel>& levels);
-/// Around the vertices of a mesh.
+/// Returns the box around the vertices of a mesh, scene units.
 [[nodiscard]] Bounds3d bounds_of(const LatticeMesh& mesh);
 
 }  // namespace bp

@@ -18,12 +18,13 @@ double BestLevel::unseen() const {
   return kUnseenVox * ruler_.voxel();
 }
 
-/// What the error is multiplied by in the price.
+/// Returns the factor by which the price multiplies the error: the volume with its skin; 1 for fits.
 double BestLevel::weight(const LodLevel& level) const {
   return mode_ == MeshMode::fit ? 1 : volume_of(level) + unseen() * area_world(level.mesh);
 }
 
-/// With a larger error the level would not be better than the best one so far.
+/// Returns the largest error with which the level would be better than the best one so far; negative: it cannot be
+/// better.
 double BestLevel::most_error(const LodLevel& level) const {
   constexpr double kAny = std::numeric_limits<double>::infinity();
   if (!level_) return kAny;

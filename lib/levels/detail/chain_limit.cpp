@@ -1,4 +1,4 @@
-// What the steps of a chain of levels take of memory, counted on the solid.
+// Computes from the solid how much memory the steps of a chain of levels take.
 #include <algorithm>
 
 #include "lib/grid/shelf_stream.h"

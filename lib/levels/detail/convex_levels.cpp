@@ -11,7 +11,7 @@ namespace bp {
 
 namespace {
 
-/// The box lies around `bounds` by a lattice unit or two.
+/// Returns the box, which is larger than `bounds` by one or two lattice units on each side.
 LodLevel box_level(const LodLevel& place, const Bounds3d& bounds) {
   const GridFrame& frame = place.mesh.frame;
   LatticeMesh box;

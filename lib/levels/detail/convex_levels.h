@@ -4,9 +4,8 @@
 
 #include "lib/levels/detail/convex_level.h"
 
-/// Convex meshes in place of a bounding level: a box around all that is enclosed; of a flat scene also the prism around
-/// its outline, and of a convex one its hull. They are exact where the scene is such a thing, and near where few faces
-/// are asked for.
+/// Convex meshes that may replace a bounding level: a box around the scene; for a flat scene also the prism around its
+/// outline; for a convex one also its hull. They are exact for scenes of that shape, and a good choice for few faces.
 namespace bp {
 
 struct ConvexLevel {
@@ -14,9 +13,9 @@ struct ConvexLevel {
   LodLevel level;
 };
 
-/// Returns those that have at most `faces` faces. Their error is not measured. `place`: a level without a mesh, whose
-/// frame and scale they take. `bounds`: of what is enclosed; scene units. `corners`: scene_corners(), or none, if only
-/// voxels are known.
+/// Returns the convex meshes that have at most `faces` faces. Their error is not measured. `place`: a level without a
+/// mesh; the results take its frame and scale. `bounds`: of everything that is enclosed; scene units. `corners`:
+/// scene_corners(); empty if only voxels are known, and then there is a box only.
 [[nodiscard]] std::vector<ConvexLevel> convex_levels(const LodLevel& place, const Bounds3d& bounds,
                                                      std::span<const Vec3d> corners, std::uint64_t faces);
 

@@ -12,12 +12,12 @@ namespace bp {
 
 namespace {
 
-constexpr std::size_t kMostOfScene = 3 * 65536;  // corners of its triangles
-constexpr std::size_t kMostFaces = 16384;        // each is compared with each corner: 0.4 s
+constexpr std::size_t kMostOfScene = 3 * 65536;  // corners of the scene's triangles
+constexpr std::size_t kMostFaces = 16384;        // each face is compared with each corner: 0.4 s
 constexpr double kFar = kLatticePerVoxel / 2.0;
-constexpr double kReach = double(std::int64_t(1) << 28);  // what hull_of() takes
+constexpr double kReach = double(std::int64_t(1) << 28);  // the largest coordinate that hull_of() takes
 
-/// Of its volume.
+/// Returns the centre of gravity of the hull's volume.
 Vec3d middle_of(const ConvexHull& hull) {
   const LatticeCoord origin = hull.vertices.front();
   Vec3d sum{};
@@ -34,7 +34,7 @@ Vec3d middle_of(const ConvexHull& hull) {
 
 struct Side {
   Vec3d point, normal;
-  double area;  // twice it
+  double area;  // twice the side's area
 };
 
 std::vector<Side> sides_of(const ConvexHull& hull) {
@@ -47,14 +47,15 @@ std::vector<Side> sides_of(const ConvexHull& hull) {
   return sides;
 }
 
-/// The least, over the sides, of how far p lies below one.
+/// Returns the distance of p to the nearest side's plane; above 0: p lies below all planes.
 double depth(const std::vector<Side>& sides, const Vec3d& p) {
   double least = HUGE_VAL;
   for (const Side& s : sides) least = std::min(least, dot(s.point - p, s.normal) / s.area);
   return least;
 }
 
-/// Away from its middle, until each face has moved by `room`; nothing if that takes a corner far.
+/// Scales the hull away from its middle, until each face has moved by at least `room`. Returns nothing if a corner
+/// would move by half a voxel.
 std::optional<ConvexHull> grown(const ConvexHull& hull, double room) {
   const Vec3d middle = middle_of(hull);
   const double share = room / depth(sides_of(hull), middle);
@@ -70,7 +71,7 @@ std::optional<ConvexHull> grown(const ConvexHull& hull, double room) {
 }  // namespace
 
 std::optional<LodLevel> hull_level(const LodLevel& level, std::span<const Vec3d> corners, std::uint64_t faces) {
-  constexpr double kLeast = 0.5;  // far more than what is lost by computing
+  constexpr double kLeast = 0.5;  // far more than the rounding of the doubles here
   if (corners.empty() || corners.size() > kMostOfScene) return {};
   std::vector<LatticeCoord> near;
   double rounding = 0;
@@ -85,7 +86,7 @@ std::optional<LodLevel> hull_level(const LodLevel& level, std::span<const Vec3d>
     const std::optional<ConvexHull> around = grown(*hull, room);
     if (!around || around->triangles.size() > faces) return {};
     const std::vector<Side> sides = sides_of(*around);
-    // What was rounded lies in the hull, and so as deep as its corners or deeper.
+    // A corner of the scene was moved by at most `rounding`, and its rounded place lies in the hull.
     const auto is_deep = [&](const LatticeCoord& p) { return depth(sides, to_double(p)) >= kLeast + rounding; };
     if (!std::all_of(hull->vertices.begin(), hull->vertices.end(), is_deep)) continue;
     LatticeMesh mesh;

@@ -5,10 +5,12 @@
 
 namespace bp {
 
-/// The convex hull of `corners` (scene_corners()), grown by a few lattice units, as a level in the place of `level`.
-/// Nothing if it has more than `faces` or 16,384, if it is flat, or so thin that its corners would move by half a
-/// voxel, or if the scene has more than 65,536 triangles. Its distances are not measured. O(n log n), and the square of
-/// its faces.
+/// Returns the convex hull of `corners` (scene_corners()), grown by a few lattice units, as a level in the place of
+/// `level`. Returns nothing in these cases:
+///   - the hull has more than `faces` or 16,384 faces;
+///   - it is flat, or so thin that its corners would move by half a voxel;
+///   - the scene has more than 65,536 triangles.
+/// The error is not measured. Takes O(n log n) for n corners, and O(f^2) for f faces of the hull.
 [[nodiscard]] std::optional<LodLevel> hull_level(const LodLevel& level, std::span<const Vec3d> corners,
                                                  std::uint64_t faces);
 

@@ -56,7 +56,7 @@ LodGround LevelScene::ground() const {
 }
 
 std::shared_ptr<const Enclosed> LevelScene::enclosed(const LevelVoxels::Solid& solid) {
-  constexpr std::uint64_t kSmallShare = 16;  // of the memory
+  constexpr std::uint64_t kSmallShare = 16;  // of the memory that levels have
   const std::lock_guard lock(mutex_);
   std::weak_ptr<const Enclosed>& place = enclosed_[solid.reductions];
   if (std::shared_ptr<const Enclosed> made = place.lock()) return made;
@@ -69,7 +69,7 @@ std::shared_ptr<const Enclosed> LevelScene::enclosed(const LevelVoxels::Solid& s
 }
 
 std::optional<LevelStart> LevelScene::own_surface() {
-  // Where the scene has more triangles, the voxels' surface is the shorter way.
+  // For a scene of more triangles than the voxels' surface, the latter leads to the level faster.
   if (!has_triangles() || options_.field || options_.scene.size() > ruler_->dense_faces) return std::nullopt;
   const StreamHeader& header = voxels_.reduced(0).header;
   std::optional<LatticeMesh> surface = outward_scene(options_.scene, header.frame);

@@ -9,16 +9,17 @@ namespace bp {
 
 namespace {
 
-// A budget is closed at the least of the scales from a kFinest-th of its own on at which each part and hole of the
-// closing has so many faces to show its shape. Where parts and holes take all faces, the rest of the level is far off.
-// A fit lies on the closing, and has its noise.
+// The search for a budget begins at 1/kFinest of the budget's own scale. It takes the first scale at which the closing
+// leaves kFacesPerPart faces for each part and hole, since fewer do not show their shapes: the parts would take all
+// faces, and the rest of the level would lie far from the scene. A fit begins at a half, since it lies on the closing
+// and would follow the steps of the voxels.
 constexpr double kFinest = 8, kFinestOfFit = 2;
 constexpr std::uint64_t kFacesPerPart = 50;
 constexpr std::uint64_t kLeastPerPart = 4;  // a closed surface has at least four times its parts and handles
-// With fewer faces, the mesh that keeps near the scene is not always the nearest one.
+// Below 32 faces, the mesh made by distance is not always the nearest one, so least volume is tried too.
 constexpr std::uint64_t kTryVolumeBelow = 32;
 
-/// Whether nothing but a number of faces decides the scale.
+/// Returns whether the target is a number of faces alone, so that the search chooses the scale.
 bool is_by_budget(const LodTarget& target) {
   return target.faces > 0 && target.error_world == 0 && !target.scale_world;
 }
@@ -31,8 +32,9 @@ std::uint64_t parts_and_handles(const MeshMeasures& measures) {
   return measures.shells + measures.handles;
 }
 
-/// Whether meshing for least volume may lead to few enough faces: all parts and handles are kept, and each takes four.
-/// Where there are several, none was seen to lead from more than twice as many.
+/// Returns whether meshing for least volume may reach the number of faces. It keeps all parts and handles, and each
+/// needs four faces. With several parts it is not tried if the near mesh has more than 2n + 8 faces: it never reached n
+/// in the tests.
 bool may_reach_by_volume(const LodLevel& level, std::uint64_t faces) {
   constexpr std::uint64_t kFewMore = 8;
   const std::uint64_t parts = parts_and_handles(level.counts.levels.front().measures);
@@ -58,7 +60,7 @@ MeshParams params_of_level(const LodOptions& options, const LodTarget& target, b
   if (options.mode == MeshMode::fit) {
     params.enclose = has_triangles ? Enclose::scene : Enclose::closing;
   } else if (options.enclose == Enclose::scene) {
-    params.distances_to = Enclose::input;  // its voxels, as without
+    params.distances_to = Enclose::input;  // distances count from the scene's voxels, as with Enclose::input
   }
   return params;
 }
@@ -97,7 +99,8 @@ bool LevelSearch::is_of_few_faces() const {
   return scene_.is_bounding() && has_few_faces(target_);
 }
 
-/// Whether nothing is asked but a number of faces, of a scene of few triangles: these tell quickly what is near.
+/// Returns whether all closings are tried: a number of faces alone is asked for, of a scene of so few triangles that
+/// each closing takes little time.
 bool LevelSearch::is_simple() const {
   return scene_.is_bounding() && scene_.has_triangles() && !options_.field && is_by_budget(target_) &&
          options_.scene.size() <= MeshParams::kSimpleScene;
@@ -123,13 +126,14 @@ std::vector<ConvexLevel> LevelSearch::convex_ways() {
   return convex_levels(place, scene_.bounds(), scene_corners(header.frame, options_.scene), target_.faces);
 }
 
-/// Whether the target has not so many faces for each part and hole of a closing.
+/// Returns whether the target has fewer than `faces_per_part` faces for each part and hole of the closing.
 bool LevelSearch::has_too_many_parts(const Closing& closing, std::uint64_t faces_per_part) const {
   return target_.faces > 0 && parts_and_holes(closing, context_.pieces) * faces_per_part > target_.faces;
 }
 
-/// One closing, but of simple scenes, which take little time, each up to twice the scale of the budget. What a closing
-/// joins, few faces need not show; what it leaves apart, they follow.
+/// Proposes one closing; for a simple scene, the closings of all scales up to twice that of the budget. The best of
+/// these cannot be known before: a larger scale joins parts, so that the level needs fewer faces, and a smaller one
+/// follows the scene's shape.
 void LevelSearch::propose_closings() {
   const double least = options_.least_scale_world, whole = first_scale(ground_, target_, least);
   std::unique_ptr<Closing> closing_of_best;
@@ -168,7 +172,7 @@ void LevelSearch::propose_closings() {
   if (closing_of_best && !best_.is_exact()) propose_least_volume(*closing_of_best);
 }
 
-/// Around the closing of the best mesh.
+/// Proposes the mesh of least volume around the closing of the best mesh.
 void LevelSearch::propose_least_volume(const Closing& closing) {
   const Solid& solid = scene_.voxels().reduced(best_.level().reductions);
   LodLevel level = mesh(least_volume(solid), solid, closing, Keep::solid);
@@ -176,7 +180,7 @@ void LevelSearch::propose_least_volume(const Closing& closing) {
   best_.propose("least volume", std::move(level));
 }
 
-/// The scale that is tried after another one: twice as large, or so many times that something is closed by it.
+/// Returns the scale to try after `scale`: twice as large, and doubled until it closes something in these voxels.
 double LevelSearch::larger_scale(const Solid& solid, double scale) const {
   const double least = kLeastScaleVox * solid.header.frame.voxel;
   if (scale == 0) return least;
@@ -185,7 +189,7 @@ double LevelSearch::larger_scale(const Solid& solid, double scale) const {
   return scale;
 }
 
-/// The mesh that the level follows from, with fewer faces.
+/// Makes the level by simplifying the mesh that it starts from.
 LodLevel LevelSearch::coarser() {
   const Solid& solid = scene_.voxels().reduced(start_->reductions);
   MeshParams params = mesh_params(solid, first_scale(ground_, target_, options_.least_scale_world));
@@ -198,7 +202,7 @@ LodLevel LevelSearch::coarser() {
   return level;
 }
 
-/// `parts`: and handles, of the level.
+/// Keeps the halfway mesh as the start of coarser levels. `parts`: the parts and handles of the level.
 void LevelSearch::leave_start(LatticeMesh halfway, const Solid& solid, std::uint64_t parts, double scale) {
   if (left_ == nullptr) return;
   left_->reset();
@@ -207,7 +211,7 @@ void LevelSearch::leave_start(LatticeMesh halfway, const Solid& solid, std::uint
   *left_ = LevelStart{std::move(halfway), solid.reductions, parts, scale};
 }
 
-/// Around the voxels as they are.
+/// Makes a cage around the voxels, without a closing.
 LodLevel LevelSearch::cage() {
   const Solid& solid = scene_.voxels().reduced(0);
   MeshParams params;
@@ -217,7 +221,7 @@ LodLevel LevelSearch::cage() {
   return mesh(std::move(params), solid, LevelVoxels::as_it_is(solid, 0), Keep::solid);
 }
 
-/// keep: whether the closing is wanted again.
+/// keep: Keep::all if the closing will be meshed again, else Keep::solid.
 LodLevel LevelSearch::mesh(MeshParams params, const Solid& solid, const Closing& closing, Keep keep) {
   LodLevel level;
   level.scale_world = closing.scale_world;
@@ -233,14 +237,14 @@ LodLevel LevelSearch::mesh(MeshParams params, const Solid& solid, const Closing&
 
 MeshParams LevelSearch::least_volume(const Solid& solid) const {
   MeshParams params = mesh_params(solid, {});
-  params.convex = false;  // hulls and boxes are proposals of their own
+  params.convex = false;  // hulls and boxes are proposed on their own
   return params;
 }
 
-/// near_world: as MeshParams has it.
+/// near_world: as in MeshParams.
 MeshParams LevelSearch::mesh_params(const Solid& solid, std::optional<double> near_world) const {
   MeshParams params = params_of_level(options_, target_, scene_.has_triangles());
-  // What is enclosed is within a diagonal of a voxel of the scene.
+  // The enclosed voxels reach up to a voxel's diagonal beyond the scene.
   if (target_.error_world > 0)
     params.error_world =
         std::max(target_.error_world - std::sqrt(3.0) * (solid.header.frame.voxel + scene_.ruler().voxel()),

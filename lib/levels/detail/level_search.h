@@ -9,23 +9,25 @@
 
 namespace bp {
 
-/// Whether a level of the target may follow from a mesh: it encloses, and nothing but a number of faces is asked for.
+/// Returns whether a level of the target may be simplified from a finer mesh: it is a bounding level, and only a number
+/// of faces is asked for.
 [[nodiscard]] bool may_follow(const LevelScene& scene, const LodTarget& target);
-/// Whether it follows from this one: the faces suffice for its parts and holes.
+/// Returns whether the level may be simplified from this start: it has 50 faces for each part and hole of the start.
 [[nodiscard]] bool follows_from(const LevelScene& scene, const LodTarget& target, const LevelStart& start);
 
-/// Returns what every mesh of a level is made by. has_triangles: those of the scene are known (LevelScene).
+/// Returns the parameters that all meshes of a level share. has_triangles: whether the scene's triangles are known
+/// (LevelScene).
 [[nodiscard]] MeshParams params_of_level(const LodOptions& options, const LodTarget& target, bool has_triangles);
 
-/// Makes one level: proposes what may be best, and takes the best (LodChain::make). Searches in one scene may work at
-/// the same time.
+/// Makes one level: proposes several meshes to BestLevel, and returns the best (LodChain::make). Several searches may
+/// work in one scene at the same time.
 class LevelSearch {
  public:
-  /// `context`: its memory is for this level. `start`: what the level follows from; null: none. Keeps references.
+  /// `context`: its memory is for this level alone. `start`: the mesh to simplify; null: none. Keeps references.
   LevelSearch(LevelScene& scene, const PassContext& context, const LodTarget& target, const LevelStart* start);
 
-  /// `left` receives what coarser levels may follow from, unless the best mesh was made in a way that leaves nothing;
-  /// null: no level follows. Throws as close_stream() and mesh_stream().
+  /// `left` receives the mesh halfway to the level, from which coarser levels may be simplified; it stays empty if
+  /// there is none. Null: no level follows. Throws as close_stream() and mesh_stream().
   [[nodiscard]] LodLevel make(std::optional<LevelStart>* left = nullptr);
 
  private:
@@ -58,7 +60,7 @@ class LevelSearch {
   const LevelStart* start_;
   const LodGround ground_;
   BestLevel best_;
-  std::optional<LevelStart>* left_ = nullptr;  // as make() has it
+  std::optional<LevelStart>* left_ = nullptr;  // the parameter of make()
 };
 
 }  // namespace bp

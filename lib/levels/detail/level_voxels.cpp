@@ -60,7 +60,7 @@ LevelVoxels::Closing LevelVoxels::closed_at(const Solid& solid, double scale, co
 std::uint64_t parts_and_holes(const LevelVoxels::Closing& closing, const PieceMemory& memory) {
   repair_contacts(*closing.voxels);
   const std::uint64_t bytes = topology_bytes(*closing.voxels),
-                      most = memory.bytes();  // meshing takes nothing of it yet
+                      most = memory.bytes();  // meshing has not begun, so its memory is free
   if (bytes > most) throw NeedsMemory("counting the parts and holes of a level", bytes, most, memory.limit_for(bytes));
   const SolidTopology topology = topology_of(*closing.voxels);
   return topology.parts + topology.handles;

@@ -8,20 +8,20 @@
 
 namespace bp {
 
-/// The voxels that levels are made of: the solid of a scene, reductions of it to voxels of twice the size, which
-/// coarser levels take, and closings. Several threads may use it at once.
+/// Holds the voxels that levels are made of: the scene's solid, its reductions to voxels of twice the size for coarser
+/// levels, and closings. Several threads may use it at once.
 class LevelVoxels {
  public:
-  /// The solid, in voxels of one size.
+  /// The scene's solid, in voxels of one size.
   struct Solid {
     StreamHeader header;
     std::unique_ptr<BrickShelf> shelf;
-    int reductions = 0;  ///< the voxels have 2^reductions times the size of those at first
+    int reductions = 0;  ///< the voxels have 2^reductions times the first size
   };
-  /// A solid, or a closing of it.
+  /// The closing of a solid, or the solid itself.
   struct Closing {
     StreamHeader header;
-    std::unique_ptr<BrickShelf> voxels;  ///< null: the solid as it is
+    std::unique_ptr<BrickShelf> voxels;  ///< null: the solid itself, not closed
     double scale_world = 0;
   };
 
@@ -29,14 +29,14 @@ class LevelVoxels {
   LevelVoxels(const StreamHeader& header, std::unique_ptr<BrickShelf> solid, Backends& backends,
               const LodOptions& options);
 
-  /// The solid in voxels of 2^n times the size of those at first. Each is made when it is first asked for, and kept:
-  /// a reduction has a quarter of the surface of the one before.
+  /// Returns the solid in voxels of 2^n times the first size. Each is made on the first request and kept: a reduction
+  /// has a quarter of the surface of the one before.
   [[nodiscard]] const Solid& reduced(int n);
   [[nodiscard]] static Closing as_it_is(const Solid& solid, double scale_world) {
     return {solid.header, nullptr, scale_world};
   }
-  /// By LodOptions::field at this scale, or by the scale alone, within the memory of `context`. One is made after the
-  /// other, since they share the backends. Throws as close_stream().
+  /// Closes the solid by LodOptions::field at this scale; without a field, at this scale everywhere. Uses the memory of
+  /// `context`. Only one closing is made at a time, since all share the backends. Throws as close_stream().
   [[nodiscard]] Closing closed_at(const Solid& solid, double scale_world, const PassContext& context);
 
  private:
@@ -45,12 +45,12 @@ class LevelVoxels {
   Backends& backends_;
   const LodOptions& options_;
   std::mutex closing_;        // held by the thread that uses backends_
-  std::mutex mutex_;          // of solids_
+  std::mutex mutex_;          // guards solids_
   std::deque<Solid> solids_;  // finest first; none moves when another one is added
 };
 
-/// Parts and handles of a closing that was made, as meshing would find them: what touches only along an edge or a
-/// corner is joined first. Throws out_of_resource if the memory does not suffice for counting.
+/// Returns the number of parts plus handles of a closing, as meshing would count them: parts that touch only along an
+/// edge or at a corner are joined first. Throws out_of_resource if the memory does not suffice.
 [[nodiscard]] std::uint64_t parts_and_holes(const LevelVoxels::Closing& closing, const PieceMemory& memory);
 
 }  // namespace bp

@@ -1,4 +1,4 @@
-// The scale of a level, and its voxels, from what it is asked to be.
+// Chooses the scale and the voxels of a level from its target.
 #include <algorithm>
 #include <cmath>
 
@@ -9,13 +9,14 @@ namespace bp {
 
 namespace {
 
-// What a level needs of its voxels. Fewer dense triangles per face than this, and the steps of the voxels show.
+// With fewer dense triangles for each face, the level shows the steps of the voxels.
 constexpr double kDenseFacesPerFace = 100;
 constexpr double kScalesPerEdge = 4;
-constexpr double kLeastSideVox = 48;    // of a reduced grid
-constexpr double kVoxelsPerLength = 8;  // of a rule by shape, which is measured to within two
+constexpr double kLeastSideVox = 48;    // the longest side of a reduced grid has more
+constexpr double kVoxelsPerLength = 8;  // along the length that a rule by shape asks for, which is measured to within
+                                        // two voxels
 
-/// Length of an edge of `faces` equilateral triangles over the scene's surface.
+/// Returns the edge of `faces` equilateral triangles that together have the area of the scene's surface.
 double edge_of(const LodGround& ground, std::uint64_t faces) {
   const double area = double(ground.dense_faces) / 2 / kSlantedSteps * ground.voxel * ground.voxel;
   return std::sqrt(4 / std::sqrt(3.0) * area / double(faces));

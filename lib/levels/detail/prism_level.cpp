@@ -14,24 +14,26 @@ namespace {
 using Flat = std::array<double, 2>;
 
 constexpr std::size_t kMostOfOutline = 4096;   // corners
-constexpr std::uint64_t kFacesOfTriangle = 8;  // of its prism
-constexpr double kFlat = 8;  // of a corner, lattice units: with less, rounding tilts the ends of a prism
+constexpr std::uint64_t kFacesOfTriangle = 8;  // a prism over a triangle has 8 faces
+constexpr double kFlat = 8;  // least height of a corner of the outline above the line of its neighbours, lattice units:
+                             // a flatter one would be tilted by rounding
 
-/// What a flat scene lies in; lattice units.
+/// Two parallel planes that hold a flat scene between them; lattice units.
 struct Slab {
   Vec3d origin{}, a{}, b{}, up{};  // a, b, up: of length 1, at right angles
-  double low = 0, high = 0;        // along `up`
+  double low = 0, high = 0;        // heights of the two planes along `up`
   [[nodiscard]] Flat flat(const Vec3d& p) const { return {dot(p - origin, a), dot(p - origin, b)}; }
   [[nodiscard]] Vec3d point(const Flat& p, double height) const { return origin + p[0] * a + p[1] * b + height * up; }
 };
 
-/// The one for which f is largest.
+/// Returns the point for which f is largest.
 template <class F>
 Vec3d farthest(std::span<const Vec3d> points, const F& f) {
   return *std::max_element(points.begin(), points.end(), [&](const Vec3d& p, const Vec3d& q) { return f(p) < f(q); });
 }
 
-/// Through three points that lie far apart.
+/// Finds the slab of all points from three that lie far apart. Returns nothing if it is thicker than a voxel, or if the
+/// points lie on a line.
 std::optional<Slab> slab_of(std::span<const Vec3d> points) {
   Slab slab;
   slab.origin = farthest(points, [&](const Vec3d& p) { return length(p - points.front()); });
@@ -51,12 +53,12 @@ std::optional<Slab> slab_of(std::span<const Vec3d> points) {
   return slab;
 }
 
-/// Twice the area of a triangle; above 0: counterclockwise.
+/// Returns twice the signed area of a triangle; above 0: its corners run counterclockwise.
 double turn(const Flat& p, const Flat& q, const Flat& r) {
   return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
 }
 
-/// Corners of the convex hull, counterclockwise.
+/// Returns the corners of the convex hull, counterclockwise.
 std::vector<Flat> hull_of_flat(std::vector<Flat> points) {
   std::sort(points.begin(), points.end());
   std::vector<Flat> hull;
@@ -72,7 +74,7 @@ std::vector<Flat> hull_of_flat(std::vector<Flat> points) {
   return hull;
 }
 
-/// How far the flattest corner lies out of the line of its neighbours.
+/// Returns the least height of a corner above the line through its neighbours.
 double flattest(const std::vector<Flat>& outline) {
   double least = HUGE_VAL;
   for (std::size_t i = 0; i < outline.size(); ++i) {
@@ -82,7 +84,8 @@ double flattest(const std::vector<Flat>& outline) {
   return least;
 }
 
-/// Where the line from p to q meets the one from r to s; nothing if they do not meet beyond q and before r.
+/// Returns the point where the line from p through q meets the line from r to s; nothing if the lines do not meet
+/// beyond q and before r.
 std::optional<Flat> corner_of(const Flat& p, const Flat& q, const Flat& r, const Flat& s) {
   const Flat d{q[0] - p[0], q[1] - p[1]}, e{s[0] - r[0], s[1] - r[1]};
   const double sine = d[0] * e[1] - d[1] * e[0];
@@ -91,8 +94,9 @@ std::optional<Flat> corner_of(const Flat& p, const Flat& q, const Flat& r, const
   return Flat{p[0] + along * d[0], p[1] + along * d[1]};
 }
 
-/// Around the outline, with at most so many corners, and none that is nearly straight: edges go, whose neighbours then
-/// meet, those first that add the least area. Nothing if there is no way. O(corners^2).
+/// Reduces the convex outline to at most `most` corners, none of them nearly straight, so that it still encloses the
+/// first one. Each step removes an edge and extends its neighbours until they meet; the edge that adds the least area
+/// goes first. Returns nothing if no edge can go. Takes O(corners^2).
 std::vector<Flat> with_fewer(std::vector<Flat> outline, std::size_t most) {
   while (outline.size() > most || flattest(outline) < 2 * kFlat) {
     const std::size_t n = outline.size();
@@ -113,7 +117,7 @@ std::vector<Flat> with_fewer(std::vector<Flat> outline, std::size_t most) {
   return outline;
 }
 
-/// Every edge moved outwards by `room`; nothing of a needle.
+/// Moves every edge outwards by `room`. Returns nothing if a corner is as sharp as a needle, since it would move far.
 std::vector<Flat> grown(const std::vector<Flat>& outline, double room) {
   constexpr double kNeedle = 1e-3;  // a corner of 2.6 degrees moves 45 times as far
   const std::size_t n = outline.size();
@@ -149,10 +153,10 @@ LatticeMesh prism(const Slab& slab, const std::vector<Flat>& outline, double roo
   return mesh;
 }
 
-/// Whether rounding has left it a prism around the outline: the ends are above and below all of it, and hardly tilted,
-/// and the outline lies inside of each side's plane.
+/// Returns whether the prism still encloses the slab and the outline after its corners were rounded: both ends lie
+/// beyond the slab and are hardly tilted, and the outline lies inside each side's plane.
 bool holds(const LatticeMesh& mesh, const Slab& slab, const std::vector<Flat>& outline) {
-  constexpr double kLeast = 0.5;  // far more than what is lost by computing
+  constexpr double kLeast = 0.5;  // far more than the rounding of the doubles here
   const std::size_t n = mesh.vertices.size() / 2;
   std::vector<Vec3d> at;
   for (const LatticeCoord& p : mesh.vertices) at.push_back(to_double(p) - slab.origin);

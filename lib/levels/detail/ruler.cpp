@@ -1,6 +1,7 @@
-// Where the triangles of the scene are known, and lie inside a level, the distance to all of them is the distance to
-// those that are shown: what lies between a point of the level and the nearest triangle is empty, and the level lets
-// the outside up to its surface. So nothing need be known of what is shown, and the voxels add no error of theirs.
+// Why levels around triangles are measured against all triangles, and not only against the ones that are shown to the
+// outside: both distances are the same. The space between a point of the level and the nearest triangle is empty, and
+// everything outside the level's surface is reached by the outside. So nothing need be known of what is shown, and the
+// voxels add no error.
 #include "lib/levels/detail/ruler.h"
 
 #include <algorithm>
@@ -15,28 +16,28 @@ namespace bp {
 
 namespace {
 
-constexpr std::uint64_t kSmallShare = 16;  // a tree is kept if it takes at most a so-manieth of the memory
+constexpr std::uint64_t kSmallShare = 16;  // a tree is kept if it takes at most this part of the memory
 
-/// What segments of runs, and a tree over them, take for a moment.
+/// Returns the bytes that the segments of runs and a tree over them take while they are used.
 std::uint64_t segment_bytes(std::uint64_t runs) {
   return TriangleBvh::bytes_with_triangles(runs);
 }
 
-/// What distances to triangles that are shown take for a moment, and the faces that are kept for it.
+/// Returns the bytes that measuring against the shown triangles takes, with the faces that are kept for it.
 std::uint64_t shown_bytes(std::uint64_t faces) {
   return faces * sizeof(FaceRect) +
          std::min(faces, kMostShownPoints) * (2 * sizeof(TriangleD) + TriangleBvh::bytes_needed(1));
 }
 
-/// What a ruler knows of the surface of the voxels.
+/// The counts of the voxels' surface that decide a ruler's memory.
 struct SurfaceSize {
   std::uint64_t runs = 0;
-  std::uint64_t shown_faces = 0;  ///< that tell which triangles are shown
+  std::uint64_t shown_faces = 0;  ///< faces of voxels that tell which triangles are shown
 
   SurfaceSize(const RulerScene& scene, const BoundarySize& size, bool has_triangles)
       : runs(scene.surface != nullptr ? count_runs(*scene.surface, size.box) : size.runs),
         shown_faces(has_triangles && scene.surface == nullptr ? size.faces : 0) {}
-  /// While distances are measured.
+  /// Returns the bytes while distances are measured.
   [[nodiscard]] std::uint64_t bytes() const {
     return runs * sizeof(VoxelRun) + segment_bytes(runs) + shown_bytes(shown_faces);
   }

@@ -9,51 +9,52 @@
 
 namespace bp {
 
-/// What a ruler measures against: a scene whose triangles are known, or else its voxels.
+/// The scene that a ruler measures against: its triangles if they are known, else its voxels.
 struct RulerScene {
-  const BrickShelf& solid;              ///< its voxels, of `frame`; with the inside filled, the scene touches each
-                                        ///< voxel of their boundary
+  const BrickShelf& solid;              ///< the scene's voxels, in `frame`; even if the inside is filled, the scene
+                                        ///< touches each voxel of their boundary
   const BrickShelf* surface = nullptr;  ///< as LodOptions has it
   const std::vector<TriangleD>* triangles = nullptr;  ///< must outlive the ruler; null: not known
   GridFrame frame;
-  MeshMode mode = MeshMode::bounding;  ///< of the levels that are measured
+  MeshMode mode = MeshMode::bounding;  ///< the mode of the levels that are measured
 };
 
-/// What a ruler takes of the memory.
+/// Bytes of memory that a ruler takes.
 struct RulerBytes {
   std::uint64_t needed = 0;  ///< while it measures
-  std::uint64_t kept = 0;    ///< while it lives, trees that may be kept aside
+  std::uint64_t kept = 0;    ///< while it lives, without trees that may be kept
 };
 
-/// Measures how far levels are from what their scene shows to the outside. Levels around triangles are measured to
-/// these; others need the voxels of the scene's surface, too. The trees are kept where they are small against the
-/// memory; else they are made for each measurement, since levels need the memory meanwhile.
+/// Measures the error of levels: how far they are from what their scene shows to the outside. Bounding levels around
+/// triangles are measured to these triangles; for others the voxels of the scene's surface are needed, too. Trees are
+/// kept if they are small compared with the memory. Large ones are made anew for each measurement, since levels need
+/// the memory in between.
 class Ruler {
  public:
   const std::uint64_t dense_faces;  ///< triangles of the dense surface of the solid
-  const VoxelBox box;               ///< around the voxels of its boundary
+  const VoxelBox box;               ///< around the voxels of the solid's boundary
 
-  /// Throws out_of_resource, before it takes anything, if it takes more than `memory`.
+  /// Throws out_of_resource, before it takes anything, if it would take more than `memory`.
   Ruler(const RulerScene& scene, const MemoryShare& memory);
 
-  /// has_triangles: the scene's are known, though `scene` has none.
+  /// has_triangles: the scene's triangles are known, although `scene` does not have them.
   [[nodiscard]] static RulerBytes bytes_needed(const RulerScene& scene, bool has_triangles);
 
   [[nodiscard]] double voxel() const { return frame_.voxel; }
-  /// Around all of the solid's voxels, scene units.
+  /// Returns the box around all voxels of the solid, scene units.
   [[nodiscard]] Bounds3d bounds() const;
-  /// What the ruler takes of the memory while it lives.
+  /// Returns the bytes that the ruler takes while it lives.
   [[nodiscard]] std::uint64_t bytes() const;
 
-  /// Returns what one measurement takes, beside the mesh, where trees are not kept.
+  /// Returns the bytes of one measurement, without the mesh; trees that are kept are not counted.
   [[nodiscard]] std::uint64_t bytes_of_measure() const;
 
-  /// LodLevel::error_world of a mesh; nothing if it surely exceeds `limit`. Around triangles that is found early; else
-  /// all is measured.
+  /// Returns LodLevel::error_world of a mesh. Returns nothing if it surely exceeds `limit`; only for bounding levels
+  /// around triangles does this end the measurement early.
   [[nodiscard]] std::optional<double> error(const LatticeMesh& mesh, double limit) const;
 
  private:
-  /// Triangles with a tree over them, which is kept, or made for each use.
+  /// Triangles with a tree over them. The tree is kept, or made for each use.
   class Surface {
    public:
     Surface() = default;
@@ -80,18 +81,18 @@ class Ruler {
   template <class Use>
   decltype(auto) with_segment_tree(Use&& use) const;
   [[nodiscard]] double error_around_voxels(const std::vector<TriangleD>& mesh) const;
-  /// Nothing if the triangles of the scene are not those of the voxels.
+  /// Returns nothing if the triangles of the scene are not those of the voxels.
   [[nodiscard]] std::optional<double> error_of_fit(const std::vector<TriangleD>& mesh) const;
   [[nodiscard]] double error_of_fit_to_voxels(const std::vector<TriangleD>& mesh) const;
 
   GridFrame frame_;
   MeshMode mode_;
   const std::vector<TriangleD>* triangles_;  // null: not known
-  Surface scene_;                            // of these
+  Surface scene_;                            // of *triangles_
   std::vector<VoxelRun> runs_;
-  std::vector<FaceRect> faces_;      // between its voxels and empty ones, if fits are measured against triangles
-  std::vector<TriangleD> segments_;  // of the runs, where they are kept
-  Surface kept_segments_;            // of these
+  std::vector<FaceRect> faces_;      // between voxels and empty ones; only for fits that are measured against triangles
+  std::vector<TriangleD> segments_;  // of the runs, if they are kept
+  Surface kept_segments_;            // of segments_
 };
 
 }  // namespace bp

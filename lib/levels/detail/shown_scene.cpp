@@ -23,7 +23,7 @@ std::uint64_t faces_in(const FaceRect& r) {
   return n;
 }
 
-/// Whether a face is among about `share` of all, by a hash of where it is.
+/// Returns whether a face is among about `share` of all, by a hash of its place.
 bool is_chosen(const LatticeCoord& middle, double share) {
   constexpr std::uint64_t kMix = 0x9E3779B97F4A7C15;  // 2^64 over the golden ratio
   std::uint64_t hash = 0;
@@ -46,7 +46,7 @@ void for_each_face(const FaceRect& r, F&& f) {
   }
 }
 
-/// Appends what the box holds of the triangle.
+/// Appends the part of the triangle that lies in the box.
 void clip(const TriangleD& t, const Bounds3d& box, std::vector<Polygon>& out) {
   const auto cut_at = [&](Polygon p, const Vec3d& corner, double inwards) {
     for (std::size_t k = 0; k < 3 && p.count > 0; ++k) {
@@ -63,12 +63,12 @@ void clip(const TriangleD& t, const Bounds3d& box, std::vector<Polygon>& out) {
   }
 }
 
-/// Largest distance to a mesh of parts that are not inside it.
+/// Finds the largest distance to a mesh of the parts that are not inside it.
 class Beyond {
  public:
   Beyond(const TriangleBvh& mesh, double at_least) : mesh_(mesh), largest_(at_least) {}
 
-  /// Whether no part of the ball can count.
+  /// Returns whether no part within the ball can change the result.
   [[nodiscard]] bool is_settled(const Vec3d& centre, double radius) {
     const TriangleBvh::Nearest found = mesh_.nearest(centre, guess_);
     guess_ = found.item;

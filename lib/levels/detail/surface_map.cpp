@@ -10,8 +10,9 @@ namespace bp {
 namespace {
 
 constexpr std::size_t kTriangles = 64, kMostRuns = std::size_t(1) << 16;
-constexpr std::uint64_t kMostCells = 4096;  // of one run; a larger one counts evenly in all cells
-constexpr double kLeft = 0.8;               // of the surface, in each level: details vanish. Measured on a plant
+constexpr std::uint64_t kMostCells = 4096;  // that one run may meet; a larger run is spread evenly over all cells
+constexpr double kLeft = 0.8;               // part of the surface that remains from level to level, since details
+                                            // vanish; measured on a plant
 
 void merge(SurfaceRun& run, const SurfaceRun& other) {
   run.bounds.merge(other.bounds);
@@ -19,7 +20,7 @@ void merge(SurfaceRun& run, const SurfaceRun& other) {
   run.extent += other.extent;
 }
 
-/// A run in units of cells, within the span.
+/// The box of a run, in units of cells, and the cells that it meets.
 struct Part {
   Vec3d lo{}, hi{};
   CellSpan span;
@@ -39,18 +40,18 @@ Part part_of(const SurfaceRun& run, const CutLevel& level, Cells cells) {
   return part;
 }
 
-/// Of an interval, what lies in a cell; all of what is a point.
+/// Returns the part of an interval that lies in a cell; 1 for an interval that is a point.
 double share(double lo, double hi, std::int32_t cell) {
   if (hi <= lo) return 1;
   return std::max(0.0, (std::min(hi, cell + 1.0) - std::max(lo, double(cell))) / (hi - lo));
 }
 
-/// Of voxels. Those of level 0 have the finest voxels.
+/// Returns about how many faces of voxels a run's surface takes. Level 0 is the finest.
 double faces_of(const SurfaceRun& run, double voxel, std::size_t level) {
   return run.area / (voxel * voxel) * std::pow(kLeft, level);
 }
 
-/// Adds a run's faces to its cells; what is too large for that is returned.
+/// Adds a run's faces to its cells. Returns the faces if the run is too large for that, else 0.
 double spread(const SurfaceRun& run, double faces, const CutLevel& level, Cells cells, std::vector<double>& work) {
   const Part part = part_of(run, level, cells);
   if (part.span.count() > kMostCells) return faces;

@@ -17,10 +17,11 @@ namespace bp {
 namespace {
 
 constexpr const char* kJobName = "tile";
-constexpr std::int64_t kLatticeAround = 1;  // far more than a check grows the cell by, far less than a voxel
+constexpr std::int64_t kLatticeAround = 1;  // lattice units: far more than a check grows the cell by, far less than a
+                                            // voxel
 
-/// Voxels of `box` by rows of a brick: word(c, y, z, p, i) is row (y, z) of brick c, which begins at voxel p, and which
-/// bit boxes over `box` have as word i.
+/// Makes bricks of the voxels in `box` from rows. word(c, y, z, p, i) returns row (y, z) of brick c; the row begins at
+/// voxel p, and is word i of a row of a bit box over `box`.
 template <class Word>
 std::unique_ptr<BrickShelf> shelf_of_rows(const VoxelBox& box, const ShelfFactory& make_shelf, const Word& word) {
   auto shelf = make_shelf();
@@ -68,7 +69,8 @@ bool TileMaker::begin() {
   return true;
 }
 
-/// The number decides, and not the memory: it must not change what is made.
+/// The number of triangles decides whether they stay inside. The memory must not decide it, since it must not change
+/// the result.
 void TileMaker::take_scene() {
   if (params_.scene == nullptr) return;
   const bool fit = params_.mode == MeshMode::fit;
@@ -90,9 +92,9 @@ LatticeMesh TileMaker::make(TileMeasures& measures) {
   return mesh;
 }
 
-/// What the closing has here only for voxels of the next cells: sheets along the walls, over which a tile would stand
-/// far off all that it encloses. That is what lies beyond the closing's reach from the solid, and is not shut in by
-/// the rest: what fills cavities stays.
+/// Removes from the closing the voxels that are here only because of voxels of the next cells: sheets along the walls,
+/// far from everything that the tile encloses. These are the voxels beyond the closing's reach from the solid. Voxels
+/// that fill a cavity of the rest stay.
 void TileMaker::leave_out_fringes() {
   BitBox closing(grown_), kept(grown_), outside(grown_);
   load_voxels(*closing_, closing);
@@ -100,7 +102,7 @@ void TileMaker::leave_out_fringes() {
   dilate(kept, std::int32_t(std::ceil(params_.scale_world / level_.header.frame.voxel)) + 1);
   const VoxelBox box = closing.box();
   const std::int32_t words = closing.words_per_row();
-  std::vector<std::uint64_t> here(std::size_t(words), 0);  // of a row, the voxels of the cell
+  std::vector<std::uint64_t> here(std::size_t(words), 0);  // for each word of a row, the bits of grown_
   for (std::int32_t x = grown_.min.x; x < grown_.max.x; ++x)
     here[std::size_t((x - box.min.x) / 64)] |= std::uint64_t(1) << ((x - box.min.x) % 64);
   const auto for_each_word = [&](const auto& body) {
@@ -115,7 +117,7 @@ void TileMaker::leave_out_fringes() {
   for_each_word([&](std::uint64_t c, std::uint64_t& near, std::uint64_t& out, std::uint64_t cell) {
     far |= c & ~near;
     out = ~c & cell;
-    near = (~c | ~near) & cell;  // where the outside may go
+    near = (~c | ~near) & cell;  // the empty or far voxels, through which the outside may go
   });
   if (far == 0) return;
   grow_within(kept, outside);
@@ -125,8 +127,8 @@ void TileMaker::leave_out_fringes() {
       [&](BrickCoord, std::int32_t, std::int32_t, VoxelCoord p, std::int32_t i) { return closing.row(p.y, p.z)[i]; });
 }
 
-/// Where a part of the closing holds no voxel of the solid in this cell, nothing would stop it as it is tightened: it
-/// might pass through itself. So it is to enclose itself.
+/// Adds to the solid the parts of the closing that hold no voxel of the solid in this cell. Tightening would shrink
+/// such a part without limit, even through itself; so it must enclose its own voxels.
 void TileMaker::hold_stray_parts() {
   BitBox closing(grown_), held(grown_);
   load_voxels(*closing_, closing);
@@ -153,10 +155,11 @@ void TileMaker::hold_stray_parts() {
   });
 }
 
-/// What must stay inside besides the triangles: parts of the closing that hold none of them here, for the same reason;
-/// and of a filled solid what the cell cuts through, or a tile would be hollowed out from there.
+/// Collects the voxels that must stay inside in addition to the triangles. These are the parts of the closing that hold
+/// no triangle here (see hold_stray_parts()). In a filled solid they are also the voxels where the wall of the cell
+/// cuts through it: else tightening would hollow out the tile from the wall.
 void TileMaker::hold_beside_triangles() {
-  constexpr std::int32_t kBesideTriangles = 2;  // these hold what is so near
+  constexpr std::int32_t kBesideTriangles = 2;  // voxels; the triangles hold what is so near to them
   BitBox closing(grown_), solid(grown_), reached(grown_), near(grown_);
   load_voxels(*closing_, closing);
   load_voxels(*solid_, solid);
@@ -177,7 +180,7 @@ MeshParams TileMaker::mesh_params(TileMeasures& measures) const {
   mesh.mode = params_.mode;
   mesh.enclose = params_.enclose;
   mesh.error_world = params_.error_world;
-  mesh.near_world = params_.scale_world;  // where the error below is no limit
+  mesh.near_world = params_.scale_world;  // used where error_world is no limit
   if (params_.error_world == 0) {
     const std::uint64_t solid_faces = 2 * boundary_.faces;
     measures.faces_asked = params_.faces > 0
@@ -214,7 +217,7 @@ StreamHeader TileMaker::header() const {
   return header;
 }
 
-/// `by`: lattice units that the box is grown by.
+/// `by`: lattice units by which the box is grown.
 Bounds3d TileMaker::world(const VoxelBox& box, std::int64_t by) const {
   Bounds3d bounds;
   for (const auto& [p, more] : {std::pair{box.min, -by}, std::pair{box.max, by}})
@@ -224,7 +227,7 @@ Bounds3d TileMaker::world(const VoxelBox& box, std::int64_t by) const {
   return bounds;
 }
 
-/// In the order of the scene.
+/// Returns the triangles that meet the box of reach(), in the scene's order.
 std::vector<TriangleD> TileMaker::scene_nearby() const {
   std::vector<std::pair<std::uint32_t, TriangleD>> found;
   params_.scene->visit(world(reach()), [&](const TriangleBvh::Item& item) {
@@ -237,7 +240,7 @@ std::vector<TriangleD> TileMaker::scene_nearby() const {
   return triangles;
 }
 
-/// The triangles, and where the solid goes on beyond the cell.
+/// Returns the triangles, and the faces of the cell's walls where the solid goes on beyond the cell.
 std::vector<TriangleD> TileMaker::shown() const {
   std::vector<TriangleD> shown = scene_;
   for (const FaceRect& rect : boundary_rects(*solid_)) {
@@ -250,7 +253,8 @@ std::vector<TriangleD> TileMaker::shown() const {
   return shown;
 }
 
-/// Where every voxel of the closing in the cell finds one of the scene, and a fit what it is drawn to.
+/// Returns a box in which every voxel of the closing in the cell finds a voxel of the scene, and a fit finds the
+/// triangles that it follows.
 VoxelBox TileMaker::reach() const {
   return grown_.grown(std::max(std::int32_t(std::ceil(params_.scale_world / level_.header.frame.voxel)) + 2, 4));
 }

@@ -4,10 +4,10 @@
 
 namespace bp {
 
-/// One tile: see level_tiles.h.
+/// Makes one tile: see level_tiles.h.
 class TileMaker {
  public:
-  /// Keeps references.
+  /// Keeps references to the task and the context.
   TileMaker(const TileTask& task, CellCoord coord, const PassContext& context)
       : level_(task.level),
         params_(task.params),
@@ -16,11 +16,12 @@ class TileMaker {
         cell_(level_.cells.box(coord)),
         grown_(cell_.grown(1)) {}
 
-  /// Everything that the tile depends on.
+  /// Returns the key of everything that the tile depends on.
   [[nodiscard]] ResultKey key() const;
-  /// False for a cell in a cavity that the closing filled: no voxel of the scene, and nothing to be seen.
+  /// Cuts out the cell's voxels. Returns false for a cell in a cavity that the closing filled: it holds no voxel of the
+  /// scene, and nobody can see a face in it.
   [[nodiscard]] bool begin();
-  /// After begin(), if that was true.
+  /// Makes the mesh. begin() must have returned true.
   [[nodiscard]] LatticeMesh make(TileMeasures& measures);
 
  private:
@@ -43,9 +44,10 @@ class TileMaker {
   const CellCoord coord_;
   const VoxelBox cell_, grown_;
   std::unique_ptr<BrickShelf> solid_, closing_;
-  std::vector<TriangleD> scene_;      // whose parts in the cell stay inside, or that a fit is drawn to
-  std::unique_ptr<BrickShelf> held_;  // what stays inside besides those; without any the solid does
-  Boundary boundary_;                 // of the solid
+  std::vector<TriangleD> scene_;      // bounding: these stay inside within the cell; fit: the mesh follows them
+  std::unique_ptr<BrickShelf> held_;  // must stay inside in addition to the triangles of a bounding tile; null for
+                                      // other tiles
+  Boundary boundary_;                 // the boundary of solid_
 };
 
 }  // namespace bp

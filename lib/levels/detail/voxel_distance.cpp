@@ -16,15 +16,15 @@ namespace {
 const double kSegmentToPoint = std::sqrt(1.5);  // from a point of the segment to any point of its voxel, in voxels
 const double kPointToSegment = std::sqrt(0.5);
 const double kPointToCentre = std::sqrt(0.75);
-constexpr double kSearchTolerance = 0.5;  // of the search, in voxels
-// Of a piece of the mesh. The proof that a triangle is near takes as many parts as its area over the limit squared, and
-// ends after some thousands of them.
+constexpr double kSearchTolerance = 0.5;  // step of the search, in voxels
+// The largest area of a piece of the mesh. The proof that a triangle is near takes a number of parts that grows with
+// its area over the limit squared, and gives up after some thousands of them.
 constexpr double kPieceArea = 256;    // voxels squared
-constexpr double kLeastLimit = 0.25;  // in voxels, of a question that is worth asking
+constexpr double kLeastLimit = 0.25;  // in voxels; a smaller limit is not worth the test
 constexpr std::int64_t kGrain = 256;
-constexpr std::size_t kPlaces = 512;  // of a grain
+constexpr std::size_t kPlaces = 512;  // that NearSurface remembers
 
-/// The same surface, in triangles of at most `most` area.
+/// Returns the same surface in triangles of at most `most` area.
 std::vector<TriangleD> pieces_of(const std::vector<TriangleD>& triangles, double most) {
   std::vector<TriangleD> pieces, open;
   for (const TriangleD& t : triangles) {
@@ -41,7 +41,8 @@ std::vector<TriangleD> pieces_of(const std::vector<TriangleD>& triangles, double
   return pieces;
 }
 
-/// Largest distance of a point of `from` to `to` that is known without a search: of the middles.
+/// Returns the largest distance of the middle of a triangle of `from` to `to`. It is a lower bound of the largest
+/// distance.
 double distance_at_middles(const std::vector<TriangleD>& from, const TriangleBvh& to) {
   const auto n = std::int64_t(from.size());
   std::vector<double> largest(std::size_t((n + kGrain - 1) / kGrain));
@@ -59,7 +60,7 @@ double distance_at_middles(const std::vector<TriangleD>& from, const TriangleBvh
   return std::sqrt(*std::max_element(largest.begin(), largest.end()));
 }
 
-/// Which of `from` are not surely within `limit`, in their order.
+/// Returns the numbers of the triangles of `from` that are not surely within `limit`, in their order.
 std::vector<std::uint32_t> which_are_farther(double limit, const std::vector<TriangleD>& from, const TriangleBvh& to) {
   std::vector<char> far(from.size());
   parallel_ranges(std::int64_t(from.size()), kGrain, [&](std::int64_t begin, std::int64_t end) {
@@ -78,8 +79,8 @@ std::vector<TriangleD> farther_than(double limit, const std::vector<TriangleD>& 
   return left;
 }
 
-/// An upper bound of the largest distance, higher by `step` or by a fiftieth. A bound is all that is asked for, so
-/// triangles are settled one by one against a limit that rises while it is too low.
+/// Returns an upper bound of the largest distance, too high by at most `step` and 2 %. Triangles are settled one by one
+/// against a limit that rises while it is too low: an exact maximum would take longer, and nobody needs it.
 double upper_bound(const std::vector<TriangleD>& from, const TriangleBvh& to, double step) {
   double limit = distance_at_middles(from, to) * 1.02 + step;
   for (std::vector<TriangleD> left = farther_than(limit, from, to); !left.empty(); left = farther_than(limit, left, to))
@@ -87,7 +88,8 @@ double upper_bound(const std::vector<TriangleD>& from, const TriangleBvh& to, do
   return limit;
 }
 
-/// Largest distance of a centre of a voxel behind `segments` to the mesh, of those outside; at least `known`.
+/// Returns the largest distance to the mesh of the centres of voxels behind `segments` that lie outside; at least
+/// `known`.
 double distance_of_centres(const std::vector<TriangleD>& segments, const TriangleBvh& mesh, double voxel,
                            double known) {
   const auto n = std::int64_t(segments.size());
@@ -135,7 +137,8 @@ double distance_from_mesh(const std::vector<TriangleD>& mesh, const TriangleBvh&
   return upper_bound(pieces, segments, kSearchTolerance * voxel) + kSegmentToPoint * voxel;
 }
 
-// A point outside is within kPointToCentre of the centre of its voxel; if that is not outside, the mesh is as near.
+// A point outside is within kPointToCentre of its voxel's centre. If that centre is not outside, the mesh is as near as
+// the centre.
 double distance_beyond_mesh(const std::vector<TriangleD>& segments, const TriangleBvh& mesh, double voxel,
                             double at_least) {
   const double known = at_least - kPointToCentre * voxel;

@@ -8,7 +8,7 @@ namespace bp {
 
 namespace {
 
-/// Around a cell, as far as a voxel of the closing may lie from the nearest one of the scene.
+/// Returns the colours around a cell, as far as a voxel of the closing may lie from the nearest voxel of the scene.
 NearbyColors colors_around(const CutOptions& options, CellCoord cell, const GridFrame& frame, double scale_world) {
   const std::int32_t reach = std::int32_t(std::ceil(scale_world / frame.voxel)) + kColorCellVox;
   return options.colors->around(frame, options.cells.box(cell), reach);
@@ -19,7 +19,7 @@ TileParams tile_params(const CutLevel& cut, const CutOptions& options, double sc
   params.mode = options.mode;
   params.enclose = options.enclose;
   params.faces = cut.target.faces;
-  // What is enclosed is within a diagonal of a voxel of the scene.
+  // The enclosed voxels reach up to a voxel's diagonal beyond the scene.
   if (const double asked = cut.target.error_world; asked > 0)
     params.error_world = std::max(asked - std::sqrt(3.0) * (cut.frame.voxel + scene_voxel), asked / 4);
   params.scene = options.scene;

@@ -14,11 +14,11 @@ namespace bp {
 
 namespace {
 
-// The surface while it is simplified, what it encloses, distances.
+// Memory of a tile at work: the surface while it is simplified, what it encloses, distances.
 constexpr std::uint64_t kBytesPerDenseFace = 320, kBytesPerTile = std::uint64_t(4) << 20;
 constexpr std::uint64_t kBytesPerTriangle = 2 * sizeof(TriangleD) + EnclosedTriangles::kBytesEach;
 
-/// As the store keeps it.
+/// Returns the bytes that the store keeps of a tile.
 std::string packed(const LevelTile& tile) {
   std::string bytes;
   pack(bytes, tile.measures);
@@ -31,20 +31,20 @@ bool unpack_tile(std::string_view bytes, LevelTile& tile) {
   return true;
 }
 
-/// Of the voxels of a tile, four times: leave_out_fringes().
+/// Returns the bytes of four copies of a tile's voxels, as leave_out_fringes() needs them.
 std::uint64_t voxel_bytes(const Cells& cells) {
   const auto edge = std::uint64_t(cells.edge_vox);
   constexpr std::uint64_t brick = kBrickEdge;
   return 4 * (edge + 2 * brick) * (edge + 2) * (edge + 2) / 8 + kBytesPerTile;
 }
 
-/// A cell with something to mesh.
+/// A cell that holds voxels of the closing.
 struct Job {
   CellCoord cell{};
-  std::uint64_t dense_faces = 0;  // about: of the closing in the cell, without walls
+  std::uint64_t dense_faces = 0;  // an estimate: the closing's faces in the cell, without walls
 };
 
-/// Cells of the closing's bricks, and how much there is to do in each.
+/// Returns the cells that hold bricks of the closing, with an estimate of the work in each.
 std::vector<Job> jobs_of(const TileLevel& level, const std::function<bool(CellCoord)>& wanted) {
   std::vector<BrickCoord> bricks = level.closing.coords();
   if (wanted) std::erase_if(bricks, [&](BrickCoord c) { return !wanted(level.cells.of(first_voxel(c))); });
@@ -62,7 +62,7 @@ std::vector<Job> jobs_of(const TileLevel& level, const std::function<bool(CellCo
   return jobs;
 }
 
-/// Makes the tiles of some levels.
+/// Makes the tiles of several levels.
 class TileMaking {
  public:
   TileMaking(std::span<const TileTask> tasks, const PassContext& context) : tasks_(tasks), context_(context) {
@@ -105,13 +105,13 @@ class TileMaking {
                         memory.limit_with(bytes - memory.bytes), {Remedy::smaller_tiles});
   }
 
-  /// Of the jobs of the list.
+  /// Returns the dense faces of all jobs in the list.
   [[nodiscard]] double surface() const {
     return std::accumulate(jobs_.begin(), jobs_.end(), 0.0,
                            [](double sum, const TileJob& job) { return sum + double(job.job.dense_faces); });
   }
 
-  /// Jobs whose results are there leave the list. A hidden tile is kept as no bytes.
+  /// Takes the jobs out of the list whose results are kept. The store keeps no bytes for a hidden tile.
   void take_kept() {
     total_ = jobs_.size();
     std::vector<char> kept(jobs_.size());
@@ -133,7 +133,7 @@ class TileMaking {
     jobs_.resize(left);
   }
 
-  /// The largest job is the first.
+  /// Returns how many tiles fit into the memory at the same time. The first job must be the largest.
   [[nodiscard]] int in_flight() const {
     if (jobs_.empty()) return 1;
     std::uint64_t largest = jobs_.front().job.dense_faces * kBytesPerDenseFace + kBytesPerTile, triangles = 0;
@@ -149,7 +149,9 @@ class TileMaking {
     const TileTask& task = *job.task;
     TileMaker maker(task, job.job.cell, of_each_);
     LevelTile tile;
-    if (!task.params.make) return finish(job, std::move(tile), true);  // it is there, as far as is known
+    if (!task.params.make)
+      return finish(job, std::move(tile), true);  // its content is not known; as far as is known,
+                                                  // the tile exists
     const bool there = maker.begin();
     if (there) tile.content = task.encode(job.job.cell, maker.make(tile.measures));
     if (context_.results != nullptr) context_.results->put(job.key, there ? packed(tile) : "");
@@ -165,7 +167,7 @@ class TileMaking {
 
   const std::span<const TileTask> tasks_;
   const PassContext& context_;
-  PassContext of_each_{context_};  // at work: less memory
+  PassContext of_each_{context_};  // the context of one tile at work: less memory
   std::vector<TileJob> jobs_;
   std::mutex mutex_;
   std::size_t done_ = 0, total_ = 0;

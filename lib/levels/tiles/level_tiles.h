@@ -7,17 +7,18 @@
 #include "lib/pass/mesh/mesh_pass.h"
 #include "lib/store/result_key.h"
 
-/// A level of detail in pieces: one proxy for each cell of the grid, as an independent job.
+/// Makes a level of detail in pieces: one proxy for each cell of the grid, as an independent job.
 ///
-/// A tile is the proxy of (closing ∩ its cell grown by one voxel), less what the closing has there for other cells'
-/// voxels only, closed by walls where the cell ends. By section 2 of docs/bounding.md the scene's part in the closed
-/// cell lies in the open interior of the solid's voxels in the grown cell, so each tile strictly encloses its part by
-/// itself: neighbours overlap by two voxels, and no crack can open, whichever levels are drawn side by side. What stays
-/// inside while it is tightened is the closing, the solid, or that part of the scene's triangles, exactly. A job reads
-/// nothing but the voxels and triangles around its cell and the parameters: same input, same bytes.
+/// A tile is the proxy of the closing in its cell grown by one voxel, without the voxels that the closing has there for
+/// other cells only. Walls close it where the cell ends. By section 2 of docs/bounding.md, the scene's part in the
+/// closed cell lies in the open interior of the solid's voxels in the grown cell. So each tile strictly encloses its
+/// part by itself. Neighbours overlap by two voxels, and no crack can open between them, even if a viewer draws them
+/// from different levels. Tightening keeps inside, exactly, the closing, the solid or that part of the scene's
+/// triangles. A job reads only the voxels and triangles around its cell and the parameters: the same input gives the
+/// same bytes.
 namespace bp {
 
-/// The voxels of one level, on whole bricks; cells are aligned to them.
+/// The voxels of one level. The cells consist of whole bricks.
 struct TileLevel {
   StreamHeader header;  ///< of `solid`
   const BrickShelf& solid;
@@ -26,71 +27,76 @@ struct TileLevel {
   Cells cells;
 };
 
-/// What decides a tile, besides the voxels, the scene and the cell. Its key has all of it.
+/// The parameters that decide a tile, in addition to the voxels, the scene and the cell. The tile's key holds all of
+/// them.
 struct TileShape {
   MeshMode mode = MeshMode::bounding;  ///< bounding or fit
-  Enclose enclose = Enclose::input;    ///< of bounding tiles; scene: of a tile with many triangles nearby, the input
-  double scale_world = 0;              ///< that the closing was made with
+  Enclose enclose = Enclose::input;    ///< for bounding tiles; Enclose::scene becomes input if a tile has more than
+                                       ///< kMostTriangles triangles nearby
+  double scale_world = 0;              ///< scale of the closing
   StructuringElement element = StructuringElement::cube;
-  std::uint64_t faces = 0;  ///< of each tile; 0: kDenseFacesPerFace
-  /// Largest distance of a tile to what it encloses; 0: none. A budget of faces has no meaning then.
+  std::uint64_t faces = 0;  ///< budget of each tile; 0: kDenseFacesPerFace decides
+  /// Largest distance of a tile to what it encloses; 0: none. It replaces the budget of faces.
   double error_world = 0;
-  std::string encoding;  ///< all that encode() puts into a file besides cell and mesh
+  std::string encoding;  ///< all that encode() puts into a file, except the cell and the mesh
 };
 
 /// How tiles are made and kept.
 struct TileParams : TileShape {
-  /// What vertices of a fit move to; null: the closing. Of Enclose::scene, what stays inside; null: the solid.
+  /// The triangles that vertices of a fit move to; null: they move to the closing. With Enclose::scene, the triangles
+  /// that stay inside; null: the solid stays inside.
   const TriangleBvh* scene = nullptr;
-  std::function<bool(CellCoord)> wanted;  ///< other tiles are passed over; empty: all are wanted
-  bool make = true;                       ///< false: what is not kept comes without measures and content
+  std::function<bool(CellCoord)> wanted;  ///< tells which tiles are made; empty: all
+  bool make = true;                       ///< false: tiles that are not kept are passed on without measures and content
   std::function<void(CellCoord, KeyHash&)>
       add_to_key;  ///< adds further inputs of a tile to its cache key; may be empty
 
-  static constexpr std::uint64_t kDenseFacesPerFace = 100, kLeastTileFaces = 60;  ///< of a tile without a budget
-  /// A bounding tile without a budget keeps more faces where these would take it farther from what it encloses: thin
-  /// parts that lie apart in one tile have few faces of their voxels' surface, and none to spare. Only where the
-  /// surface is small enough to be whole in memory (16 MiB): a limit on distances wants that, and larger ones have
-  /// many.
+  static constexpr std::uint64_t kDenseFacesPerFace = 100, kLeastTileFaces = 60;  ///< for tiles without a budget
+  /// A bounding tile without a budget gets more faces if it would lie farther than this from what it encloses. Thin
+  /// parts that lie apart in one tile need that: the voxels' surface is small, so the budget is, too. It is done only
+  /// for a surface of at most kMostFacesForError faces, which is whole in memory (16 MiB), as a limit on distances
+  /// needs it; larger surfaces have a large budget.
   static constexpr double kErrorVox = 3;
   static constexpr std::uint64_t kMostFacesForError = std::uint64_t(1) << 16;
-  static constexpr std::size_t kMostTriangles = std::size_t(1) << 18;  ///< that a tile encloses; else voxels
+  static constexpr std::size_t kMostTriangles = std::size_t(1) << 18;  ///< a tile with more triangles encloses voxels
 };
 
 struct TileMeasures {
-  LatticeCoord min{}, max{};                 ///< of its vertices, in the frame of the level
-  std::uint64_t faces = 0, faces_asked = 0;  ///< asked 0: an error was asked for
+  LatticeCoord min{}, max{};                 ///< box around its vertices, in the frame of the level
+  std::uint64_t faces = 0, faces_asked = 0;  ///< asked 0: an error was asked for instead
   std::uint64_t faces_dense = 0;
   double volume = 0;  ///< scene units cubed
-  /// What a viewer can see of it, as LodLevel::error_world: upper bound of the distance of a point of the tile to the
-  /// surface of the solid's part in the cell, walls included, scene units; of a fit, also of what sticks out of it.
-  /// Where tiles are drawn together, walls lie inside, and it bounds the distance to the scene.
+  /// Upper bound of the error that a viewer can see, scene units, as LodLevel::error_world: the distance from a point
+  /// of the tile to the surface of the solid's part in the cell, with the cell's walls. For a fit, also the distance
+  /// from points of that surface that lie outside. Where neighbouring tiles are drawn, walls lie inside, so it bounds
+  /// the distance to the scene.
   double error_world = 0;
 };
 
 struct LevelTile {
   CellCoord cell{};
   TileMeasures measures;
-  std::string content;  ///< what encode() made of it
-  bool kept = false;    ///< found among the results
+  std::string content;  ///< what encode() returned
+  bool kept = false;    ///< its result was kept by an earlier run
 };
 
-/// The file of a tile; its mesh is in the frame of the level. On any thread.
+/// Makes the file of a tile. The mesh is in the frame of the level. Called on any thread.
 using TileEncoder = std::function<std::string(CellCoord, const LatticeMesh&)>;
 
-/// A level to be made.
+/// A level that make_tiles() makes.
 struct TileTask {
   TileLevel level;
   TileParams params;
   TileEncoder encode;
-  /// Gets the tiles in no order, on any thread, one at a time, whatever their level.
+  /// Receives the tiles of all levels: in no order, one at a time, on any thread.
   std::function<void(LevelTile&&)> consume;
 };
 
-/// All tiles of all levels: those whose cell holds voxels of the closing, but for cavities that the closing fills.
-/// First those that are kept among the results, then the others, large ones first; none waits for another. `left`, if
-/// given, is told between the two which share of all is to be made, by their surfaces. Memory: 320 bytes for each
-/// triangle of the dense surface of a tile at work. Throws out_of_resource if not even one tile fits.
+/// Makes the tiles of all levels: one for each cell that holds voxels of the closing, except in cavities that the
+/// closing fills. Tiles that are kept among the results come first, then the others, the large ones first; none waits
+/// for another. Between the two, `left` (if given) is told which share of the dense surface is still to be made.
+/// Memory: 320 bytes for each triangle of the dense surface of a tile at work. Throws out_of_resource if not even one
+/// tile fits.
 void make_tiles(std::span<const TileTask> tasks, const PassContext& context,
                 const std::function<void(double)>& left = {});
 

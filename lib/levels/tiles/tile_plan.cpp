@@ -19,7 +19,7 @@ std::int64_t longest_side(const VoxelBox& box) {
   return std::max({size.x, size.y, size.z});
 }
 
-/// As many as were asked for; else at least so many that the root is one mesh.
+/// Returns the number of levels: the number that is asked for, else at least so many that the root is one mesh.
 std::size_t level_count_with(const LevelRequest& request, std::size_t cut) {
   const std::size_t asked = level_count(request);
   return is_explicit(request) ? asked : std::max(asked, cut + 1);

@@ -5,19 +5,18 @@
 #include "lib/pass/close/cell_closing.h"
 #include "lib/pass/context.h"
 
-/// The levels of a scene that are too large for one mesh: level n has the voxels of the solid reduced n times, closed,
-/// and cut into tiles (level_tiles.h). What the scene shows to the outside is reduced along, so that errors are
-/// measured against the scene and not against the level before.
+/// Makes the levels of a scene that are too large for one mesh. Level n has the voxels of the solid reduced n times,
+/// closed, and cut into tiles (level_tiles.h). The voxels that the scene shows to the outside are reduced, too, so that
+/// errors are measured against the scene and not against the level before.
 namespace bp {
 
 struct PyramidOptions {
   Cells cells;
   ClosingParams closing;
-  PassContext context;  ///< results: closings and tiles
+  PassContext context;  ///< its results keep closings and tiles
 };
 
-/// Returns the limit on memory at which the closings of all levels that are cut fit, with `held` bytes beside them. 0:
-/// not known.
+/// Returns the limit on memory at which the closings of all cut levels fit, in addition to `held` bytes; 0: not known.
 [[nodiscard]] std::uint64_t pyramid_limit(const TilesetPlan& plan, const Cells& cells, const MemoryShare& memory,
                                           std::uint64_t held);
 
@@ -30,29 +29,29 @@ class TilePyramid {
 
   [[nodiscard]] const StreamHeader& header() const { return header_; }  ///< of the level's solid
 
-  /// Closes the level, and has its tiles made along with those of other levels; sets scale and element of
-  /// `params`. Each level at most once. As close_cells().
+  /// Closes the current level, and adds it to the levels whose tiles make_tiles() makes. Sets scale and element of
+  /// `params`. Call it at most once for each level. Throws as close_cells().
   void add_level(double scale_world, TileParams params, TileEncoder encode, std::function<void(LevelTile&&)> consume);
-  /// Of the levels that were added, whose voxels go then. `left`: as of bp::make_tiles().
+  /// Makes the tiles of all added levels, and frees their voxels. `left`: as in bp::make_tiles().
   void make_tiles(const std::function<void(double)>& left = {});
-  void reduce();  ///< to the next level
+  void reduce();  ///< goes on to the next level
 
-  /// What a LodChain goes on with; ends this pyramid.
+  /// Return the layers from which a LodChain goes on. The pyramid must not be used afterwards.
   [[nodiscard]] std::unique_ptr<BrickShelf> take_solid() { return std::move(solid_); }
   [[nodiscard]] std::unique_ptr<BrickShelf> take_surface() { return std::move(surface_); }
 
  private:
   [[nodiscard]] std::unique_ptr<BrickShelf> closing_at(double scale_world);
-  /// A level whose tiles are to be made.
+  /// The voxels of an added level whose tiles are not made yet.
   struct Waiting {
     std::unique_ptr<BrickShelf> closing;
-    std::unique_ptr<BrickShelf> solid, surface;  ///< after reduce()
+    std::unique_ptr<BrickShelf> solid, surface;  ///< are set by reduce()
   };
   StreamHeader header_;
   std::unique_ptr<BrickShelf> solid_, surface_;
   std::vector<Waiting> waiting_;
   std::vector<TileTask> tasks_;
-  bool added_ = false;  ///< the level is among waiting_
+  bool added_ = false;  ///< the current level was added
   Backends& backends_;
   PyramidOptions options_;
 };
