@@ -28,8 +28,8 @@ std::uint64_t following(std::uint64_t first_faces, std::size_t steps) {
 /// Returns whether a level is worth having after the level `before`.
 bool is_coarser(const LodLevel& level, const LodLevel& before, double diagonal) {
   if (level.mesh.triangles.size() >= before.mesh.triangles.size()) return false;
-  return !(level.error_world > diagonal);  // from a distance at which this error is tolerated, the whole scene is a
-                                           // point
+  // From a distance at which this error is tolerated, the whole scene is a point.
+  return !(level.error_world > diagonal);
 }
 
 /// Returns whether the error and the price of a level are both at most those of another one.

@@ -50,12 +50,12 @@ struct ChainRange {
 struct LeftOut {
   LodTarget target;
   std::uint64_t faces_before = 0;  ///< faces of the level before
-  std::uint64_t faces = 0;         ///< faces that it would have; 0: it was not made, since the level before has no more
-                                   ///< faces than its budget
-  double error_world = 0;          ///< error that it would have
-  std::uint64_t faces_after = 0;   ///< faces of the next level, if that is the reason: its error is nearly as small, or
-                                   ///< smaller; else 0
-  double volume_ratio = 0;         ///< volume over that of the level before, if that is the reason; else 0
+  /// Faces that it would have; 0: it was not made, since the level before has no more faces than its budget.
+  std::uint64_t faces = 0;
+  double error_world = 0;  ///< error that it would have
+  /// Faces of the next level, if that is the reason: its error is nearly as small, or smaller; else 0.
+  std::uint64_t faces_after = 0;
+  double volume_ratio = 0;  ///< volume over that of the level before, if that is the reason; else 0
 };
 
 /// A level and its target.

@@ -39,8 +39,8 @@ struct LodChain::State {
     std::size_t first = 0;
     if (!std::exchange(is_begun, true)) {
       if (any_may_follow(targets)) begin_with(scene.own_surface());
-      if (targets.size() == 1 || any_may_follow(std::span(targets).subspan(1))) {  // the first level leaves the start
-                                                                                   // of these
+      // The first level leaves the mesh that these start from.
+      if (targets.size() == 1 || any_may_follow(std::span(targets).subspan(1))) {
         std::optional<LevelStart> left;
         levels[first++] = LevelSearch(scene, scene.context(), targets[0], start_for(targets[0])).make(&left);
         if (left) begin_with(std::move(left));

@@ -25,8 +25,8 @@ struct LodTarget {
 /// A budget never doubles the voxels, nor chooses larger ones, below this many triangles of the dense surface. Meshing
 /// so many takes one or two seconds, and larger voxels would add more error and volume than the budget does.
 constexpr double kLeastDenseFaces = 500000;
-constexpr double kVoxelsPerError = 8;  ///< voxels in the target's error, which holds the voxels' diagonal, the closing
-                                       ///< and the simplification
+/// Voxels in the target's error, which holds the voxels' diagonal, the closing and the simplification.
+constexpr double kVoxelsPerError = 8;
 constexpr double kScalesPerError = 4;  ///< scales in the target's error; the cube's dilation reaches sqrt(3) scales
 /// The least scale that a budget chooses, before smaller scales are tried. Closing below one voxel changes nothing.
 constexpr double kLeastScaleVox = 1 + kBeyondWholeVox;
@@ -69,8 +69,8 @@ struct LodOptions {
   std::optional<ScalePlan> field;
   /// The level that will be made first: a refusal for memory then also tells the limit at which this level fits.
   std::optional<LodTarget> first;
-  std::optional<CageParams> cage;  ///< levels are cages of quads around the voxels, without a closing; only budgets of
-                                   ///< faces are possible
+  /// Levels are cages of quads around the voxels, without a closing; only budgets of faces are possible.
+  std::optional<CageParams> cage;
   /// The memory serves tiles at work and, between them, surfaces. The bytes of the scene's outer surface and of `scene`
   /// are subtracted from it.
   PassContext context;

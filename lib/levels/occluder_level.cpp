@@ -13,16 +13,16 @@ namespace bp {
 
 namespace {
 
-constexpr double kAsMuch = 0.95;                                 // the chosen scale hides at least this part of what
-                                                                 // the best one does
-constexpr double kGroundGains = 1.25;                            // standing on the ground must multiply what is hidden
-                                                                 // by more than this
-constexpr double kLeastTriedVox = 2;                             // the least scale that is tried
-constexpr double kMostScale = 1.0 / 16, kMostOpening = 1.0 / 8;  // the largest scales that are tried, as parts of the
-                                                                 // scene's diagonal
-constexpr double kLeastPart = 1e-3, kMostLeastPart = 0.3;        // thresholds below which parts are left out, as parts
-                                                                 // of the largest part's volume
-constexpr std::uint64_t kFewFacesPerPart = kFacesOfBox;          // parts are left out if there are fewer faces for each
+// The chosen scale hides at least this part of what the best one does.
+constexpr double kAsMuch = 0.95;
+// Standing on the ground must multiply what is hidden by more than this.
+constexpr double kGroundGains = 1.25;
+constexpr double kLeastTriedVox = 2;  // the least scale that is tried
+// The largest scales that are tried, as parts of the scene's diagonal.
+constexpr double kMostScale = 1.0 / 16, kMostOpening = 1.0 / 8;
+// Thresholds below which parts are left out, as parts of the largest part's volume.
+constexpr double kLeastPart = 1e-3, kMostLeastPart = 0.3;
+constexpr std::uint64_t kFewFacesPerPart = kFacesOfBox;  // parts are left out if there are fewer faces for each
 
 HiddenOptions at_scale(HiddenOptions options, double scale_world) {
   options.scale_world = scale_world;

@@ -10,8 +10,8 @@ namespace bp {
 
 namespace {
 
-constexpr std::uint64_t kDensePerFaceAsked = 190;  // like kDensePerFace, if the voxels are chosen from a budget of
-                                                   // faces
+// Like kDensePerFace, if the voxels are chosen from a budget of faces.
+constexpr std::uint64_t kDensePerFaceAsked = 190;
 
 /// Returns the surface of the cube that has the box's volume, since a flat scene shows its contents along its
 /// thickness, too.

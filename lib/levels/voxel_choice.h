@@ -6,10 +6,10 @@ namespace bp {
 
 /// Voxels along the longest side.
 constexpr std::int64_t kDefaultResolution = 256, kMostResolution = 1024, kMostTilesetResolution = 4096;
-constexpr std::int64_t kOccluderResolution = 512;  ///< finer than the default, since an occluder gives away one or two
-                                                   ///< voxels at each wall
-constexpr std::uint64_t kTilesetFaces = 40000;     ///< the most faces over the bounds that the voxels of a tileset are
-                                                   ///< chosen for
+/// Finer than the default, since an occluder gives away one or two voxels at each wall.
+constexpr std::int64_t kOccluderResolution = 512;
+/// The most faces over the bounds that the voxels of a tileset are chosen for.
+constexpr std::uint64_t kTilesetFaces = 40000;
 
 /// The facts about a scene that are known before it is voxelized.
 struct SceneSize {

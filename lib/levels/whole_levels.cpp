@@ -20,8 +20,8 @@ ResultKey key_of(const WholeInput& input) {
   hash.add(encoding, first, count, frame, header.bounds, header.scene.triangles, request.faces.size());
   hash.add(closing, mode, enclose, std::as_bytes(std::span(scene)), least_scale_world, quads,
            field ? to_json(*field) : "");
-  for (std::size_t i = 0; i < count; ++i) {  // a fixed number of dense faces will do, since the solid decides the true
-                                             // one
+  // A fixed number of dense faces will do, since the solid decides the true one.
+  for (std::size_t i = 0; i < count; ++i) {
     hash.add(level_target(request, first + i, first, 1000000));
   }
   add_voxels(hash, *solid, voxels_of(header.bricks), {});

@@ -24,8 +24,8 @@ struct WholeLevels {
 struct WholeInput {
   StreamHeader header;
   std::unique_ptr<BrickShelf> solid;
-  std::size_t first = 0, count = 0;  ///< `first`: number of the first level; the levels before it are cut. `count`: the
-                                     ///< most levels
+  /// `first`: number of the first level; the levels before it are cut. `count`: the most levels.
+  std::size_t first = 0, count = 0;
   LevelRequest request;
   LodOptions lod;                 ///< with the surface (LodOptions::surface), and for a fit with the scene
   SceneColors* colors = nullptr;  ///< null: none

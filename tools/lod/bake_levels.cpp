@@ -12,11 +12,12 @@ namespace bp {
 
 namespace {
 
-/// A level is drawn where its error is less than a pixel, or, by default, less than 16 in CesiumJS.
+/// Texels along the level's error. A level is drawn where its error is less than a pixel; CesiumJS by default draws it
+/// up to 16 pixels.
 constexpr double kTexelsPerError = 4;
-/// At least so many texels for a face: about as many bytes as the face takes.
+/// Least texels for a face, which take about as many bytes as the face.
 constexpr double kTexelsPerFace = 64;
-/// So many errors, or scales, the scene is looked for along the normal.
+/// Reach of the search for the scene along the normal, in errors or scales of the level.
 constexpr double kReach = 4;
 
 double area_of(const LatticeMesh& mesh) {
@@ -28,7 +29,8 @@ double area_of(const LatticeMesh& mesh) {
   return area;
 }
 
-/// Of a level: as fine as its error or its faces deserve, but not finer than the scene's images.
+/// Returns the edge of a texel of a level: as fine as its error or its faces deserve, but not finer than the scene's
+/// images.
 double texel_of(const LatticeMesh& mesh, double error, const SceneLooks& looks) {
   const double by_faces = std::sqrt(area_of(mesh) / (kTexelsPerFace * double(mesh.triangles.size())));
   return std::max(std::min(error / kTexelsPerError, by_faces), looks.finest_texel());
@@ -44,7 +46,7 @@ MeshTexture with_places(const Atlas& atlas) {
   return texture;
 }
 
-/// Whether all texels are about the first one.
+/// Returns whether all texels have about the same colour.
 bool is_plain(const TextureImage& image) {
   constexpr int kSame = 2;
   const TextureImage::Texel first = image.texels.front();
@@ -56,7 +58,7 @@ bool is_plain(const TextureImage& image) {
   });
 }
 
-/// What is the same everywhere needs four texels: a place in an image is a share of its size.
+/// Encodes an image. A plain one becomes four texels, since places in it are shares of its size.
 ImageFile file_of(const TextureImage& image) {
   constexpr int kPlainSide = 2;
   EncodedImage file =
@@ -72,7 +74,7 @@ void add_color(const TextureImage& image, MeshTexture& texture) {
   texture.type = std::move(file.type);
 }
 
-/// Only what differs from place to place needs an image.
+/// Adds an image only for properties that differ from place to place; plain ones become factors.
 void add_surface(const BakedSurface& baked, MeshTexture& texture) {
   if (!says_nothing(baked.normal)) texture.normal = file_of(baked.normal);
   const TextureImage::Texel light = baked.emission.texels.front();
@@ -93,7 +95,7 @@ double error_or(double error_world, double scale_world, double voxel) {
   return error_world > 0 ? error_world : scale_world + 2 * voxel;
 }
 
-/// A scene's outside is hardly larger than its bounds.
+/// The scene's outside is hardly larger than its bounds, so these stand for its area.
 double planned_texels(double faces, const Bounds3d& bounds, double error_world) {
   const Vec3d s = bounds.max - bounds.min;
   const double area = 2 * (s[0] * s[1] + s[1] * s[2] + s[2] * s[0]), texels = kTexelsPerError / error_world;
@@ -108,7 +110,7 @@ std::unique_ptr<SceneLooks> read_looks(const Build& build, const LodScene& scene
   SceneOptions how = build.scene_options(true);
   how.colors = build.options.colors();
   how.textures = scene.textures;
-  how.keep_degenerate = false;  // they show nothing
+  how.keep_degenerate = false;  // triangles without area show nothing
   const auto source = open_scenes(build.options.voxels.scenes, how);
   const SceneSize& size = scene.size;
   const SceneLooks::Scene read{*source, size.bounds, size.triangles - size.without_area, scene.textures};

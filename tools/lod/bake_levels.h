@@ -5,20 +5,22 @@
 #include "lib/pass/bake/scene_looks.h"
 #include "tools/lod/scene/lod_scene.h"
 
-/// Textures of levels, from those of the scene.
+/// Bakes textures for levels from the scene's images and colours.
 namespace bp {
 
-/// Reads the scene once more. `memory`: for what is at work of its triangles and images.
+/// Reads the looks of the scene by reading the scene once more. `memory`: for triangles and images that are at work.
 [[nodiscard]] std::unique_ptr<SceneLooks> read_looks(const Build& build, const LodScene& scene,
                                                      const MemoryShare& memory);
 
-/// What decides how fine the texture of a level is: its error, or what stands for it if that is 0: not known.
+/// Returns the error, or an estimate from scale and voxel if it is 0 (not known). It decides how fine the texture of a
+/// level is.
 [[nodiscard]] double error_or(double error_world, double scale_world, double voxel);
 
-/// Texels of all textures of a level, about. `error_world`: as error_or(), or 0: the faces decide.
+/// Returns about how many texels all textures of a level have. `error_world`: as from error_or(); 0: only the faces
+/// decide.
 [[nodiscard]] double planned_texels(double faces, const Bounds3d& bounds, double error_world);
 
-/// So far from a level lies what decides its texture; `error_world` as below.
+/// Returns the distance from a level within which the scene decides its texture. `error_world`: 0 if it is not known.
 [[nodiscard]] double texture_reach(double error_world, double scale_world, double voxel);
 
 /// Lengths of a level, scene units.
@@ -27,13 +29,15 @@ struct LevelLengths {
   double asked_error = 0;  ///< 0: none
   double scale = 0;
 };
-/// The texture of a level. Of its error, its voxels and the error that was asked for, the largest decides how fine it
-/// is: a level whose faces happen to lie on the scene is not meant for nearer views. `memory`: for the image.
+/// Returns the texture of a level. The largest of its error, its voxels and the error that was asked for decides how
+/// fine it is: a level whose faces happen to lie on the scene is still not meant for near views. `memory`: for the
+/// image.
 [[nodiscard]] std::shared_ptr<const MeshTexture> level_texture(const Build& build, const LodScene& scene,
                                                                const LatticeMesh& mesh, const LevelLengths& level,
                                                                const SceneLooks& looks, const MemoryShare& memory);
 
-/// Gives each level its texture, if the scene has any (LodScene::textured). Notes tell of images that cannot be used.
+/// Gives each level its texture, if the scene has looks to bake (LodScene::textured). Notes tell which images cannot be
+/// used.
 void bake_levels(Build& build, const LodScene& scene, CompleteLevels& made);
 
 }  // namespace bp

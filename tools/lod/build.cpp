@@ -18,7 +18,8 @@ namespace bp {
 
 namespace {
 
-/// What was made stays if it cannot be told: it took far longer than to free the space.
+/// Prints the list. If this fails, the files that were made stay, and the error says so: making them took far longer
+/// than freeing the space will.
 void print_list(const std::string& text, const std::string& made) {
   try {
     print(text);
@@ -27,7 +28,7 @@ void print_list(const std::string& text, const std::string& made) {
   }
 }
 
-/// The file that stands for all levels, or this one.
+/// Returns the name of the file that holds all levels, if the profile has one; else `file`.
 std::string name_of_all(const BuildOptions& o, const std::string& file) {
   if (o.is_tileset()) return "tileset.json";
   return o.profile == LodProfile::gltf && !o.obj ? o.name + ".glb" : file;
@@ -48,11 +49,11 @@ void write_report(Build& build, const ToldScene& scene) {
   report.write(build.options.common);
 }
 
-/// The report, then the list; a failure says that what was `made` is there.
+/// Writes the report, then the list. An error of either says that the files that were `made` are there.
 void tell(Build& build, const ToldScene& scene, const std::string& list, const std::string& made) {
   try {
     write_report(build, scene);
-  } catch (const Error&) {  // the list may come through
+  } catch (const Error&) {  // the list may still be printed
     print_list(list, made);
     throw;
   }
@@ -64,7 +65,8 @@ void tell(Build& build, const ToldScene& scene, const std::string& list, const s
 Build::Build(const BuildOptions& o)
     : options(o),
       progress("bplod", o.common.progress),
-      backends(make_backends(o.common, 0)),  // reading and meshing take far longer than closing
+      // A GPU is not worth its memory: reading and meshing take far longer than closing.
+      backends(make_backends(o.common, 0)),
       budget(o.common.memory_bytes, std::min(pinned_bytes(backends), o.common.memory_bytes / 2)),
       make_shelf(make_shelf_factory(budget.shelf, o.common.temp)),
       show(progress.for_pass()) {}
@@ -89,7 +91,7 @@ PassContext Build::context(ResultStore* results, double share) const {
   PieceMemory& memory = context.pieces;
   memory.waiting_bytes = work.bytes / 20 * 9;
   memory.work_bytes = work.bytes - memory.waiting_bytes;
-  // One for each surface at work, when all that waits in memory is spent.
+  // Each surface at work gets a scratch, which is used when the memory for waiting surfaces is spent.
   memory.make_scratch = [bytes = budget.store / std::uint64_t(thread_count()), temp = options.common.temp] {
     return make_scratch(bytes, temp);
   };

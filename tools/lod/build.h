@@ -10,7 +10,7 @@
 #include "tools/run/make_backend.h"
 #include "tools/run/memory_shares.h"
 
-/// What all steps of a run of bplod work with, and how its end is told.
+/// The state that all steps of a run of bplod share, and the report at its end.
 namespace bp {
 
 struct Build {
@@ -26,35 +26,36 @@ struct Build {
   Build(const Build&) = delete;
   Build& operator=(const Build&) = delete;
 
-  void note(const std::string& text);  ///< on stderr and in the report; nothing of an empty text
-  /// How scenes are read. `beside`: something else of them is in memory meanwhile.
+  void note(const std::string& text);  ///< tells the user on stderr and in the report; an empty text is ignored
+  /// Returns how scenes are read. `beside`: another copy of the scene's data is in memory at that time.
   [[nodiscard]] SceneOptions scene_options(bool beside = false) const;
-  /// Makes the context of all passes after reading: budget.work, or a share of it, and where the rest spills to.
+  /// Returns the context of all passes after reading: budget.work, or a share of it, and the scratch for data that does
+  /// not fit.
   [[nodiscard]] PassContext context(ResultStore* results = nullptr, double share = 1) const;
 };
 
-/// Levels that lack nothing but to be written.
+/// Levels that are ready to be written.
 struct CompleteLevels {
   std::vector<LodLevel> levels;   ///< finest first
-  std::vector<LevelFacts> facts;  ///< of each
+  std::vector<LevelFacts> facts;  ///< of each level
   std::vector<LeftOut> left_out;
 };
 
-/// Notes of levels in one mesh, of which `first` is the number of the first.
+/// Tells the notes of levels that are one mesh each; `first` is the number of the first one.
 void note_levels(Build& build, const std::vector<LevelFacts>& levels, std::size_t first,
                  const std::vector<LeftOut>& left_out, const SceneSize& scene);
 
-/// What the end of a run tells of the scene.
+/// The facts about the scene that the end of a run reports.
 struct ToldScene {
   const VoxelizeCounts& counts;
   double voxel = 0;
-  std::optional<std::uint64_t> color_cells{};  ///< none: the scene's colours were not gathered
-  double margin_world = 0;                     ///< that levels keep from the scene
+  std::optional<std::uint64_t> color_cells{};  ///< none: the scene's colours were not read
+  double margin_world = 0;                     ///< distance that levels keep from the scene
 };
 
-/// Writes the report and prints the list; then, on stderr, where the files are, and what proves them.
+/// Writes the report and prints the list. Then it says on stderr where the files are, and which command proves them.
 void finish(Build& build, const ToldScene& scene, const std::vector<LevelRow>& rows, std::uint64_t bytes_out);
-/// Ends a run of --tiles in the same way: `range` of `all` numbers.
+/// Ends a run of --tiles in the same way. `range`: the jobs that were done, of `all` jobs.
 void finish_jobs(Build& build, const ToldScene& scene, const JobRange& range, std::uint64_t all,
                  const std::vector<FoundJobs>& found);
 

@@ -22,7 +22,7 @@ std::string base_name(const std::string& path) {
   return file == "-" ? "scene" : file.substr(0, file.rfind('.'));
 }
 
-/// The value, or null.
+/// Returns the value as JSON, or null.
 template <class T>
 Json optional_json(const std::optional<T>& value) {
   return value ? Json(*value) : Json(nullptr);
@@ -32,7 +32,7 @@ Json optional_json(const std::optional<Length>& length) {
   return length ? Json(length->text()) : Json(nullptr);
 }
 
-/// As JSON wants it: every profile writes the name into some.
+/// Returns whether the text is UTF-8, as JSON requires: every profile writes the name into JSON somewhere.
 bool is_utf8(const std::string& text) {
   try {
     (void)Json(text).dump();
@@ -66,7 +66,7 @@ HullFiles parse_hull_files(const std::string& text) {
   fail(ErrorCode::bad_argument, "{}: must be obj or stl", text);
 }
 
-/// Numbers as numbers, percentages as text.
+/// Returns numbers as numbers, and percentages as text.
 Json faces_json(const LevelOptions& levels) {
   if (levels.shares.empty()) return levels.faces;
   Json all = Json::array();
@@ -74,7 +74,7 @@ Json faces_json(const LevelOptions& levels) {
   return all;
 }
 
-/// -o DIR/foo.obj: levels as OBJ, called foo.
+/// Understands -o DIR/foo.obj as levels in OBJ that are called foo.
 void take_obj_name(const Args& args, BuildOptions& o) {
   const std::filesystem::path out(o.out);
   std::error_code none;
@@ -86,10 +86,10 @@ void take_obj_name(const Args& args, BuildOptions& o) {
   o.name = out.stem().string();
   o.out = out.has_parent_path() ? out.parent_path().string() : ".";
   if (o.appearance == Appearance::automatic)
-    o.appearance = Appearance::texture;  // colours of vertices are no part of OBJ
+    o.appearance = Appearance::texture;  // OBJ has no standard for colours of vertices
 }
 
-/// The formats of the files in the folder.
+/// Tells the files that the profile writes into the folder.
 const char* files_of_profile(LodProfile profile) {
   switch (profile) {
     case LodProfile::gltf:
@@ -111,7 +111,7 @@ void check_output(const BuildOptions& o) {
   check_folder_name(o.out, o.name, files_of_profile(o.profile));
 }
 
-/// Options that the profile gives no meaning.
+/// Refuses options that have no meaning for the profile.
 void check_profile(const Args& args, const BuildOptions& o) {
   const auto refuse = [&](std::initializer_list<const char*> names) {
     for (const char* const name : names)
@@ -147,7 +147,7 @@ void check_profile(const Args& args, const BuildOptions& o) {
     fail(ErrorCode::bad_argument, "--enclose scene: a scene from a pipe cannot be read again; give it as a file");
 }
 
-/// Profiles of one level, and what nobody sees of them.
+/// Sets the options of profiles that have only one level, which nobody looks at.
 void set_one_level(BuildOptions& o) {
   if (o.profile == LodProfile::gltf || o.is_tileset()) return;
   if (!o.levels.levels && asks_for_nothing(request_of(o))) o.levels.levels = 1;
@@ -316,7 +316,8 @@ BuildOptions parse_build_options(Args& args) {
   o.voxels.check();
   if (!o.field.empty()) keep_inputs({o.field});
   check_profile(args, o);
-  // Beside slanted sides a cube's closing stands off about as far as a fit looks for the scene: thorns.
+  // A fit searches for the scene from the closing's surface. At slanted sides the closing by a cube lies about as far
+  // from the scene as that search reaches, and the fit would get thorns there; balls follow such sides.
   if (o.proxy.mode == MeshMode::fit) o.closing.element = StructuringElement::ball;
   set_one_level(o);
   check_levels(o);

@@ -15,27 +15,27 @@
 /// The command line of bplod.
 namespace bp {
 
-/// What the levels are for.
+/// The purpose of the levels.
 enum class LodProfile { gltf, tiles, collision, occluder, cage };
 [[nodiscard]] const char* name_of(LodProfile profile);
 
-/// What levels carry of the scene's looks, if it has any: nothing; colours on vertices; a texture of their own; a
-/// texture, and how the scene answers to light; a texture if the scene has images, else colours.
+/// The looks of the scene that levels carry, if it has any: nothing; colours on vertices; a texture of their own; a
+/// texture and the material's answer to light; a texture if the scene has images, else colours.
 enum class Appearance { off, color, texture, full, automatic };
 [[nodiscard]] const char* name_of(Appearance appearance);
 
-/// Across which axis a cage is its own mirror image: one of the three, none, or that of the scene if it has one.
+/// The axis across which a cage is its own mirror image: one of the three, none, or the scene's if it has one.
 enum class Symmetry { x, y, z, off, automatic };
 [[nodiscard]] const char* name_of(Symmetry symmetry);
 
-/// A file for each convex hull, in addition to those of the profile.
+/// The format of a file for each convex hull, in addition to the profile's files.
 enum class HullFiles { none, obj, stl };
 [[nodiscard]] const char* name_of(HullFiles files);
 
 /// Least distance of a cage from the scene, percent of the scene's diagonal: coordinates bend sharply near a cage.
 constexpr double kCageMargin = 0.5;
 
-/// "A..B". Throws bad_argument.
+/// Parses "A..B". Throws bad_argument.
 [[nodiscard]] JobRange parse_job_range(const std::string& text);
 
 struct BuildOptions {
@@ -46,19 +46,20 @@ struct BuildOptions {
   LevelOptions levels;
   ProxyOptions proxy;
   std::string out, name;
-  bool obj = false;  ///< levels as OBJ with materials; then they have the name that -o gave
+  bool obj = false;  ///< levels are OBJ files with materials; `name` is then the name given by -o
   LodProfile profile = LodProfile::gltf;
-  std::int32_t tile_vox = 512;                             ///< edge of a cell of a tileset
+  std::int32_t tile_vox = 512;                             ///< edge of a tileset's cell, in voxels
   Symmetry symmetry = Symmetry::automatic;                 ///< of a cage
   Length margin{kCageMargin, Length::Unit::percent};       ///< of a cage
-  std::int64_t hulls = 0;                                  ///< of a collision mesh, at most; 0: as HullLimits::hulls
-  std::int64_t hull_corners = std::int64_t(kMostCorners);  ///< of a hull, at most
+  std::int64_t hulls = 0;                                  ///< most hulls of a collision mesh; 0: as HullLimits::hulls
+  std::int64_t hull_corners = std::int64_t(kMostCorners);  ///< most corners of a hull
   HullFiles hull_files = HullFiles::none;
-  std::string cache;                                       ///< folder of results of earlier builds; empty: none
+  std::string cache;                                       ///< folder with the results of earlier runs; empty: none
   TileCompression compression = TileCompression::meshopt;  ///< of a tileset's contents
-  bool leaves = false;                                     ///< below the finest level are the scene's own triangles
-  std::optional<JobRange> tiles;  ///< the jobs to do, without a tileset; empty: all, and the tileset
-  bool explain = false;           ///< print the plan; do nothing
+  /// Below the finest level are tiles with the scene's own triangles.
+  bool leaves = false;
+  std::optional<JobRange> tiles;  ///< the jobs to do without writing a tileset; empty: all jobs, and the tileset
+  bool explain = false;           ///< print the plan only
   Appearance appearance = Appearance::automatic;
 
   [[nodiscard]] bool colors() const { return appearance != Appearance::off; }
@@ -71,7 +72,7 @@ struct BuildOptions {
 /// Throws bad_argument if options contradict each other.
 [[nodiscard]] BuildOptions parse_build_options(Args& args);
 
-/// All of them but folders and files, for the report: as they were given, null where nothing was.
+/// Returns all options for the report, except folders and files: as they were given, or null.
 [[nodiscard]] Json options_json(const BuildOptions& options);
 
 }  // namespace bp

@@ -19,8 +19,8 @@ LevelRequest request_of(const BuildOptions& o, double diagonal, double voxel) {
 }
 
 LevelRequest request_for(const BuildOptions& o, std::uint64_t triangles, double diagonal, double voxel) {
-  constexpr double kPerCollisionFace = 8,
-                   kPerCageFace = 0.05;  // triangles of the scene; a box needs a cage to bend, too
+  // Triangles of the scene for each face; few for a cage, since a box needs a cage that can bend, too.
+  constexpr double kPerCollisionFace = 8, kPerCageFace = 0.05;
   LevelRequest request = request_of(o, diagonal, voxel);
   if (o.is_tileset() && enclosed_by(o, triangles) == Enclose::scene)
     request.most_faces = std::max(kFacesPerTriangle * triangles, kLeastFirstFaces);
@@ -52,7 +52,7 @@ bool is_by_scene(const BuildOptions& o) {
 
 bool can_read_again(const BuildOptions& o) {
   return std::all_of(o.voxels.scenes.begin(), o.voxels.scenes.end(), [](const std::string& scene) {
-    std::error_code none;  // what is no file, a pipe say, can be read once
+    std::error_code none;  // a file of another kind, such as a pipe, can be read only once
     return scene != "-" && std::filesystem::is_regular_file(scene, none);
   });
 }

@@ -27,22 +27,25 @@ namespace bp {
 
 namespace {
 
-// What is estimated, from plants and scanned models: docs/tilesets.md says that it is.
-constexpr double kBytesPerFace = 8, kBytesPerTile = 2500;  // of compressed GLB, and of a tile with its place
-constexpr double kBytesPerPlainFace = 26;                  // of GLB
+// The constants of the estimates, measured on plants and scanned models; docs/tilesets.md says that they are estimates.
+// A tile's bytes are those without its faces, with its place in the tileset; both are for compressed GLB.
+constexpr double kBytesPerFace = 8, kBytesPerTile = 2500;
+constexpr double kBytesPerPlainFace = 26;  // of GLB without compression
 constexpr double kBytesPerTexel = 1;
-constexpr double kBytesPerLeafTriangle = 20;                                  // of the scene: some are cut
-constexpr double kScratchPerTriangle = 20, kScratchPerTexturedTriangle = 60;  // that waits on disk
+// Bytes of a triangle of the scene in leaves; some triangles are cut.
+constexpr double kBytesPerLeafTriangle = 20;
+// Bytes of each of the scene's triangles that waits on disk.
+constexpr double kScratchPerTriangle = 20, kScratchPerTexturedTriangle = 60;
 
 struct Scene {
   SceneCounts counts;
   SurfaceMap surface;
   Bounds3d bounds;
-  double area = 0, extent = 0;  ///< as VoxelizeCounts
+  double area = 0, extent = 0;  ///< as in VoxelizeCounts
   std::optional<UpAxis> up_told;
   UpAxis up = UpAxis::y;
   bool textured = false;
-  std::uint64_t image_bytes = 0;  ///< of files
+  std::uint64_t image_bytes = 0;  ///< of the scene's image files
 };
 
 SurfaceMap surface_of(TriangleSource& scene) {
@@ -82,22 +85,23 @@ Scene read_scene(const Build& build) {
   return scene;
 }
 
-/// What would be made.
+/// The plan of a run.
 struct Plan {
   StreamHeader header;
   std::uint64_t jobs = 0;
-  std::vector<std::uint64_t> thousandths;  ///< of a tileset: the number of the job at which each begins
+  /// For a tileset: the number of the job at which each thousandth of the work begins.
+  std::vector<std::uint64_t> thousandths;
   std::vector<PlannedLevel> levels;
   Vec3d origin{};
   std::vector<FoundJobs> kept;
-  std::vector<double> scales, openings;  ///< of an occluder, which has no planned levels: those that may be tried
-  double leaf_bytes = 0;                 ///< with their images; 0: none are wanted
+  std::vector<double> scales, openings;  ///< the scales that may be tried for an occluder, which has no planned levels
+  double leaf_bytes = 0;                 ///< of leaves with their images; 0: there are none
   double file_bytes = 0, scratch_bytes = 0;
-  Estimate work;  ///< from nothing, and without textures
+  Estimate work;  ///< if no result is kept, and without textures
 };
 
-/// Estimates the bytes of all levels and leaves. A level takes some 0.7 of its planned faces: 0.8 to 1.2 of bodies, a
-/// third and less of scenes with flat sides.
+/// Estimates the bytes of all levels and leaves. A level has about 0.7 of its planned faces: 0.8 to 1.2 for bodies, a
+/// third and less for scenes with flat sides.
 double file_bytes(const Plan& plan, bool tileset, const Scene& scene) {
   double sum = plan.leaf_bytes;
   for (const PlannedLevel& level : plan.levels) {
@@ -113,7 +117,7 @@ double file_bytes(const Plan& plan, bool tileset, const Scene& scene) {
   return sum;
 }
 
-/// Numbers that cut the work of all jobs into a thousand parts of about the same size.
+/// Returns the numbers of the jobs that cut the work of all jobs into a thousand parts of about the same size.
 std::vector<std::uint64_t> thousandths_of(const std::vector<double>& work) {
   const double all = std::accumulate(work.begin(), work.end(), 0.0);
   std::vector<std::uint64_t> cuts;
@@ -222,8 +226,9 @@ std::string row_of(const PlannedLevel& l, std::size_t i) {
                      l.faces > 0 ? fmt::format("about {}", l.faces) : "as the error takes");
 }
 
-/// What an occluder takes depends on what its scene hides: time and memory are not known before.
-/// "scales    10, from 0 to 0.0911, and again above the ground"
+/// Returns the lines about an occluder. Time and memory are missing, since they depend on what the scene hides, which
+/// is not known yet.
+/// Example: "scales    10, from 0 to 0.0911, and again above the ground"
 std::string occluder_text(const BuildOptions& o, const Plan& plan) {
   const std::string scales = o.closing.scale
                                  ? fmt::format("{:.4g}", plan.scales.front())

@@ -3,8 +3,8 @@
 
 namespace bp {
 
-/// bplod --explain: prints the plan of a run, and writes it into the report, without running. The scene is read once,
-/// for its bounds; with --cache it is voxelized, too, to find what is kept (look_up_tileset()).
+/// Prints the plan of a run (bplod --explain) and writes it into the report, without making anything. The scene is read
+/// once, for its bounds; with --cache it is also voxelized, to find which results are kept (look_up_tileset()).
 void explain(const BuildOptions& options);
 
 }  // namespace bp

@@ -10,7 +10,7 @@ namespace bp {
 
 namespace {
 
-/// Results that are there; nothing is added.
+/// A store that reads the results of a folder and adds none.
 class LookUpStore final : public ResultStore {
  public:
   explicit LookUpStore(const std::string& folder) {
@@ -23,13 +23,13 @@ class LookUpStore final : public ResultStore {
   std::unique_ptr<ResultStore> results_;
 };
 
-/// Whose results a cache holds.
+/// Tells whether this build's results are in a cache, and other builds'.
 struct Owners {
   bool mine = false, others = false;
 };
 
-/// What a cache holds belongs to the sources of a program: a file of their name tells which ones were here. `leave`:
-/// this one's name, too, if that can be, and as of now: what is old may be deleted.
+/// Finds the builds whose results a cache may hold. A file named after the digest of a program's sources tells that it
+/// was here. `leave`: also leaves this build's file if possible, dated now, since old files may be deleted.
 Owners owners_of(const std::string& folder, bool leave) {
   constexpr std::string_view kName = "made-by-";
   std::error_code error;
@@ -38,7 +38,8 @@ Owners owners_of(const std::string& folder, bool leave) {
     const std::string name = it->path().filename().string();
     const bool tells = name.starts_with(kName);
     mine = mine || (tells && name.substr(kName.size()) == source_digest());
-    others = others || tells || name.size() == 2;  // results are in folders ab/; not all builds told their name
+    // Results are in folders ab/, and some builds left no file of their own.
+    others = others || tells || name.size() == 2;
   }
   if (leave) {
     const auto file = std::filesystem::path(folder) / (std::string(kName) + std::string(source_digest()));

@@ -19,18 +19,18 @@ namespace bp {
 
 namespace {
 
-/// Of the first bytes.
+/// Tells the format of an image by its first bytes.
 const char* extension_of(std::span<const std::byte> file) {
   const auto at = [&](std::size_t i) { return i < file.size() ? std::to_integer<int>(file[i]) : 0; };
   return at(0) == 0xFF ? "jpg" : at(0) == 'R' ? "webp" : "png";
 }
 
-/// Names of images by what they hold: a changed image has another name.
+/// Names image files after their contents, so that a changed image gets another name.
 class ImageNames {
  public:
   explicit ImageNames(const TextureSet* images) : images_(images) {}
 
-  /// Empty if it is missing or broken.
+  /// Returns the file name of an image; empty if the image is missing or broken.
   std::string operator()(std::uint32_t image) {
     const std::lock_guard lock(mutex_);
     const auto [found, is_new] = names_.try_emplace(image);
@@ -43,7 +43,7 @@ class ImageNames {
     }
     return found->second;
   }
-  /// Of a name that was given.
+  /// Returns the image's number of a name that operator() returned.
   [[nodiscard]] std::uint32_t number_of(const std::string& name) const { return number_.at(name); }
 
  private:
@@ -127,7 +127,8 @@ class LeafMaker {
     }
   }
 
-  /// Leaves that fit the memory together, however large. Throws NeedsMemory if one does not.
+  /// Returns how many leaves are made at the same time. Even the largest leaves fit into the memory together. Throws
+  /// NeedsMemory if one of them does not fit.
   [[nodiscard]] int at_once() const {
     std::uint64_t triangles = 1;
     for (const Leaf& leaf : leaves_) triangles = std::max(triangles, leaf.box.triangles);
@@ -166,7 +167,7 @@ class LeafMaker {
     note_images(leaf);
   }
 
-  /// Of what may show them: a few that it does not show would do no harm.
+  /// Collects the images of all triangles near the leaf. A superset is harmless: it only copies an unused file.
   void note_images(const Leaf& leaf) {
     if (looks_.images() == nullptr) return;
     std::set<std::uint32_t> materials;

@@ -7,16 +7,16 @@
 #include "lib/tileset/tile_tree.h"
 #include "tools/lod/scene/lod_scene.h"
 
-/// The scene's own triangles as leaves of a tileset (--leaves scene).
+/// Makes leaves of a tileset from the scene's own triangles (--leaves scene).
 namespace bp {
 
-/// What the leaves of a tileset are, and go to.
+/// The leaves that a tileset needs, and where they go.
 struct LeafTask {
-  GridFrame frame;  ///< of the finest level
+  GridFrame frame;  ///< frame of the finest level
   const SceneLooks& looks;
-  std::vector<CellCoord> cells;  ///< that may have leaves
+  std::vector<CellCoord> cells;  ///< cells that may have leaves
   ResultStore* results = nullptr;
-  Scratch* files = nullptr;  ///< where contents wait
+  Scratch* files = nullptr;  ///< where contents wait until they are written
 };
 
 struct LeafFile {
@@ -27,13 +27,15 @@ struct LeafFile {
 struct MadeLeaves {
   std::vector<LeafFile> files;  ///< in the order of the cells
   std::vector<std::pair<CellCoord, TileLeaf>> places;
-  std::map<std::string, std::uint32_t> images;  ///< files that they show: numbers in the scene's TextureSet
+  /// Names of the image files that leaves use, with their numbers in the scene's TextureSet.
+  std::map<std::string, std::uint32_t> images;
   std::uint64_t triangles = 0, bytes = 0, kept = 0;
 };
 
-/// Folder of the leaves and their images.
+/// Returns the folder of the leaves and their images.
 [[nodiscard]] std::string leaf_folder(const BuildOptions& options);
-/// In parallel; each leaf is a job of its own, whose result is kept. Held looks are in memory meanwhile.
+/// Makes all leaves in parallel. Each leaf is a job of its own, whose result is kept. The scene's looks are in memory
+/// in the meantime.
 [[nodiscard]] MadeLeaves make_leaves(const Build& build, const LeafTask& task);
 
 }  // namespace bp

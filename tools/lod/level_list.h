@@ -5,10 +5,10 @@
 #include "lib/levels/level_chain.h"
 #include "tools/cli/report.h"
 
-/// The list that bplod prints, and the same in its report.
+/// Makes the list that bplod prints, and the same for its report.
 namespace bp {
 
-/// A line of the list, and of the report.
+/// A line of the list, and an object of the report.
 struct LevelRow {
   std::string file;
   std::uint64_t tiles = 0, faces = 0, bytes = 0;
@@ -16,10 +16,10 @@ struct LevelRow {
   double scale_world = 0, voxel = 0;
   Json more = Json::object();  ///< for the report only
 };
-/// Of a level in one mesh.
+/// Returns the row of a level that is one mesh.
 [[nodiscard]] LevelRow row_of(const LevelFacts& level, const std::string& file, std::uint64_t bytes);
 
-/// Jobs of a tileset, and how many of them were found in the store.
+/// Counts the jobs of a tileset, and those whose results were found in the store.
 struct FoundJobs {
   std::string what;
   std::uint64_t jobs = 0, kept = 0;
@@ -27,7 +27,7 @@ struct FoundJobs {
 
 [[nodiscard]] Json json_of(const LevelRow& row);
 [[nodiscard]] Json json_of(const FoundJobs& found);
-/// Lines of text on stdout.
+/// Return the list as lines of text for stdout.
 [[nodiscard]] std::string listing(const std::vector<LevelRow>& rows);
 [[nodiscard]] std::string listing(const std::vector<FoundJobs>& found);
 

@@ -17,10 +17,11 @@ namespace bp {
 
 namespace {
 
-constexpr double kMuchFuller = 2;       // times the volume of the scene's voxels
-constexpr double kExactVox = 1.0 / 16;  // of error: vertices lie on a lattice, and the scene need not
+constexpr double kMuchFuller = 2;  // times the volume of the scene's voxels
+// Errors below this, in voxels, are due to the rounding of vertices to the lattice.
+constexpr double kExactVox = 1.0 / 16;
 
-/// Whether a level is a box, a prism or a hull, for which nothing was meshed.
+/// Returns whether a level is a box, a prism or a hull, for which no voxels were meshed.
 bool is_convex(const LevelFacts& level) {
   return level.voxels == 0;
 }
@@ -31,7 +32,7 @@ std::string faces_note(const LevelFacts& level, bool asked, std::uint64_t triang
   const std::uint64_t budget = level.target.faces;
   FaceAdvice advice;
   advice.exact = level.error_world < kExactVox * level.voxel;
-  if (level.scale_world < level.voxel) advice.scale.clear();  // nothing is closed by less
+  if (level.scale_world < level.voxel) advice.scale.clear();  // a smaller scale would close nothing
   if (asked && level.reached && level.faces >= triangles && clearly_fewer(level.faces, budget))
     return fmt::format(
         "{} faces instead of {}: the scene has {}{}", level.faces, budget, counted(triangles, "triangle"),
@@ -59,7 +60,7 @@ std::string closed_note(const LevelFacts& level) {
   const std::uint64_t budget = level.target.faces;
   const std::string fewer =
       clearly_fewer(level.faces, budget) ? fmt::format("{} faces instead of {}: ", level.faces, budget) : "";
-  if (level.scale_world == 0)  // a cage
+  if (level.scale_world == 0)  // only cages have no scale here
     return fewer.empty() ? "" : fewer + "one step finer makes too many";
   if (level.target.scale_world && *level.target.scale_world == 0)
     return fmt::format("{}closed at {:.4g}: as it is, parts and holes take more than {} faces", fewer,
@@ -145,13 +146,14 @@ std::vector<std::string> option_notes(const BuildOptions& o, const SceneSize& sc
 
 std::string heavier_note(const LevelFacts& finest, bool asked, std::uint64_t triangles) {
   if (finest.faces <= std::max(triangles, kLeastFaces)) return "";
-  if (asked && clearly_fewer(finest.faces, finest.target.faces)) return "";  // faces_note() says it
+  if (asked && clearly_fewer(finest.faces, finest.target.faces)) return "";  // faces_note() tells it
   return fmt::format("level 0 has {} faces, more than the scene's {}{}", finest.faces, counted(triangles, "triangle"),
                      asked ? "; --faces 50% asks for half of those" : "");
 }
 
 SceneParts parts_of(const VoxelizedScene& scene, const BuildOptions& o, std::uint64_t memory_bytes) {
-  const bool told = o.profile != LodProfile::collision && asks_for_faces(request_of(o));  // by faces_note()
+  // faces_note() tells about the level then.
+  const bool told = o.profile != LodProfile::collision && asks_for_faces(request_of(o));
   const bool by_faces = o.levels.errors.empty() && o.proxy.mode == MeshMode::bounding;
   if (told || !by_faces || o.is_cage() || topology_bytes(*scene.solid) > memory_bytes) return {};
   const double voxel = scene.header.frame.voxel;

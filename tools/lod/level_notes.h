@@ -3,27 +3,29 @@
 #include "lib/levels/level_chain.h"
 #include "tools/lod/build_options.h"
 
-/// What a person should know of what bplod made. Each is one line, or empty.
+/// Makes the notes that tell a user about the levels of bplod. Each is one line, or empty.
 namespace bp {
 
-/// A level that has not its faces: why. `asked`: faces were asked for. `triangles`: of the scene.
+/// Returns a note that tells why a level has fewer or more faces than its budget. `asked`: the user asked for faces.
+/// `triangles`: the scene's.
 [[nodiscard]] std::string faces_note(const LevelFacts& level, bool asked, std::uint64_t triangles);
 
-/// A level whose error exceeds the one asked for; scene units.
+/// Returns a note on a level whose error exceeds the one that was asked for; scene units.
 [[nodiscard]] std::string error_note(std::size_t level, double error_world, double asked_world);
 
 /// Returns all notes on levels that are one mesh each. `first`: the number of the first one.
 [[nodiscard]] std::vector<std::string> level_notes(const std::vector<LevelFacts>& levels, std::size_t first, bool asked,
                                                    const SceneSize& scene);
 
-/// Returns a note that tells which level is not there, and why. diagonal: of the scene.
+/// Returns a note that tells which level was left out, and why. diagonal: the scene's.
 [[nodiscard]] std::string left_out_note(const LeftOut& level, double diagonal);
 
-/// Returns the note of OriginOption for tilesets, which hold coordinates in double. Throws bad_argument if --origin
+/// Returns the note of OriginOption; empty for tilesets, whose coordinates are doubles. Throws bad_argument if --origin
 /// would round.
 [[nodiscard]] std::string origin_note(const BuildOptions& options, const StreamHeader& header);
 
-/// A tileset whose voxels follow from the scene, if the scene has more triangles than these are for.
+/// Returns a note on a tileset whose voxels follow from the scene, if the scene has more triangles than such voxels can
+/// show.
 [[nodiscard]] std::string voxel_note(const BuildOptions& options, const SceneSize& scene);
 
 /// Returns a note if levels do not enclose the triangles of a scene although they could, and nobody asked for that.
@@ -38,27 +40,30 @@ namespace bp {
 /// asked for a number of faces.
 [[nodiscard]] std::string heavier_note(const LevelFacts& finest, bool asked, std::uint64_t triangles);
 
-/// What is connected in the voxels of a scene.
+/// The connected parts of the voxels of a scene.
 struct SceneParts {
   std::uint64_t count = 0;  ///< 0: not known
   double volume = 0;        ///< scene units cubed
-  double named_scale = 0;   ///< scene units; 0: none
+  double named_scale = 0;   ///< the scale that the user named, scene units; 0: none
 };
-/// Not known of a scene whose parts take more memory to be counted, or if `options` ask for no number of faces.
+/// Counts the parts. Returns a count of 0 if counting would take too much memory, or if joined_note() is not needed for
+/// these options.
 [[nodiscard]] SceneParts parts_of(const VoxelizedScene& scene, const BuildOptions& options, std::uint64_t memory_bytes);
 
-/// A level that was closed at more than its scale, since parts and holes took too many faces.
+/// Returns a note on a level that was closed at a larger scale than the first one, since parts and holes took too many
+/// faces.
 [[nodiscard]] std::string closed_note(const LevelFacts& level);
 
-/// A finest level of so many parts that joins those of the scene and fills the room between them, at a scale that
-/// nobody named, or beyond the one named.
+/// Returns a note if the finest level has fewer parts than the scene and fills the room between them, at a scale that
+/// is larger than the user named. `parts`: the level's.
 [[nodiscard]] std::string joined_note(const LevelFacts& finest, std::uint64_t parts, const SceneParts& scene);
 
-/// A scene with textures none of whose images can be read: the first file, and the reason.
+/// Returns a note on a scene with textures none of whose images can be read. It names the first file and the reason.
 [[nodiscard]] std::string no_image_note(const ImageFaults& faults);
 
-/// The command that proves `file`, one of those in the folder of the levels: "bpcheck SCENE OUT/FILE". Empty of fits,
-/// which enclose nothing, and of a scene from a pipe. hulls: the file holds convex hulls. margin: scene units; 0: none.
+/// Returns the command that proves `file`, a file in the folder of the levels: "bpcheck SCENE OUT/FILE". Empty for
+/// fits, which enclose nothing, and for a scene from a pipe. hulls: the file holds convex hulls. margin: scene units;
+/// 0: none.
 [[nodiscard]] std::string proof_command(const BuildOptions& options, const std::string& file, bool hulls,
                                         double margin = 0);
 

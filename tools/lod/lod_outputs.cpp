@@ -28,7 +28,7 @@ std::vector<WrittenFile> write_gltf_profile(const std::string& name, const std::
     write_lod_glb({&level, 1}, {}, out.file(level.name + ".glb"), facts);
     files.push_back({level.name + ".glb", files.size(), level.mesh->triangles.size()});
   }
-  std::vector<double> coverage;  // a level is drawn until the next one's error is a pixel; the last one always
+  std::vector<double> coverage;  // a level is drawn until the next one's error is a pixel; the last one is always drawn
   for (std::size_t i = 1; i < levels.size(); ++i)
     coverage.push_back(coverage_at_one_pixel(diameter, levels[i].error_world));
   coverage.push_back(0);
@@ -36,7 +36,7 @@ std::vector<WrittenFile> write_gltf_profile(const std::string& name, const std::
   return files;
 }
 
-/// Godot makes an occluder of a node with this suffix, and draws nothing.
+/// Writes one GLB. Godot makes an occluder of a node with this suffix, and does not draw it.
 std::vector<WrittenFile> write_occluder_profile(const std::string& name, const LatticeMesh& mesh, const Vec3d& origin,
                                                 OutputFolder& out) {
   const NamedMesh godot{name + "-occonly", &mesh};
@@ -44,7 +44,7 @@ std::vector<WrittenFile> write_occluder_profile(const std::string& name, const L
   return {{name + "_occluder.glb", 0, mesh.triangles.size()}};
 }
 
-/// Quads are of OBJ; the GLB has triangles, for viewers that read no OBJ.
+/// Writes the cage as OBJ, which has quads, and as GLB of triangles, for viewers that cannot read OBJ.
 std::vector<WrittenFile> write_cage_profile(const std::string& name, const LatticeMesh& mesh, const Vec3d& origin,
                                             OutputFolder& out) {
   const NamedMesh shown{name + "_Cage", &mesh};
@@ -87,7 +87,7 @@ void OutputFolder::leave_out(const std::string& name) {
 
 void OutputFolder::commit() {
   OutputFile::commit_all(files_);
-  if (overwrite_) {  // else none was there before
+  if (overwrite_) {  // without --overwrite none was there before
     for (const std::string& name : left_out_) (void)remove_file(path_ + "/" + name);
   }
   made_.keep();

@@ -9,23 +9,24 @@
 #include "lib/levels/whole_levels.h"
 #include "tools/lod/build.h"
 
-/// What bplod writes of a chain: the files of a profile other than tiles, in one folder.
+/// Writes the files of a chain of levels into one folder, for all profiles but tiles.
 namespace bp {
 
-/// Files that appear together: all are opened before the work, so that a name that cannot be written fails at once, and
-/// committed after it, in the order in which they were opened; what names other files comes last. If one cannot have
-/// its name, no new one stays.
+/// A set of files that appear together. All are opened before the work, so that a name that cannot be written fails at
+/// once. All are committed after it, in the order in which they were opened; files that name others come last. If one
+/// of them cannot get its name, no new file stays.
 class OutputFolder {
  public:
-  /// Makes the folder if it is not there. Without commit() nothing stays behind, folders that were made included.
-  /// Throws bad_argument if a file exists and `overwrite` is false.
+  /// Makes the folder if it does not exist. Without commit() neither files nor new folders stay. Throws bad_argument if
+  /// a file exists and `overwrite` is false.
   OutputFolder(std::string path, const std::vector<std::string>& names, bool overwrite);
   [[nodiscard]] OutputFile& file(const std::string& name);
-  /// One more file, that is committed before `next`. Throws as the constructor.
+  /// Opens one more file, which is committed before `next`. Throws as the constructor.
   OutputFile& add(const std::string& name, const std::string& next);
-  /// A file that nothing was written to. What --overwrite finds under its name, of an earlier set, goes with commit().
+  /// Leaves out a file that nothing was written to. With --overwrite, commit() removes a file of that name that an
+  /// earlier run left.
   void leave_out(const std::string& name);
-  /// A file of an earlier set that was not opened goes with commit(), if --overwrite is given.
+  /// Makes commit() remove a file of an earlier run that was not opened, if --overwrite is given.
   void take_away(const std::string& name) { left_out_.push_back(name); }
   void commit();
   [[nodiscard]] std::uint64_t bytes() const;
@@ -39,36 +40,36 @@ class OutputFolder {
   std::vector<std::unique_ptr<OutputFile>> files_;
 };
 
-/// What levels claim (docs/contracts.md): a question of the mode alone.
+/// Returns what levels promise (docs/contracts.md). Only the mode decides it.
 [[nodiscard]] Contract contract_of_levels(const BuildOptions& options);
-/// "NAME_LOD0": Unity's and others' convention.
+/// Returns "NAME_LOD0", by a convention of Unity and others.
 [[nodiscard]] std::string level_name(const std::string& name, std::size_t level);
-/// The files of a profile, in the order of their commit.
+/// Returns the files of a profile, in the order of their commit.
 [[nodiscard]] std::vector<std::string> profile_files(LodProfile profile, const std::string& name, std::size_t levels);
 /// A file that was written.
 struct WrittenFile {
   std::string name;
   std::size_t level = 0;
   std::uint64_t faces = 0;
-  bool is_level = true;  ///< the level itself; else convex hulls around it
+  bool is_level = true;  ///< the file holds the level itself, and not convex hulls around it
   std::uint64_t hulls = 0;
-  double hull_volume = 0;                ///< of all of them, over the level's own
-  std::string note = "";                 ///< what a user should know of it
-  std::vector<std::string> beside = {};  ///< further files of the level: material and images of OBJ
+  double hull_volume = 0;                ///< volume of all hulls over the level's volume
+  std::string note = "";                 ///< a note for the user
+  std::vector<std::string> beside = {};  ///< further files of the level: materials and images of OBJ, files of hulls
 };
-/// Writes them; returns those that hold one level. `levels`: finest first; errors must not fall towards coarser ones;
-/// collision: collision/collision_files.h. diameter: of the scene; origin: subtracted from all vertices; scene units.
-/// The options that decide are profile, name and mode.
+/// Writes the files, and returns those that hold one level. `levels`: finest first; their errors must not fall from
+/// level to level. For collision meshes: collision/collision_files.h. diameter: the scene's; origin: subtracted from
+/// all vertices; both in scene units. The options that matter are profile, name and mode.
 std::vector<WrittenFile> write_profile(const BuildOptions& options, const std::vector<LodLevel>& levels,
                                        double diameter, const Vec3d& origin, OutputFolder& out);
 
-/// The contents of a tileset's levels in one mesh; `first` is the number of the first.
+/// Encodes the levels of a tileset that are one mesh each. `first`: the number of the first one.
 [[nodiscard]] WholeLevels encoded(const BuildOptions& options, const CompleteLevels& made, std::size_t first);
 
-/// Levels as OBJ (BuildOptions::obj), each with a material and images beside it. Files that there may be: an image is
-/// JPEG, or PNG where it has holes.
+/// Returns the files that levels as OBJ (BuildOptions::obj) may have: each level has a material and images. An image is
+/// JPEG, or PNG if it has holes.
 [[nodiscard]] std::vector<std::string> obj_files(const BuildOptions& options, std::size_t levels);
-/// As write_profile(); what is not needed of obj_files() is left out.
+/// Writes the levels like write_profile(), and leaves out the files of obj_files() that are not needed.
 std::vector<WrittenFile> write_obj_levels(const BuildOptions& options, const std::vector<LodLevel>& levels,
                                           const Vec3d& origin, OutputFolder& out);
 

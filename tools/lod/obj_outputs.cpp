@@ -17,19 +17,20 @@ namespace {
 
 constexpr std::array kImages = {"color", "alpha", "normal", "roughness", "metal", "emission"};
 
-/// A level by itself has the name that was asked for.
+/// Returns the name of a level's files; a single level has the name that was asked for.
 std::string name_of_level(const BuildOptions& o, std::size_t level) {
   return level_count(request_of(o)) == 1 ? o.name : level_name(o.name, level);
 }
 
-/// Of the level's material and the files beside it: readers of OBJ part names at blanks. No two levels share one.
+/// Returns the name of a level's material and of the files of its material. Blanks are replaced, since readers of OBJ
+/// end names at blanks. Different levels get different names.
 std::string material_name(const std::string& name) {
   std::string out;
   for (const char c : name) out += c == ' ' ? "~_" : c == '\t' ? "~t" : c == '~' ? "~~" : std::string(1, c);
   return out;
 }
 
-/// Files that there may be beside a level, with so many kinds of images.
+/// Returns the names of all files that a level's material may have, with `kinds` kinds of images.
 std::vector<std::string> files_beside(const std::string& material, std::size_t kinds) {
   std::vector<std::string> files;
   for (std::size_t k = 0; k < kinds; ++k) {
@@ -48,14 +49,14 @@ std::string head_of(const std::string& path) {
   return text;
 }
 
-/// The MTL of a level of ours that is there, behind the line that names it; empty if there is none.
+/// Returns the MTL that an existing level of bplod names, after the line that names it; empty if there is none.
 std::string material_before(const std::string& obj, const std::string& folder, const std::string& mtl) {
   const std::string head = head_of(obj), line = "mtllib " + mtl + "\n";
   const bool ours = head.starts_with("# made by bplod ") && head.find("\n" + line) != std::string::npos;
   return ours ? line + head_of(folder + "/" + mtl) : "";
 }
 
-/// What an earlier level named, and nothing that is written: --overwrite takes it away.
+/// Makes --overwrite remove files that an earlier level named and that this run does not write.
 void leave_out_earlier(const BuildOptions& o, const std::set<std::string>& written, OutputFolder& out) {
   for (std::size_t i = 0; i < level_count(request_of(o)); ++i) {
     const std::string name = name_of_level(o, i), material = material_name(name);
@@ -66,7 +67,7 @@ void leave_out_earlier(const BuildOptions& o, const std::set<std::string>& writt
   }
 }
 
-/// Writes an image beside a level; returns its file's name, empty if there is none.
+/// Writes an image of a level. Returns the name of its file; empty if there is no image.
 class ImageWriter {
  public:
   ImageWriter(std::string name, OutputFolder& out, std::vector<std::string>& written)
@@ -86,7 +87,7 @@ class ImageWriter {
   std::vector<std::string>& written_;
 };
 
-/// A channel of an image as one of its own, in grey, as MTL has them; none if it is about 0 everywhere.
+/// Returns a channel of an image as a grey image, as MTL needs it; none if it is nearly 0 everywhere.
 ImageFile channel_of(const ImageFile& image, std::size_t channel) {
   if (!image.is_there()) return {};
   TextureImage all = decode_image(std::as_bytes(std::span(image.bytes)), "the baked image", UINT64_MAX);

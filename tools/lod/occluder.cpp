@@ -16,10 +16,10 @@ namespace bp {
 
 namespace {
 
-constexpr double kLittle = 5e-3;  // of the volume of the bounds
-constexpr double kHalf = 0.5;     ///< of what is hidden
+constexpr double kLittle = 5e-3;  // of the bounds' volume
+constexpr double kHalf = 0.5;     ///< of the hidden volume
 
-/// An occluder, and what it was made from.
+/// An occluder, with the scene that it was made from.
 struct BuiltOccluder {
   LodScene scene;
   HiddenScene hidden;

@@ -10,7 +10,7 @@ namespace bp {
 
 namespace {
 
-/// The option that the voxels follow from, if it is a number that is not taken at its word; else empty.
+/// Returns the option that decides the voxels if it may be a slip, since it is a plain number or pixels; else empty.
 std::string finest_target(const BuildOptions& o) {
   if (o.voxels.voxel || o.voxels.resolution || o.levels.errors.empty()) return "";
   const Length::Unit unit = o.levels.errors.front().unit;
@@ -18,7 +18,8 @@ std::string finest_target(const BuildOptions& o) {
   return "--error " + o.levels.errors.front().text();
 }
 
-/// Space around a cage: beyond a fifth of the scene no cage follows it, and making it takes long.
+/// Refuses a margin of more than a fifth of the scene: a cage so far away does not follow the scene, and takes long to
+/// make.
 void question_margin(const BuildOptions& o, const Bounds3d& scene, double voxel) {
   constexpr double kMost = 20;  // percent
   const double diagonal = scene.diagonal(), margin = margin_of(o, diagonal, voxel);

@@ -5,11 +5,11 @@
 
 namespace bp {
 
-/// Throws bad_argument if a length of the options, or the grid that follows from one, is out of proportion to the scene
-/// (tools/notes/proportion.h): before the work, as soon as the bounds are known.
+/// Throws bad_argument if a length in the options, or the grid that follows from one, is out of proportion to the scene
+/// (tools/notes/proportion.h). Call it as soon as the bounds are known, before the work.
 void question_proportions(const BuildOptions& options, const SceneSize& scene);
 
-/// What the run will take, about, with voxels of this edge. `counts`: of the scene's triangles.
+/// Estimates what the run takes with voxels of this edge. `counts`: counts of the scene's triangles.
 [[nodiscard]] Estimate estimate_build(const BuildOptions& options, const Bounds3d& scene, const VoxelizeCounts& counts,
                                       double voxel);
 

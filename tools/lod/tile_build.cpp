@@ -29,16 +29,16 @@ namespace bp {
 
 namespace {
 
-/// The whole tileset; results of some of its jobs; or a look at those that are there.
+/// The purpose of a run: the whole tileset, results of some jobs, or a list of the kept results.
 enum class Task { tileset, some_jobs, look_up };
 
-/// What the jobs of a tileset work with.
+/// The tools that the jobs of a tileset share.
 struct Shop {
   Build& build;
   Task task;
   ResultStore* results;  ///< may be null
-  Scratch* files;        ///< where files wait until all are there
-  bool tells_time;       ///< before the work; false: it is not known how much of it was done before
+  Scratch* files;        ///< where files wait until all are made
+  bool tells_time;       ///< the time is told before the work; false: later, when it is known how many results are kept
   [[nodiscard]] const BuildOptions& options() const { return build.options; }
   [[nodiscard]] Cells cells() const { return {build.options.tile_vox}; }
   [[nodiscard]] bool wants(std::uint64_t number, std::uint64_t count) const {
@@ -46,13 +46,13 @@ struct Shop {
   }
 };
 
-/// A file that waits.
+/// A file that waits to be written.
 struct Waiting {
   std::string name;
   Scratch::Handle content;
 };
 
-/// A level that is cut, while its tiles come in.
+/// A cut level while its tiles are made.
 struct LevelAtWork {
   FoundJobs found{};
   LevelRow row;
@@ -62,18 +62,18 @@ struct LevelAtWork {
 
 struct MadeTileset {
   LodScene scene;
-  std::unique_ptr<SceneLooks> held_looks;  ///< null: nothing needs them
+  std::unique_ptr<SceneLooks> held_looks;  ///< null: neither textures nor leaves need them
   TilesetPlan plan;
   std::vector<FoundJobs> found;
-  // Of a whole tileset only:
+  // These members are set only for a whole tileset.
   std::vector<LevelRow> rows;
   std::optional<LevelRow> leaves;
   std::vector<Waiting> files;
-  std::map<std::string, std::uint32_t> images;  ///< that leaves show: numbers in the scene's TextureSet
+  std::map<std::string, std::uint32_t> images;  ///< images that leaves use: numbers in the scene's TextureSet
   std::optional<TileTree> tree;
   std::vector<Provenance> provenance;  ///< empty: each tile has its own
 
-  /// The looks that textures are baked from; null: levels get none.
+  /// Returns the looks that textures are baked from; null: levels get no textures.
   [[nodiscard]] const SceneLooks* looks() const { return scene.textured ? held_looks.get() : nullptr; }
 };
 
@@ -81,7 +81,7 @@ std::string name_of(CellCoord c) {
   return fmt::format("{}_{}_{}", c.x, c.y, c.z);
 }
 
-/// Of a tile, what decides its texture.
+/// Returns the box in which the scene decides a tile's texture.
 Bounds3d around(const VoxelBox& box, const GridFrame& frame, double scale_world) {
   const double reach = texture_reach(0, scale_world, frame.voxel) + scale_world + 2 * frame.voxel;
   const auto corner = [&](VoxelCoord v, double by) {
@@ -96,7 +96,7 @@ Bounds3d around(const VoxelBox& box, const GridFrame& frame, double scale_world)
   return bounds;
 }
 
-/// Names and provenance of the tiles of a level.
+/// Returns how the tiles of a level become files, with their names and provenance.
 CutFiles cut_files(const Build& build, const MadeTileset& made, const CutLevel& cut, std::size_t level) {
   const std::string folder = level_name(build.options.name, level);
   OptionText text = option_text(build.options, made.scene.enclosed, cut.target, level, cut.scale_world, cut.frame);
@@ -122,7 +122,7 @@ CutFiles cut_files(const Build& build, const MadeTileset& made, const CutLevel& 
   return files;
 }
 
-/// A tile has come.
+/// Takes a finished tile.
 void take(const Shop& shop, LevelTile&& tile, const CutLevel& cut, const std::string& folder, LevelAtWork& level,
           std::vector<Waiting>& files) {
   level.found.jobs += 1;
@@ -139,7 +139,7 @@ void take(const Shop& shop, LevelTile&& tile, const CutLevel& cut, const std::st
   files.push_back({file, shop.files->put(std::as_bytes(std::span(tile.content)))});
 }
 
-/// All tiles of a level have come.
+/// Finishes a level whose tiles have all been taken.
 void finish(const Shop& shop, std::size_t number, const CutLevel& cut, LevelAtWork& level, MadeTileset& made) {
   made.found.push_back(level.found);
   if (shop.task != Task::tileset) return;
@@ -155,7 +155,7 @@ void finish(const Shop& shop, std::size_t number, const CutLevel& cut, LevelAtWo
   if (asked > 0 && level.row.error_world > asked) shop.build.note(error_note(number, level.row.error_world, asked));
 }
 
-/// The scene itself below the tiles of the finest level, which are there.
+/// Adds the scene's own triangles as leaves below the tiles of the finest level, which must be in the tree.
 void add_leaves(const Shop& shop, const std::vector<CellCoord>& cells, const GridFrame& frame, MadeTileset& made) {
   if (!shop.options().leaves || shop.task != Task::tileset) return;
   shop.build.report.begin("leaves");
@@ -169,7 +169,7 @@ void add_leaves(const Shop& shop, const std::vector<CellCoord>& cells, const Gri
   made.leaves = std::move(row);
 }
 
-/// Of what is left to be made of a whole tileset, if nothing was told at the begin: a share of all.
+/// Tells the time that is left when the kept results are known. `share`: the part of the work that is left.
 void tell_time(const Shop& shop, const VoxelizedScene& scene, double share) {
   if (shop.tells_time || shop.task != Task::tileset) return;
   Estimate work = estimate_build(shop.options(), scene.header.bounds, scene.counts, scene.header.frame.voxel);
@@ -178,7 +178,7 @@ void tell_time(const Shop& shop, const VoxelizedScene& scene, double share) {
   note_estimate(work, shop.options().common, shop.build.progress, shop.build.report);
 }
 
-/// The levels of more than one cell.
+/// Makes the levels that have more than one cell.
 void make_cut(const Shop& shop, TilePyramid& pyramid, const std::vector<TriangleD>& scene, MadeTileset& made) {
   const BuildOptions& o = shop.options();
   std::unique_ptr<TriangleBvh> tree;
@@ -213,7 +213,7 @@ void make_cut(const Shop& shop, TilePyramid& pyramid, const std::vector<Triangle
   }
 }
 
-/// Everything that files of levels in one mesh depend on, beside what WholeInput says: names and provenance.
+/// Returns the inputs of the whole levels' files that WholeInput lacks: names, provenance, looks of the scene.
 std::string whole_encoding(const BuildOptions& o, const MadeTileset& made, const std::string& input_hash,
                            const GridFrame& frame) {
   std::string text =
@@ -229,7 +229,7 @@ std::string whole_encoding(const BuildOptions& o, const MadeTileset& made, const
   return text;
 }
 
-/// The levels in one mesh, as they are kept, or made and kept.
+/// Makes the levels that are one mesh each, and keeps them in the store.
 WholeLevels whole_levels(const Shop& shop, const MadeTileset& made, WholeInput input, const std::string& input_hash,
                          const ResultKey& key) {
   const StreamHeader& header = input.header;
@@ -241,7 +241,7 @@ WholeLevels whole_levels(const Shop& shop, const MadeTileset& made, WholeInput i
   return whole;
 }
 
-/// The levels in one mesh.
+/// Adds the levels that are one mesh each: from the store if they are kept, else they are made.
 void make_whole(const Shop& shop, TilePyramid& pyramid, LodOptions lod, const LevelRequest& request,
                 MadeTileset& made) {
   Build& build = shop.build;
@@ -250,7 +250,7 @@ void make_whole(const Shop& shop, TilePyramid& pyramid, LodOptions lod, const Le
   if (cut > 0) lod.least_scale_world = TilesetPlan::kScaleVox * pyramid.header().frame.voxel;
   lod.surface = pyramid.take_surface();
   const std::string input_hash =
-      cut > 0 ? "" : made.scene.voxels.counts.input_hash;  // tiles do not depend on all of it
+      cut > 0 ? "" : made.scene.voxels.counts.input_hash;  // tiles do not depend on the whole scene
   WholeInput input{pyramid.header(),
                    pyramid.take_solid(),
                    cut,
@@ -279,12 +279,12 @@ void make_whole(const Shop& shop, TilePyramid& pyramid, LodOptions lod, const Le
   if (cut == 0) made.provenance = whole.levels.front().provenance;
 }
 
-/// What the triangles of a scene take while its tiles are made.
+/// Returns the bytes of the scene's triangles while tiles are made.
 std::uint64_t bytes_of(std::uint64_t triangles) {
   return triangles * sizeof(TriangleD) + TriangleBvh::bytes_needed(triangles);
 }
 
-/// `held`: bytes that the scene takes meanwhile. share: of the memory for work.
+/// `held`: bytes that the scene takes at the same time. share: of the memory for work.
 PyramidOptions pyramid_options(const Shop& shop, std::uint64_t held, double share) {
   PassContext context = shop.build.context(shop.results, share);
   context.memory.bytes -= std::min(context.memory.bytes, held);
@@ -324,7 +324,7 @@ MadeTileset make_tileset(const Shop& shop) {
   return made;
 }
 
-/// Of a tileset whose levels are cut: each tile has its own.
+/// Returns the options for the provenance of a tileset whose levels are all cut; each tile has its own provenance.
 OptionText tileset_options(const MadeTileset& made, std::int32_t tile_vox) {
   OptionText text;
   text.add("levels", made.rows.size()).add("tile", tile_vox).add("voxel", made.scene.voxels.header.frame.voxel);
@@ -360,7 +360,7 @@ void write_tileset(const Shop& shop, MadeTileset& made, TilesetFolder& folder) {
   finish(shop.build, made.scene.told(), made.rows, folder.bytes());
 }
 
-/// Of the levels that were asked for: each is one mesh, or a folder of tiles.
+/// Returns the names that the levels that were asked for may have: each is one file or a folder of tiles.
 std::vector<std::string> certain_names(const BuildOptions& o) {
   std::vector<std::string> names;
   if (o.leaves) names.push_back(leaf_folder(o));
@@ -381,7 +381,7 @@ void build_tileset(const BuildOptions& o) {
   const std::unique_ptr<Scratch> files = make_scratch(build.budget.store, o.common.temp);
   const bool tells_time = !has_own_results(o);  // before this run fills the cache
   build.note(cache_note(o));
-  std::string fault;  // why the cache keeps nothing: known once the levels are made
+  std::string fault;  // the reason why the cache keeps nothing, known after the levels are made
   const std::unique_ptr<ResultStore> results = open_kept_results(o, fault);
   const Shop shop{build, task, results.get(), files.get(), tells_time};
   MadeTileset made = make_tileset(shop);

@@ -12,9 +12,9 @@ namespace {
 // With fewer dense triangles for each face, the level shows the steps of the voxels.
 constexpr double kDenseFacesPerFace = 100;
 constexpr double kScalesPerEdge = 4;
-constexpr double kLeastSideVox = 48;    // the longest side of a reduced grid has more
-constexpr double kVoxelsPerLength = 8;  // along the length that a rule by shape asks for, which is measured to within
-                                        // two voxels
+constexpr double kLeastSideVox = 48;  // the longest side of a reduced grid has more
+// Voxels along the length that a rule by shape asks for, which is measured to within two voxels.
+constexpr double kVoxelsPerLength = 8;
 
 /// Returns the edge of `faces` equilateral triangles that together have the area of the scene's surface.
 double edge_of(const LodGround& ground, std::uint64_t faces) {

@@ -15,8 +15,9 @@ using Flat = std::array<double, 2>;
 
 constexpr std::size_t kMostOfOutline = 4096;   // corners
 constexpr std::uint64_t kFacesOfTriangle = 8;  // a prism over a triangle has 8 faces
-constexpr double kFlat = 8;  // least height of a corner of the outline above the line of its neighbours, lattice units:
-                             // a flatter one would be tilted by rounding
+// The least height of a corner of the outline above the line of its neighbours, lattice units: a flatter one would be
+// tilted by rounding.
+constexpr double kFlat = 8;
 
 /// Two parallel planes that hold a flat scene between them; lattice units.
 struct Slab {

@@ -11,9 +11,9 @@ namespace bp {
 
 /// The scene that a ruler measures against: its triangles if they are known, else its voxels.
 struct RulerScene {
-  const BrickShelf& solid;              ///< the scene's voxels, in `frame`; even if the inside is filled, the scene
-                                        ///< touches each voxel of their boundary
-  const BrickShelf* surface = nullptr;  ///< as LodOptions has it
+  /// The scene's voxels, in `frame`; even if the inside is filled, the scene touches each voxel of their boundary.
+  const BrickShelf& solid;
+  const BrickShelf* surface = nullptr;                ///< as LodOptions has it
   const std::vector<TriangleD>* triangles = nullptr;  ///< must outlive the ruler; null: not known
   GridFrame frame;
   MeshMode mode = MeshMode::bounding;  ///< the mode of the levels that are measured

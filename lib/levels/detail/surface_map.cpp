@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::size_t kTriangles = 64, kMostRuns = std::size_t(1) << 16;
 constexpr std::uint64_t kMostCells = 4096;  // that one run may meet; a larger run is spread evenly over all cells
-constexpr double kLeft = 0.8;               // part of the surface that remains from level to level, since details
-                                            // vanish; measured on a plant
+// Part of the surface that remains from level to level, since details vanish; measured on a plant.
+constexpr double kLeft = 0.8;
 
 void merge(SurfaceRun& run, const SurfaceRun& other) {
   run.bounds.merge(other.bounds);

@@ -17,8 +17,8 @@ namespace bp {
 namespace {
 
 constexpr const char* kJobName = "tile";
-constexpr std::int64_t kLatticeAround = 1;  // lattice units: far more than a check grows the cell by, far less than a
-                                            // voxel
+// In lattice units; far more than a check grows the cell by, far less than a voxel.
+constexpr std::int64_t kLatticeAround = 1;
 
 /// Makes bricks of the voxels in `box` from rows. word(c, y, z, p, i) returns row (y, z) of brick c; the row begins at
 /// voxel p, and is word i of a row of a bit box over `box`.

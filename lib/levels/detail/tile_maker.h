@@ -44,10 +44,10 @@ class TileMaker {
   const CellCoord coord_;
   const VoxelBox cell_, grown_;
   std::unique_ptr<BrickShelf> solid_, closing_;
-  std::vector<TriangleD> scene_;      // bounding: these stay inside within the cell; fit: the mesh follows them
-  std::unique_ptr<BrickShelf> held_;  // must stay inside in addition to the triangles of a bounding tile; null for
-                                      // other tiles
-  Boundary boundary_;                 // the boundary of solid_
+  std::vector<TriangleD> scene_;  // bounding: these stay inside within the cell; fit: the mesh follows them
+  // Must stay inside in addition to the triangles of a bounding tile; null for other tiles.
+  std::unique_ptr<BrickShelf> held_;
+  Boundary boundary_;  // the boundary of solid_
 };
 
 }  // namespace bp

@@ -149,9 +149,7 @@ class TileMaking {
     const TileTask& task = *job.task;
     TileMaker maker(task, job.job.cell, of_each_);
     LevelTile tile;
-    if (!task.params.make)
-      return finish(job, std::move(tile), true);  // its content is not known; as far as is known,
-                                                  // the tile exists
+    if (!task.params.make) return finish(job, std::move(tile), true);  // it may be in a cavity
     const bool there = maker.begin();
     if (there) tile.content = task.encode(job.job.cell, maker.make(tile.measures));
     if (context_.results != nullptr) context_.results->put(job.key, there ? packed(tile) : "");

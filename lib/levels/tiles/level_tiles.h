@@ -31,9 +31,9 @@ struct TileLevel {
 /// them.
 struct TileShape {
   MeshMode mode = MeshMode::bounding;  ///< bounding or fit
-  Enclose enclose = Enclose::input;    ///< for bounding tiles; Enclose::scene becomes input if a tile has more than
-                                       ///< kMostTriangles triangles nearby
-  double scale_world = 0;              ///< scale of the closing
+  /// For bounding tiles; Enclose::scene becomes input if a tile has more than kMostTriangles triangles nearby.
+  Enclose enclose = Enclose::input;
+  double scale_world = 0;  ///< scale of the closing
   StructuringElement element = StructuringElement::cube;
   std::uint64_t faces = 0;  ///< budget of each tile; 0: kDenseFacesPerFace decides
   /// Largest distance of a tile to what it encloses; 0: none. It replaces the budget of faces.

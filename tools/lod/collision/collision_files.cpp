@@ -28,8 +28,8 @@ std::string urdf_file(const BuildOptions& o) {
   return o.name + ".urdf";
 }
 
-/// What hulls leave to be desired, and whether more would help; empty if they are as good as the level. body: the file
-/// that holds the level itself.
+/// Returns a note if the hulls hold more than the level, with advice whether more of them would help; empty if they
+/// hold hardly more. `body`: the file that holds the level itself.
 std::string hull_note(const WrittenFile& file, const ConvexParts& parts, const std::string& body) {
   constexpr double kAsGood = 1.1;
   if (file.hull_volume < kAsGood) return "";
@@ -41,7 +41,7 @@ std::string hull_note(const WrittenFile& file, const ConvexParts& parts, const s
       file.hulls, file.hulls == 1 ? "" : "s", file.hull_volume, advice, body);
 }
 
-/// Whether `file` is of a hull of this name, with any number and in any format.
+/// Returns whether `file` has the name of a hull of these levels, with any number and in any format.
 bool is_hull_file(const BuildOptions& o, const std::string& file) {
   const std::string start = o.name + kHull;
   if (!file.starts_with(start)) return false;
@@ -50,7 +50,7 @@ bool is_hull_file(const BuildOptions& o, const std::string& file) {
   return dot != std::string::npos && dot >= 2 && (rest.substr(dot) == ".obj" || rest.substr(dot) == ".stl");
 }
 
-/// A simulator that takes all files of hulls in a folder must not take those of an earlier run.
+/// Removes hull files of an earlier run: a simulator that reads all hull files of the folder must not read old ones.
 void take_away_earlier(const BuildOptions& o, const std::vector<std::string>& written, OutputFolder& out) {
   std::error_code none;
   for (const auto& entry : std::filesystem::directory_iterator(o.out, none)) {
@@ -59,7 +59,7 @@ void take_away_earlier(const BuildOptions& o, const std::vector<std::string>& wr
   }
 }
 
-/// The row of the model that names them.
+/// Writes the hulls and the models that name them. Returns the row of the MuJoCo model for the list.
 WrittenFile write_hull_files(const BuildOptions& o, const ConvexParts& parts, const Vec3d& origin, OutputFolder& out) {
   const MeshFormat format = o.hull_files == HullFiles::obj ? MeshFormat::obj : MeshFormat::stl;
   std::vector<std::string> files;
@@ -88,12 +88,13 @@ std::vector<std::string> collision_files(const BuildOptions& o) {
 }
 
 std::uint64_t faces_of_hulls(const BuildOptions& o, const LatticeMesh& body) {
-  constexpr std::uint64_t kEnough = 64;  // a body of few faces may need more as convex parts
+  constexpr std::uint64_t kEnough = 64;  // a body of few faces may need more for its convex parts
   return o.levels.faces.empty() ? std::max<std::uint64_t>(body.triangles.size(), kEnough) : o.levels.faces.front();
 }
 
-/// What importers go by: Godot by the suffix "-colonly" (collision only, the mesh itself), Unreal by the prefix
-/// "UCX_MESH_" (convex, so: hulls that enclose it together), Unity by nothing, and people by "_Collider".
+/// The names are conventions of importers. Godot takes the suffix "-colonly" for a mesh that only collides. Unreal
+/// takes the prefix "UCX_MESH_" for convex hulls, which enclose the mesh together. Unity has no convention; "_Collider"
+/// is for people.
 std::vector<WrittenFile> write_collision_files(const BuildOptions& o, const LatticeMesh& body, const ConvexParts& parts,
                                                const Vec3d& origin, OutputFolder& out) {
   const std::string& name = o.name;

@@ -16,7 +16,8 @@ namespace bp {
 
 namespace {
 
-constexpr double kCounts = 0.05;  // of the body's volume: convex parts of less are not worth a body for the rest
+// The least share of the body's volume: convex parts with less are not worth another body around the rest.
+constexpr double kCounts = 0.05;
 
 class RestSource final : public TriangleSource {
  public:
@@ -39,7 +40,7 @@ class RestSource final : public TriangleSource {
   SceneCounts counts_;
 };
 
-/// The mesh in the frame of the voxels that `reductions` doublings led to its own.
+/// Moves the mesh from the frame of reduced voxels into the frame before `reductions` doublings.
 LatticeMesh in_finer_frame(LatticeMesh mesh, int reductions) {
   const std::int64_t times = std::int64_t(1) << reductions;
   mesh.frame.voxel /= double(times);
@@ -48,7 +49,8 @@ LatticeMesh in_finer_frame(LatticeMesh mesh, int reductions) {
   return mesh;
 }
 
-/// As the chain made the scene's: the same voxels, and the same target.
+/// Makes a body around the scene's remaining triangles as the chain made the scene's: with the same voxels and the same
+/// target.
 LatticeMesh body_of_rest(Build& build, const MadeChain& chain, std::vector<TriangleD> rest, LodOptions lod) {
   RestSource source(rest);
   VoxelizeOptions v;
@@ -75,7 +77,7 @@ LatticeMesh body_of_rest(Build& build, const MadeChain& chain, std::vector<Trian
   return in_finer_frame(std::move(level.mesh), level.reductions);
 }
 
-/// The scene's convex parts as they are, and the hulls of the rest.
+/// Returns the scene's convex parts unchanged, and the hulls of a body around the rest.
 ConvexParts hulls_of_parts(Build& build, const MadeChain& chain, ConvexScene scene, HullLimits limits, LodOptions lod) {
   LatticeMesh rest;
   rest.frame = chain.scene.voxels.header.frame;

@@ -29,7 +29,7 @@ std::string xml_text(const std::string& text) {
   return out;
 }
 
-/// Without folder and extension.
+/// Returns the file's name without folder and extension.
 std::string stem_of(const std::string& file) {
   return file.substr(0, file.rfind('.'));
 }
@@ -43,7 +43,8 @@ std::string mjcf_text(const std::string& name, const std::vector<std::string>& f
   for (const std::string& file : files)
     text += fmt::format("    <mesh name=\"{}\" file=\"{}\"/>\n", xml_text(stem_of(file)), xml_text(file));
   text += fmt::format("  </asset>\n  <worldbody>\n    <body name=\"{}\">\n", xml_text(name));
-  for (const std::string& file : files)  // group 3: what viewers of MuJoCo hide until asked for collision geoms
+  // In group 3, which viewers of MuJoCo hide until the user asks for collision geoms.
+  for (const std::string& file : files)
     text += fmt::format("      <geom type=\"mesh\" mesh=\"{}\" group=\"3\"/>\n", xml_text(stem_of(file)));
   return text + "    </body>\n  </worldbody>\n</mujoco>\n";
 }

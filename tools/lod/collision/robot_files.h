@@ -2,13 +2,15 @@
 #include <string>
 #include <vector>
 
-/// What robot simulators read of a set of hulls: text that names the files of the hulls, which lie beside it.
+/// Makes the models of robot simulators for a set of hulls: texts that name the hulls' files, which lie in the same
+/// folder.
 namespace bp {
 
-/// A model of MuJoCo (MJCF) with one body that has a geom for each file. It loads by itself, and through <include>.
+/// Returns a MuJoCo model (MJCF) with one body that has a geom for each file. It can be loaded alone and through
+/// <include>.
 [[nodiscard]] std::string mjcf_text(const std::string& name, const std::vector<std::string>& files);
 
-/// A URDF with one link that has a collision element for each file.
+/// Returns a URDF with one link that has a collision element for each file.
 [[nodiscard]] std::string urdf_text(const std::string& name, const std::vector<std::string>& files);
 
 }  // namespace bp

@@ -38,7 +38,7 @@ void complete(const Build& build, const Completion& with, LodLevel& level, std::
   level.mesh.provenance = {make_provenance("bplod", text, input_hash)};
 }
 
-/// The stage of the report in which levels of these numbers are made.
+/// Returns the name of the report's stage in which levels of these numbers are made.
 std::string text_of(const std::vector<std::size_t>& numbers) {
   if (numbers.size() == 1) return fmt::format("level {}", numbers[0]);
   return fmt::format("levels {} to {}", numbers.front(), numbers.back());

@@ -31,7 +31,7 @@ namespace bp {
 
 namespace {
 
-/// Levels have scales of their own: the rules say how much finer or coarser a place is.
+/// Reads the rules of --field. They say how much finer or coarser than a level's own scale a place is.
 ScalePlan read_field(Build& build, const VoxelizedScene& voxels) {
   const BuildOptions& o = build.options;
   StreamHeader header = voxels.header;
@@ -62,7 +62,7 @@ void note_scene(Build& build, const LodScene& scene, std::optional<UpAxis> up_to
   for (const std::string& text : option_notes(o, scene.size, scene.voxels.header)) build.note(text);
 }
 
-/// Whether levels get textures. `tell`: a note says why there will be none.
+/// Returns whether levels get textures. `tell`: if they are missing, a note says why.
 bool choose_textures(Build& build, const TriangleSource& source, const LodScene& scene, bool tell) {
   if (!scene.textures) return false;
   const BuildOptions& o = build.options;
@@ -78,7 +78,8 @@ bool choose_textures(Build& build, const TriangleSource& source, const LodScene&
   return textured;
 }
 
-/// The triangles have gone, and so has most of what they were given of the memory.
+/// Reads the scene's colours into cells. The triangles that voxelization kept are freed by now, and so is most of their
+/// memory.
 std::unique_ptr<SceneColors> gathered_colors(Build& build, TriangleSource& source, const VoxelizedScene& scene) {
   build.report.begin("colours");
   PassContext context = build.context();
@@ -99,15 +100,16 @@ VoxelizeOptions voxelize_options(const Build& build, const ReadOptions& read) {
   return v;
 }
 
-/// The scene, read again; nothing of a fit's if it has too many triangles or comes from a pipe.
+/// Reads the scene's triangles again. Returns none if the scene comes from a pipe, or if a fit has too many.
 std::vector<TriangleD> scene_triangles(const Build& build, std::uint64_t triangles) {
-  constexpr std::uint64_t kMost = std::uint64_t(1) << 21;  // whatever the memory: it must not decide what is made
+  // Independent of the memory, which must not decide what is made.
+  constexpr std::uint64_t kMost = std::uint64_t(1) << 21;
   const BuildOptions& o = build.options;
   const bool fit = o.proxy.mode == MeshMode::fit;
   std::vector<TriangleD> all;
   if (std::count(o.voxels.scenes.begin(), o.voxels.scenes.end(), "-") > 0) return all;  // stdin cannot be read again
   if (fit && triangles > kMost) return all;
-  // Around triangles they are held here, and in what is enclosed or in what measures distances.
+  // Bounding levels hold them here and in EnclosedTriangles, or here and in the tree that measures distances.
   const std::uint64_t others = std::max(EnclosedTriangles::kBytesEach, TriangleBvh::bytes_needed(1));
   const std::uint64_t bytes = triangles * (fit ? kBytesOfFit : sizeof(TriangleD) + others);
   const MemoryShare& work = build.budget.work;
@@ -125,7 +127,7 @@ std::vector<TriangleD> scene_triangles(const Build& build, std::uint64_t triangl
   return all;
 }
 
-/// What is asked of the finest level.
+/// Returns the target of the finest level.
 LodTarget first_target(const BuildOptions& o, const LodScene& scene) {
   const StreamHeader& header = scene.voxels.header;
   const LevelRequest request = request_for(o, scene.size.triangles, header.bounds.diagonal(), header.frame.voxel);
@@ -145,7 +147,7 @@ LodScene read_scene(Build& build, const ReadOptions& read) {
   auto source = open_scenes(o.voxels.scenes, how);
   if (read.ground) source = std::make_unique<GroundedSource>(std::move(source), o.voxels.up);
   VoxelizeOptions v = voxelize_options(build, read);
-  v.voxel_size = [&](const Bounds3d& bounds) {  // asked for when the scene has been read
+  v.voxel_size = [&](const Bounds3d& bounds) {  // is called when the scene has been read
     const SceneSize size{bounds, source->counts().triangles};
     if (!read.ground) question_proportions(o, size);
     const double diagonal = bounds.diagonal();
@@ -215,7 +217,7 @@ LodOptions lod_options(const Build& build, const LodScene& scene, const CageRoom
         });
   }
   const bool encloses = lod.mode == MeshMode::bounding && lod.enclose == Enclose::scene;
-  if (encloses && scene.voxels.solid != nullptr) {  // its levels may have taken them
+  if (encloses && scene.voxels.solid != nullptr) {  // else an earlier chain took the voxels, after this test
     require_within(lod.scene, scene.voxels.header.frame, *scene.voxels.solid);
     lod.is_within = true;
   }

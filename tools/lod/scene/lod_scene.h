@@ -9,25 +9,24 @@
 #include "lib/pass/color/scene_colors.h"
 #include "tools/lod/build.h"
 
-/// How the options of bplod become a scene that levels are made from.
+/// Turns the options of bplod into a scene that levels are made from.
 namespace bp {
 
-/// The share of the memory for work that is left beside the looks of a scene, where they are held while levels are
-/// made.
+/// The share of the memory for work that is left for levels if the looks of the scene are kept while levels are made.
 constexpr double kBesideLooks = 0.5;
 
-/// A scene as it was read: its voxels, and what levels need of it besides.
+/// A scene that was read: its voxels, and everything else that levels need of it.
 struct LodScene {
   VoxelizedScene voxels;
   SceneSize size;
-  Enclose enclosed = Enclose::input;       ///< what stays inside bounding levels
-  std::optional<ScalePlan> field;          ///< of --field
-  std::unique_ptr<SceneColors> colors;     ///< null: the scene has none, or none are wanted
-  std::shared_ptr<TextureTable> textures;  ///< null: none are wanted
+  Enclose enclosed = Enclose::input;       ///< what bounding levels enclose
+  std::optional<ScalePlan> field;          ///< the rules of --field
+  std::unique_ptr<SceneColors> colors;     ///< null: the scene has no colours, or they are not wanted
+  std::shared_ptr<TextureTable> textures;  ///< null: textures are not wanted
   bool textured = false;  ///< levels get textures: they are wanted, the scene has looks, and it can be read again
-  bool colored = false;   ///< the scene has colours besides its images
+  bool colored = false;   ///< the scene has colours in addition to its images
 
-  /// Images of the levels show more than grey.
+  /// Returns whether the images of levels show more than grey.
   [[nodiscard]] bool has_colors() const { return colored || (textures && textures->has_images()); }
   [[nodiscard]] ToldScene told(double margin_world = 0) const {
     ToldScene told{voxels.counts, voxels.header.frame.voxel, {}, margin_world};
@@ -39,23 +38,22 @@ struct LodScene {
 struct ReadOptions {
   std::int32_t cell_vox = 0;       ///< as in VoxelizeOptions
   ResultStore* results = nullptr;  ///< as in PassContext
-  bool ground = false;  ///< the scene stands on the ground (tools/run/grounded_source.h); it was read without before
-  bool tells_time = false;  ///< says how long the work will take: it is known how much of it is to be done
+  bool ground = false;  ///< the scene stands on the ground (tools/run/grounded_source.h); it was read before without
+  bool tells_time = false;  ///< tells how long the work will take, since no part of it may have been done before
 };
-/// Reads and voxelizes the scene of the options. Notes tell of the scene, but for one that is read again for the
-/// ground.
+/// Reads and voxelizes the scene of the options. Notes tell about the scene, unless it is read again for the ground.
 [[nodiscard]] LodScene read_scene(Build& build, const ReadOptions& read);
 
-/// The room of a cage around its scene.
+/// The room that a cage leaves around its scene.
 struct CageRoom {
   double margin_world = 0, voxel = 0;
-  std::optional<MirrorPlane> plane;  ///< the voxels are their own mirror image about it
+  std::optional<MirrorPlane> plane;  ///< the mirror plane of the voxels
 };
-/// Grows the voxels of a scene by the margin of a cage, after they were made symmetric where that is wanted.
+/// Makes the voxels symmetric if that is wanted, and grows them by the margin of a cage.
 [[nodiscard]] CageRoom make_room(Build& build, LodScene& scene);
 
-/// For LodChain. Reads the scene once more where levels lie around its triangles, or follow them. `share`: of the
-/// memory for work. limit: tells a limit on memory at which other steps fit; a refusal asks it.
+/// Returns the options of LodChain. Reads the scene once more if levels enclose its triangles or follow them. `share`:
+/// of the memory for work. limit: returns a limit on memory at which other steps fit; called after a refusal.
 [[nodiscard]] LodOptions lod_options(const Build& build, const LodScene& scene, const CageRoom& room = {},
                                      double share = 1, const std::function<std::uint64_t()>& limit = {});
 
