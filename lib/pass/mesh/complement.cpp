@@ -4,7 +4,7 @@ namespace bp {
 
 namespace {
 
-/// The next brick of `box` in slab order; false after the last.
+/// Moves `at` to the next brick of `box` in slab order. Returns false after the last one.
 bool step(const BrickBox& box, int slab_axis, BrickCoord& at) {
   const int middle = slab_axis == 2 ? 1 : 2, inner = slab_axis == 0 ? 1 : 0;
   for (const int axis : {inner, middle, slab_axis}) {
@@ -71,7 +71,7 @@ void ComplementSink::finish() {
   }
 }
 
-/// What was not written was empty, and is full here.
+/// Writes the bricks before `coord` as full: those that were not written are empty, and their complement is full.
 void ComplementSink::advance_to(BrickCoord coord) {
   while (left_ && at_ != coord) {
     write_full(at_);

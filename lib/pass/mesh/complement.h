@@ -1,15 +1,15 @@
 #pragma once
 #include "lib/grid/stream.h"
 
-/// The complement of sets of voxels: an opening is the complement of the closing of the complement, and a proxy inside
-/// a solid is one around its complement, seen from the other side.
+/// Makes the complement of sets of voxels. It serves two purposes: an opening is the complement of the closing of the
+/// complement, and a proxy inside a solid is a proxy around its complement, with its faces turned over.
 namespace bp {
 
-/// `bits` with each voxel turned.
+/// Inverts each voxel of `bits`.
 void turn(BrickBits& bits);
 
-/// The bricks of the stream's brick box that its solid layer does not fill, as the solid layer of another. In slab
-/// order, brick by brick as `source` delivers.
+/// Reads the complement of another source's solid layer, within the brick box of the stream: each brick that is not
+/// empty, as a solid layer in slab order. It reads brick by brick as `source` does.
 class ComplementSource final : public BrickSource {
  public:
   explicit ComplementSource(BrickSource& source);
@@ -18,14 +18,14 @@ class ComplementSource final : public BrickSource {
 
  private:
   BrickSource& source_;
-  BrickCoord at_;  ///< next in the box
-  Brick next_;     ///< of the source, solid, not yet passed
+  BrickCoord at_;  ///< next brick of the box
+  Brick next_;     ///< a brick of the source's solid layer that was read, but not used yet
   bool left_ = true, more_ = true;
 };
 
-/// Both layers of what is written, turned, within the box and the slab order of `header`: what the solid layer leaves
-/// out becomes the solid layer, and so the closing layer becomes the opening. Bricks outside the box are dropped. The
-/// closing layer that is written must contain the solid layer.
+/// Writes the complements of both layers that are written to it, within the box and in the slab order of `header`. The
+/// complement of the solid layer becomes the solid layer, and the complement of the closing layer becomes the opening.
+/// Bricks outside the box are dropped. The written closing layer must contain the written solid layer.
 class ComplementSink final : public BrickSink {
  public:
   ComplementSink(BrickSink& sink, const StreamHeader& header);
@@ -40,16 +40,16 @@ class ComplementSink final : public BrickSink {
   BrickSink& sink_;
   const BrickBox box_;
   const int axis_;
-  BrickCoord at_;         ///< next in the box
+  BrickCoord at_;         ///< next brick of the box
   bool left_ = true;      ///< at_ is in the box
   bool pending_ = false;  ///< solid_ waits for the closing of its brick
   Brick solid_, closing_;
 };
 
-/// The bricks of a shelf and those around them.
+/// Returns the box around the bricks of a shelf, grown by one brick on each side.
 [[nodiscard]] BrickBox bricks_around(const BrickShelf& shelf);
 
-/// Puts on `out` every voxel of `box` that is not on `shelf`.
+/// Puts every voxel of `box` that is not in `shelf` into `out`.
 void complement(const BrickShelf& shelf, const BrickBox& box, BrickShelf& out);
 
 }  // namespace bp

@@ -30,10 +30,10 @@ namespace bp {
 
 namespace {
 
-/// How far inside the surface of the voxels a fit takes the surface of what they stand for to lie, in extents of a
-/// voxel along the normal: on average half of one, for the voxels that a surface touches and for their closing.
+/// Distance by which a fit expects the scene's surface to lie inside the surface of the voxels, in extents of a voxel
+/// along the normal. The mean is a half, for voxels that a surface touches and for their closing.
 constexpr double kInset = 0.5;
-/// How far from the voxels' surface a fit may go at first: so many scales and a voxel.
+/// Distance from the voxels' surface that a fit may reach at first: this many scales, and a voxel.
 constexpr double kReachOfScale = 0.25;
 
 [[noreturn]] void fail_empty(const StreamHeader& header) {
@@ -63,12 +63,13 @@ Shelves read_layers(BrickSource& source, const ShelfFactory& make_shelf, bool wa
   return shelves;
 }
 
-/// Edge of the voxels around a level: the stream's, or as large as gives a dense surface of enough faces for the next
-/// and takes no more than half of its share of the error.
+/// Returns the edge of the voxels around a level. It is the stream's, or larger: so large that the next level's dense
+/// surface has just enough faces, but at most a quarter of its share of the error.
 double level_voxel(const LatticeMesh& inner, double voxel, std::uint64_t faces, double error_share) {
   constexpr double kFacesPerVoxelFace = 2 * kSlantedSteps;
-  constexpr double kFacesPerFace = 200;  // dense ones: there is no finer surface to tighten against
-  constexpr double kVoxelsPerShare = 4;  // a voxel that is touched reaches as far as its diagonal
+  // Dense faces for each face, since there is no finer surface to tighten against.
+  constexpr double kFacesPerFace = 200;
+  constexpr double kVoxelsPerShare = 4;  // a touched voxel reaches as far as its diagonal
   const double most = error_share > 0 ? error_share / kVoxelsPerShare : HUGE_VAL;
   const double enough = std::sqrt(kFacesPerVoxelFace * area_world(inner) / (kFacesPerFace * double(faces)));
   return std::max(voxel, std::min(enough, most));
@@ -81,13 +82,13 @@ std::uint64_t bytes_of(const std::vector<LatticeMesh>& meshes) {
   return sum;
 }
 
-/// What is left beside what the limits of a level take.
+/// Returns the memory that is left when the limits of a level take `bytes`.
 PieceMemory beside_limits(const PieceMemory& memory, std::uint64_t bytes) {
   if (bytes <= memory.bytes()) return memory.without(bytes);
   throw NeedsMemory("keeping a level within a distance", bytes, memory.bytes(), memory.limit_for(bytes));
 }
 
-/// All levels, one after the other.
+/// Makes all levels, one after the other.
 class LevelMaker {
  public:
   LevelMaker(const StreamHeader& header, const PassContext& context, MeshParams params, MeshCounts& counts)
@@ -104,7 +105,8 @@ class LevelMaker {
     return naming_limit([&] { return make(shelves); }, [&] { return least_limit(shelves, triangles); });
   }
 
-  /// Returns the limit on memory at which all steps of the first level fit, if the scene has so many triangles.
+  /// Returns the limit on memory at which all steps of the first level fit. `triangles`: number of the scene's
+  /// triangles.
   [[nodiscard]] std::uint64_t least_limit(const Shelves& shelves, std::uint64_t triangles) const {
     if (params_.cage || params_.start != nullptr) return 0;
     std::unique_ptr<BrickShelf> within;
@@ -127,7 +129,7 @@ class LevelMaker {
   }
 
  private:
-  /// What the first level takes, without limits on what it may add.
+  /// Returns the work of the first level, without limits on its error and volume.
   [[nodiscard]] SurfaceWork first_work(const BrickShelf& meshed, const ShelfSurface& dense) const {
     const std::uint64_t faces = params_.faces.empty() ? 0 : params_.faces[0];
     const EdgeLimit edges = edges_for(dense.frame());
@@ -143,13 +145,13 @@ class LevelMaker {
     });
   }
 
-  /// Whether a level begins with a coarse surface, if that will do.
+  /// Returns whether a level of so many faces may begin with a coarse surface, since only the number of faces matters.
   [[nodiscard]] bool is_by_faces(std::uint64_t faces) const {
     return !inside() && params_.tighten && faces >= kFewFaces && params_.error_world == 0 &&
            params_.volume_ratio == 0 && params_.edge_factor == 0;
   }
 
-  /// Limits of edges, where the scale is not the same everywhere.
+  /// Returns the limits of edges, which depend on the scale at their place; none if edge_factor is 0.
   [[nodiscard]] EdgeLimit edges_for(const GridFrame& frame) const {
     return params_.edge_factor > 0 ? scaled_edges(header_.scale, frame, params_.edge_factor) : EdgeLimit{};
   }
@@ -213,7 +215,7 @@ class LevelMaker {
     })};
   }
 
-  /// A level around `before`, or within it.
+  /// Makes a level around `before`; in mode inside, a level within it.
   LatticeMesh next_level(const LatticeMesh& before, std::uint64_t faces, double error_share) {
     const double voxel = level_voxel(before, header_.frame.voxel, faces, error_share);
     if (!inside()) {
@@ -222,7 +224,7 @@ class LevelMaker {
       return finish_around(before, ShelfSurface(*around, frame), faces);
     }
     LatticeMesh dense = surface_within(before, voxel, make_shelf_, memory_);
-    drop_small_components(dense, params_.least_part);  // a level may fall into parts
+    drop_small_components(dense, params_.least_part);  // the level may fall into several parts
     return finish_around(before, MeshSurface(dense), faces);
   }
 
@@ -233,7 +235,7 @@ class LevelMaker {
     return finish(dense, &enclosed, faces);
   }
 
-  /// Levels of detail that do not enclose: each of the same fine surface.
+  /// Makes levels of detail that do not enclose, all from the same fine surface.
   std::vector<LatticeMesh> fits(const Shelves& shelves, const SurfaceSource& dense,
                                 const std::vector<std::uint64_t>& faces) {
     const EnclosedVoxels near(*shelves.meshed);
@@ -285,8 +287,8 @@ class LevelMaker {
     });
   }
 
-  /// One level by make(params, counts), with its counts and measures; where edges yield, by the shortest that so few
-  /// faces allow.
+  /// Makes one level by make(params, counts), and fills its counts and measures. If edges yield, it uses the shortest
+  /// limit on edges that the number of faces allows.
   template <class Make>
   LatticeMesh finish(const GridFrame& frame, std::uint64_t faces, const Make& make) {
     constexpr double kLooser = 1.5, kMostFactor = 1000;
@@ -296,7 +298,8 @@ class LevelMaker {
       const std::uint64_t left = level.triangles.size();
       if (!params_.edges_yield || faces == 0 || factor == 0 || left <= faces) return level;
       if (counts.simplify.stop != StopReason::edge_length) return level;
-      factor *= std::max(kLooser, std::sqrt(double(left) / double(faces)));  // faces go with the square of edges
+      // The number of faces falls with the square of the edges.
+      factor *= std::max(kLooser, std::sqrt(double(left) / double(faces)));
       if (factor > kMostFactor) factor = 0;
       counts = {};
     }
@@ -325,16 +328,16 @@ class LevelMaker {
 
   const StreamHeader& header_;
   PassContext context_;
-  const PieceMemory pieces_;  // all of it
+  const PieceMemory pieces_;  // all of the memory
   const ShelfFactory& make_shelf_;
-  PieceMemory memory_;  // what is left of it
+  PieceMemory memory_;  // the memory that is left
   MeshParams params_;
   MeshCounts& counts_;
   ProxyBounds bounds_;
   Ground ground_;
 };
 
-/// The voxels of a stream, repaired where proxies lie around them.
+/// Reads the voxels of a stream, and repairs them if proxies lie around them.
 Shelves read_voxels(BrickSource& source, const PassContext& context, const MeshParams& params, MeshCounts& counts) {
   check_params(params);
   const StreamHeader& header = source.header();

@@ -15,21 +15,23 @@ namespace bp {
 
 namespace {
 
-/// Steps from a vertex to the planes around it, at least: rounding takes back up to half of a cube's diagonal, 0.87,
-/// before and after.
+/// Least step from a vertex to the planes around it, in units of kUnits. Rounding before and after the step takes back
+/// up to half of a cube's diagonal each, 0.87.
 constexpr double kStep = 2;
-/// Lattice units that are tried for a step. Folds of a scan are often smaller than the longer one, and vanish.
+/// Lattice units that are tried as the unit of a step. Folds of a scan are often smaller than the larger one, and
+/// vanish when corners are rounded to it.
 constexpr std::array<double, 2> kUnits{1, 4};
-constexpr double kFarthest = 2 * kLatticePerVoxel;  // of a vertex; sharp tips move far
+constexpr double kFarthest = 2 * kLatticePerVoxel;  // largest step of a vertex; sharp tips need far steps
 constexpr std::int64_t kVerticesAtOnce = 256;
 
-/// A closed mesh on the lattice whose vertices are fans: where two fans touch in a place, the place has two vertices.
+/// A closed mesh on the lattice in which the faces at each vertex form one fan. If two fans touch in a place, there are
+/// two vertices at that place.
 struct Fans {
   std::vector<LatticeCoord> places;  // of each vertex
-  std::vector<Triangle> triangles;   // outwards
+  std::vector<Triangle> triangles;   // turned outwards
 };
 
-/// The triangles with three distinct corners.
+/// Returns the triangles with three distinct corners.
 std::vector<Triangle> with_edges(const std::vector<Triangle>& all) {
   std::vector<Triangle> triangles;
   for (const Triangle& t : all) {
@@ -38,7 +40,7 @@ std::vector<Triangle> with_edges(const std::vector<Triangle>& all) {
   return triangles;
 }
 
-/// Turns the parts whose volume is negative: cavities, and what was read inside out.
+/// Turns over the parts whose volume is negative: cavities, and parts that were read inside out.
 void turn_outwards(Fans& fans, DisjointSets& parts) {
   std::vector<double> volume(fans.triangles.size());
   const auto corner = [&](std::uint32_t f, std::size_t k) {
@@ -51,7 +53,7 @@ void turn_outwards(Fans& fans, DisjointSets& parts) {
   }
 }
 
-/// The scene with its corners rounded to every `unit`-th lattice point.
+/// Returns the scene with its corners rounded to every `unit`-th lattice point.
 std::vector<TriangleD> on_lattice(std::span<const TriangleD> scene, const GridFrame& frame, double unit) {
   std::vector<TriangleD> rounded_scene(scene.begin(), scene.end());
   for (TriangleD& t : rounded_scene) {
@@ -67,7 +69,7 @@ std::optional<Fans> fans_of(std::span<const TriangleD> scene, const GridFrame& f
   if (twins.empty() || std::find(twins.begin(), twins.end(), kNoTwin) != twins.end()) return {};
   DisjointSets corners(3 * triangles.size()), parts(triangles.size());
   for (std::uint32_t h = 0; h < twins.size(); ++h) {
-    corners.unite(h, HalfEdgeMesh::next(twins[h]));  // both ends of the edge are reached: h runs over both halves
+    corners.unite(h, HalfEdgeMesh::next(twins[h]));  // h runs over both halves of each edge, so both ends are united
     parts.unite(HalfEdgeMesh::face(h), HalfEdgeMesh::face(twins[h]));
   }
   Fans fans;
@@ -87,7 +89,7 @@ std::optional<Fans> fans_of(std::span<const TriangleD> scene, const GridFrame& f
 
 using Planes = std::vector<PlaneConstraint>;
 
-/// The least way beyond all planes; none if there is no way, or a long one.
+/// Returns the shortest step beyond all planes; none if there is no step, or only a long one.
 std::optional<Vec3d> least_step(const Planes& planes) {
   Quadric nearest;
   nearest.xx = nearest.yy = nearest.zz = 1;
@@ -96,7 +98,7 @@ std::optional<Vec3d> least_step(const Planes& planes) {
   return by;
 }
 
-/// Faces without area have no plane: those beside them decide.
+/// Adds the plane of a face. A face without area has none, and its neighbours decide.
 void add_plane(const HalfEdgeMesh& mesh, FaceId f, double distance, Planes& planes) {
   const Vec3d normal = to_double(normal_of(mesh.corner(f, 0), mesh.corner(f, 1), mesh.corner(f, 2)));
   const double twice_area = length(normal);
@@ -106,7 +108,8 @@ void add_plane(const HalfEdgeMesh& mesh, FaceId f, double distance, Planes& plan
   if (std::none_of(planes.begin(), planes.end(), is_same)) planes.push_back({unit, distance});
 }
 
-/// Moves each vertex by `distance` beyond the planes around it. One that has no place there stays, as at a saddle.
+/// Moves each vertex beyond the planes around it by `distance`. A vertex for which there is no such step stays, as at a
+/// saddle.
 LatticeMesh moved_outwards(const Fans& fans, const GridFrame& frame, double distance) {
   const HalfEdgeMesh before(fans.places, fans.triangles, kEverywhere);
   LatticeMesh mesh;

@@ -4,18 +4,18 @@
 
 #include "lib/mesh/lattice_mesh.h"
 
-/// A bounding proxy that needs no voxels: the scene's own surface, moved outwards by a step or two of the lattice.
+/// Makes a bounding proxy without voxels: the scene's own surface, moved outwards by one or two steps of the lattice.
 namespace bp {
 
-/// Returns the surface of `scene` in `frame`, each vertex moved to a lattice point beyond the planes of the faces
-/// around it: an embedded closed mesh with the scene's triangles strictly inside, decided exactly. It has the scene's
-/// connectivity, but for a few places where the scene folds over itself, which get a tent (detail/mend_around.h), and
-/// for shells within others, which are left out. At most as many faces as the scene.
+/// Returns the surface of `scene` in `frame`, with each vertex moved to a lattice point beyond the planes of the faces
+/// around it. The result is an embedded closed mesh with the scene's triangles strictly inside, which is decided
+/// exactly. It is connected as the scene is, with two exceptions: the few places where the scene folds over itself get
+/// a tent (detail/mend_around.h), and shells within others are left out. It has at most as many faces as the scene.
 ///
-/// Returns nothing if the scene is no such surface: each edge has to belong to two triangles, in opposite directions,
-/// and hardly anything may touch or cross, as walls, overlapping parts, and gaps thinner than a few lattice units do.
-/// Parallel; the result does not depend on the number of threads. Cost: a sort of the corners, and what
-/// detail/mend_around.h says; about 300 bytes a triangle meanwhile.
+/// Returns nothing if the scene is not such a surface: each edge must belong to two triangles, in opposite directions,
+/// and hardly any triangles may touch or cross, as those of walls, overlapping parts and very thin gaps do. Parallel;
+/// the result does not depend on the number of threads. Cost: a sort of the corners, and the cost of mend_around();
+/// about 300 bytes for each triangle at the same time.
 [[nodiscard]] std::optional<LatticeMesh> outward_scene(std::span<const TriangleD> scene, const GridFrame& frame);
 
 }  // namespace bp

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::int64_t kTrianglesAtOnce = 1 << 14;
 
-/// A box of bricks, both included.
+/// A box of bricks from `low` to `high`, both included.
 struct Bricks {
   BrickCoord low, high;
 };
@@ -28,12 +28,13 @@ Bricks box_around(std::span<const BrickCoord> coords) {
   return all;
 }
 
-/// False for a point outside the box of bricks, or so near to its outside that a voxel there would be set.
+/// Returns false for a point outside the box of bricks, or so near to its boundary that voxelization would set a voxel
+/// outside.
 bool is_among(const GridFrame& frame, const Vec3d& p, const Bricks& all) {
   const Vec3d v = frame.to_voxels(p);
   for (int i = 0; i < 3; ++i) {
     const double x = v[std::size_t(i)] / kBrickEdge;
-    if (!(x > all.low[i] - 1 && x < all.high[i] + 2)) return false;  // far off, or no number
+    if (!(x > all.low[i] - 1 && x < all.high[i] + 2)) return false;  // far away, or not a number
   }
   const FixedPoint f = to_fixed(frame, p);
   const std::array<std::int64_t, 3> x = {f.x, f.y, f.z};
@@ -44,9 +45,10 @@ bool is_among(const GridFrame& frame, const Vec3d& p, const Bricks& all) {
   return true;
 }
 
-using Items = std::vector<std::pair<TileCoord, std::uint32_t>>;  // bricks from the lowest one on; numbers of triangles
+// Bricks, counted from the lowest one, with the number of a triangle that meets them.
+using Items = std::vector<std::pair<TileCoord, std::uint32_t>>;
 
-/// What each brick meets, brick by brick; false if a corner lies outside of them all.
+/// Lists the triangles that each brick meets, sorted by brick. Returns false if a corner lies outside all bricks.
 bool sort_into_bricks(std::span<const TriangleD> triangles, const GridFrame& frame, const Bricks& all, Items& items) {
   TileCoord count;
   for (int i = 0; i < 3; ++i) count[i] = all.high[i] - all.low[i] + 1;

@@ -3,14 +3,14 @@
 
 #include "lib/grid/stream.h"
 
-/// Whether triangles are inside a set of voxels: what tightening against a scene must know before it begins.
+/// Checks that triangles lie inside a set of voxels, which tightening against a scene requires.
 namespace bp {
 
-/// True if every voxel that voxelization would set for `triangles` is in `shelf`, so that each of them lies strictly
-/// inside the voxels (docs/bounding.md, section 2). False if one is not, wherever it is. Cost: that of voxelizing their
-/// surface, some triangles at a time in each brick that they meet.
+/// Returns true if `shelf` has every voxel that voxelization would set for `triangles`: then each of them lies strictly
+/// inside the voxels (docs/bounding.md, section 2). Returns false if it lacks one of them. Cost: voxelizing the
+/// triangles' surface, in each brick for a share of them at a time.
 [[nodiscard]] bool lies_within(std::span<const TriangleD> triangles, const GridFrame& frame, const BrickShelf& shelf);
-/// Throws bad_input if they do not lie within.
+/// Throws bad_input unless lies_within().
 void require_within(std::span<const TriangleD> triangles, const GridFrame& frame, const BrickShelf& shelf);
 
 }  // namespace bp

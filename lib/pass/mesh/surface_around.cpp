@@ -17,7 +17,10 @@ namespace {
 class MeshSource final : public TriangleSource {
  public:
   explicit MeshSource(const LatticeMesh& mesh) : triangles_(drawable_world_triangles(mesh)) {}
-  [[nodiscard]] std::uint64_t bytes() const { return 2 * triangles_.size() * sizeof(TriangleD); }  // as read, too
+  [[nodiscard]] std::uint64_t bytes() const {
+    return 2 * triangles_.size() * sizeof(TriangleD);
+    // Two copies: here, and as they are read.
+  }
   bool read(std::vector<TriangleD>& out) override {
     out.clear();
     if (counts_.triangles > 0) return false;
@@ -56,7 +59,7 @@ std::vector<TriangleD> drawable_world_triangles(const LatticeMesh& mesh) {
 
 namespace {
 
-/// Voxels of a mesh, as bpvox would find them; returns their frame.
+/// Makes the voxels of a mesh as bpvox does. Returns their frame.
 GridFrame voxelize_mesh(const LatticeMesh& mesh, double voxel, FillMode fill, const ShelfFactory& make_shelf,
                         const PieceMemory& memory, BrickShelf& shelf) {
   MeshSource source(mesh);
@@ -91,7 +94,7 @@ void take_away(const BrickShelf& less, BrickShelf& from) {
   }
 }
 
-/// Empty if no voxel of that size lies inside.
+/// Returns the surface of the voxels that lie inside the mesh; empty if no voxel of that size does.
 LatticeMesh surface_of_voxels_within(const LatticeMesh& mesh, double voxel, const ShelfFactory& make_shelf,
                                      const PieceMemory& memory) {
   const auto shelf = make_shelf(), around = make_shelf(), touched = make_shelf();
@@ -114,8 +117,8 @@ GridFrame voxels_around(const LatticeMesh& inner, double voxel, const ShelfFacto
 LatticeMesh surface_within(const LatticeMesh& outer, double voxel, const ShelfFactory& make_shelf,
                            const PieceMemory& memory) {
   constexpr int kMostHalvings = 6;
-  // Not what may be drawn: what lies between the diagonals of a quad is inside by some choices only. And not what a
-  // flood cannot reach: a cavity is outside.
+  // A point between the two diagonals of a quad is inside only for some choices, so the innermost choice is used. The
+  // filling is by winding numbers: a flood would fill cavities, which are outside.
   const LatticeMesh innermost = innermost_choice(outer);
   for (int halvings = 0; halvings <= kMostHalvings; ++halvings, voxel /= 2) {
     LatticeMesh surface = surface_of_voxels_within(innermost, voxel, make_shelf, memory);

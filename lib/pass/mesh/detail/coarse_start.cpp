@@ -9,8 +9,9 @@ namespace bp {
 
 namespace {
 
-/// Scene units. A ball of radius S, or a cube, holds all of such a voxel if its own middle lies in it. With a whole S
-/// between cubes the proxy would have no room to tighten in.
+/// Returns the largest edge of coarse voxels, scene units; 0: none. A ball of radius S, or a cube, holds every voxel of
+/// that edge whose middle it holds. For cubes an edge of S would suffice, but the proxy would have no room for
+/// tightening then.
 double largest_voxel(const StreamHeader& header) {
   constexpr double kPerCube = 1.25, kPerBall = 1.7320508075688772;
   if (!header.has_closing || !header.scale.constant()) return 0;

@@ -19,7 +19,7 @@ struct Shell {
   Bounds3d bounds;  // lattice units
 };
 
-/// By first triangle.
+/// Returns the shells in the order of their first triangles.
 std::vector<Shell> shells_of(const LatticeMesh& mesh) {
   constexpr auto kNone = std::uint32_t(-1);
   DisjointSets sets(mesh.vertices.size());
@@ -33,7 +33,7 @@ std::vector<Shell> shells_of(const LatticeMesh& mesh) {
     std::uint32_t& number = shell_of[sets.find(t[0])];
     if (number == kNone) number = std::uint32_t(shells.size()), shells.emplace_back();
     Shell& shell = shells[number];
-    // Towards a vertex of the shell, so that numbers stay small.
+    // The apex is a vertex of the shell, so that numbers stay small.
     const LatticeCoord& apex =
         mesh.vertices[shell.triangles.empty() ? t[0] : mesh.triangles[shell.triangles.front()][0]];
     shell.volume6 -= orient3d_value(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]], apex);
@@ -61,8 +61,7 @@ Vec3d point_of(const LatticeMesh& mesh, const Shell& shell) {
   return to_double(mesh.vertices[mesh.triangles[shell.triangles.front()][0]]);
 }
 
-/// Takes away the triangles of the shells that are marked, and the vertices that only they used; the rest keeps its
-/// order.
+/// Removes the triangles of the marked shells, and the vertices that no other triangle uses. The rest keeps its order.
 void drop(LatticeMesh& mesh, const std::vector<Shell>& shells, const std::vector<bool>& marked) {
   std::vector<bool> gone(mesh.triangles.size());
   for (std::size_t s = 0; s < shells.size(); ++s) {
@@ -74,14 +73,14 @@ void drop(LatticeMesh& mesh, const std::vector<Shell>& shells, const std::vector
   }
   mesh.triangles.resize(kept);
   drop_unused_vertices(mesh.vertices, mesh.triangles);
-  mesh.quads.clear();  // they named triangles by number
+  mesh.quads.clear();  // quads name triangles by numbers that have changed
 }
 
 }  // namespace
 
 DroppedComponents drop_small_components(LatticeMesh& mesh, double share) {
   const std::vector<Shell> shells = shells_of(mesh);
-  double largest = 0;  // in magnitude; an outer shell, since a cavity is smaller than the shell around it
+  double largest = 0;  // signed; it belongs to an outer shell, since a cavity is smaller than the shell around it
   for (const Shell& s : shells) {
     if (std::abs(double(s.volume6)) > std::abs(largest)) largest = double(s.volume6);
   }
@@ -94,7 +93,8 @@ DroppedComponents drop_small_components(LatticeMesh& mesh, double share) {
     marked[s] = true;
     small.push_back(s);
   }
-  for (std::size_t s = 0; s < shells.size(); ++s) {  // cavities go with what they are in; larger parts are in none
+  // Cavities are dropped with the part that holds them; larger parts lie in no cavity.
+  for (std::size_t s = 0; s < shells.size(); ++s) {
     if (marked[s] || (shells[s].volume6 > 0) == (largest > 0)) continue;
     marked[s] = std::any_of(small.begin(), small.end(), [&](std::size_t part) {
       return winding(mesh, shells[part], point_of(mesh, shells[s])) != 0;

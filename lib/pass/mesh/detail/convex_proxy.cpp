@@ -14,14 +14,14 @@ namespace bp {
 
 namespace {
 
-constexpr double kClearly = 0.97;        // of what the proxy holds in the skin
-constexpr double kNearer = 0.95;         // of how long the proxy's box is: without spikes
-constexpr std::size_t kMostFaces = 512;  // of a hull; more are round, and a proxy is as good there
+constexpr double kClearly = 0.97;        // share of the proxy's volume in the skin
+constexpr double kNearer = 0.95;         // share of the length of the proxy's box: a shorter box has no spikes
+constexpr std::size_t kMostFaces = 512;  // of a hull; a hull of more faces is round, and a proxy is as good there
 
 struct Rating {
   std::size_t faces;
   double volume, in_skin;  // lattice units cubed
-  double diagonal;         // of its box
+  double diagonal;         // of the mesh's box
 };
 
 template <class Mesh>
@@ -42,7 +42,7 @@ class Sides {
       sides_.push_back({a, normal_of(a, hull.vertices[t[1]], hull.vertices[t[2]])});
     }
   }
-  /// Whether all of the box is in the hull.
+  /// Returns whether the whole box lies in the hull.
   [[nodiscard]] bool hold(const LatticeBox& box) const {
     return std::all_of(sides_.begin(), sides_.end(), [&](const Side& side) {
       LatticeCoord farthest;
@@ -66,7 +66,7 @@ void add_corners(const LatticeBox& box, std::vector<LatticeCoord>& points) {
   }
 }
 
-/// The hull of `hull` and the boxes.
+/// Replaces `hull` by the hull of itself and the boxes.
 void add_outer(std::span<const LatticeBox> boxes, ConvexHull& hull) {
   constexpr std::size_t kAtOnce = 32;
   const Sides sides(hull);
@@ -84,15 +84,16 @@ void add_outer(std::span<const LatticeBox> boxes, ConvexHull& hull) {
   if (points.size() > hull.vertices.size()) hull = *hull_of(points);
 }
 
-/// Of a box so long, the outlines of voxels would take more than 17 MB.
+/// Returns whether the box is so long that the outlines of its voxels would take more than 17 MB.
 bool is_too_long(const LatticeBox& box) {
   constexpr std::int64_t kMost = std::int64_t(1) << 21;
   const LatticeCoord size = box.max - box.min;
   return std::max({size.x, size.y, size.z}) > kMost;
 }
 
-/// Nothing if it holds `most` or more in the skin, as any hull around it would; or if it has many faces. The first
-/// boxes are there once more among the others.
+/// Returns the hull of everything that is enclosed. Returns nothing if its volume in the skin reaches `most`, since any
+/// larger hull would hold as much, or if it has many faces. outer_boxes() repeats the first boxes among the others, so
+/// they are used twice.
 std::optional<ConvexHull> hull_around(const Enclosed& enclosed, double most) {
   std::optional<ConvexHull> hull;
   bool first = true, fits = true;
@@ -118,7 +119,8 @@ ConvexHull box_around(const ConvexHull& hull) {
   return *hull_of(corners);
 }
 
-/// Of two with few enough faces: one holds less, and has fewer faces, or clearly less in the skin; or it has no spikes.
+/// Returns whether one of two meshes is better; both have few enough faces. It has clearly less volume in the skin, and
+/// also less volume or no spikes; or it has fewer faces and less of both volumes.
 bool is_better(const Rating& one, const Rating& other) {
   const bool less = one.volume < other.volume, nearer = one.diagonal < kNearer * other.diagonal;
   if (one.in_skin < kClearly * other.in_skin && (less || nearer)) return true;

@@ -9,7 +9,7 @@ namespace bp {
 
 namespace {
 
-constexpr double kReach = 2.5;  // voxels: a voxel's diagonal, twice its bias, and some
+constexpr double kReach = 2.5;  // in voxels: a voxel's diagonal, twice the bias of its surface, and some reserve
 constexpr double kAlong = 0.5;  // cosine: at a corner of a box it is 0.58
 
 Vec3d inset(const Vec3d& p, const Vec3d& normal, double extents) {
@@ -17,7 +17,7 @@ Vec3d inset(const Vec3d& p, const Vec3d& normal, double extents) {
   return p - extents * extent * kLatticePerVoxel * normal;
 }
 
-/// A place on a triangle that the surface runs along, or ends at, as at the edge of a plate.
+/// Returns a place on a triangle. The surface runs along the triangle, or ends there, as at the edge of a plate.
 FitPlace place_on(const TriangleD& t, const Vec3d& at, const Vec3d& normal) {
   const Vec3d n = cross(t[1] - t[0], t[2] - t[0]);
   const double size = length(n);

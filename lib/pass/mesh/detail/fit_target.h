@@ -2,14 +2,14 @@
 #include "lib/fit/fit.h"
 #include "lib/geometry/triangle_bvh.h"
 
-/// Where the vertices of a fitted level of detail go.
+/// The targets that the vertices of a fit move to.
 namespace bp {
 
-/// So many extents of a voxel along the normal inwards.
+/// Returns a target that lies inwards along the normal, by `extents` times the extent of a voxel in that direction.
 [[nodiscard]] FitTarget inset_target(double extents);
 
-/// The nearest point of the scene if it is within 2.5 voxels, else inset_target(extents): the closing bridges something
-/// there. `scene` must outlive the target.
+/// Returns a target on the scene: its nearest point if that is within 2.5 voxels. Elsewhere the closing bridges a gap,
+/// and the target is inset_target(extents). `scene` must outlive the target.
 [[nodiscard]] FitTarget scene_target(const TriangleBvh& scene, const GridFrame& frame, double extents);
 
 }  // namespace bp

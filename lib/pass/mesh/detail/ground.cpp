@@ -20,7 +20,7 @@ bool needs_distances(const MeshParams& params) {
   return params.error_world > 0 || params.distances || target;
 }
 
-/// The same surface with few triangles.
+/// Returns the triangles of the surface, with flat regions merged.
 std::vector<TriangleD> merged_triangles(const SurfaceSource& surface, const PieceMemory& memory) {
   SimplifyParams params;
   params.memory = memory;
@@ -31,7 +31,8 @@ std::vector<TriangleD> merged_triangles(const SurfaceSource& surface, const Piec
   return world_triangles(mesh.compact(surface.frame()));
 }
 
-/// The same for voxels that may touch along edges, where no faces can be merged but those in a rectangle.
+/// Returns the triangles of the voxels' surface as rectangles. The voxels may touch along edges, so that
+/// merged_triangles() cannot merge their faces.
 std::vector<TriangleD> rect_triangles(const BrickShelf& shelf, const GridFrame& frame, const PieceMemory& memory) {
   const std::vector<FaceRect> rects = boundary_rects(shelf);
   const std::uint64_t n = 2 * rects.size();
@@ -47,7 +48,8 @@ std::vector<TriangleD> rect_triangles(const BrickShelf& shelf, const GridFrame& 
   return triangles;
 }
 
-/// Makes them of a scene of few triangles, unless its voxels are filled where no triangle is near; else null.
+/// Makes the test for a scene of few triangles. Returns null for other scenes, and if voxels are filled where no
+/// triangle is near.
 std::unique_ptr<NearTriangles> near_triangles(const std::vector<TriangleD>& scene, const GridFrame& frame,
                                               FillMode fill) {
   if (fill == FillMode::winding || scene.empty() || scene.size() > MeshParams::kSimpleScene) return nullptr;

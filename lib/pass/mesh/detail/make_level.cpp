@@ -9,7 +9,8 @@ namespace bp {
 
 namespace {
 
-/// Tightening made room below the limits: more collapses, more tightening, until they merge little.
+/// Uses the room below the limits that tightening has made: collapses and tightens in turn, until a round removes less
+/// than 5 % of the faces.
 LatticeMesh use_room(LatticeMesh proxy, const Enclosed& enclosed, SimplifyParams params, LevelCounts& counts) {
   constexpr int kRounds = 8;
   params.dense = false;
@@ -33,7 +34,8 @@ SimplifyParams simplify_params(const StreamHeader& header, const GridFrame& fram
                                const PieceMemory& memory, std::uint64_t faces) {
   SimplifyParams out;
   out.memory = memory;
-  out.faces = std::min<std::uint64_t>(faces, std::uint64_t(1) << 32);  // a mesh indexes fewer; multiples stay exact
+  // A mesh indexes fewer; the limit keeps products exact.
+  out.faces = std::min<std::uint64_t>(faces, std::uint64_t(1) << 32);
   if (faces == 0 && params.error_world == 0 && params.volume_ratio == 0) {
     const bool cube = header.has_closing && header.element == StructuringElement::cube;
     const double share = cube ? MeshParams::kErrorShareCube : MeshParams::kErrorShareBall;

@@ -4,22 +4,22 @@
 #include "lib/pass/mesh/mesh_pass.h"
 #include "lib/tighten/tight_proxy.h"
 
-/// One level of detail, from the surface that it begins with.
+/// Makes one level of detail from the surface that it begins with.
 namespace bp {
 
-/// What a level of so many faces is simplified by, without limits.
+/// Returns the parameters for simplifying a level to `faces` faces, without limits.
 [[nodiscard]] SimplifyParams simplify_params(const StreamHeader& header, const GridFrame& frame,
                                              const MeshParams& params, const PieceMemory& memory, std::uint64_t faces);
 
-/// Returns the mesh of a proxy; `counts` get what it counted.
+/// Returns the mesh of a proxy, and moves its counts into `counts`.
 [[nodiscard]] LatticeMesh take(TightProxy&& proxy, LevelCounts& counts);
 
-/// One level, from the surface of all that it must enclose, or a coarse one around it. `few`: nothing but a number of
-/// faces below kFewFaces matters. `halfway`: as tight_proxy() has it.
+/// Makes one level from the surface of everything that it must enclose (`dense`), or from a coarse surface around that
+/// (`starts`; null: none). `few`: only a number of faces below kFewFaces is asked for. `halfway`: as in tight_proxy().
 [[nodiscard]] LatticeMesh make_level(const SurfaceSource& dense, const CoarseStarts* starts, const Enclosed* enclosed,
                                      const SimplifyParams& params, bool few, LatticeMesh* halfway, LevelCounts& counts);
 
-/// Puts a convex mesh in place of `proxy` where that is better.
+/// Replaces `proxy` by a convex mesh if that is better.
 void take_convex(LatticeMesh& proxy, const Enclosed& enclosed, std::uint64_t faces, LevelCounts& counts);
 
 }  // namespace bp

@@ -22,7 +22,8 @@ namespace bp {
 namespace {
 
 constexpr std::int64_t kGrain = 256;
-constexpr double kAbove = 2;  // lattice units from an apex to the planes around it: more than rounding takes back
+// Distance from an apex to the planes around it, lattice units: more than rounding moves it.
+constexpr double kAbove = 2;
 
 LatticeBox box_of_face(const LatticeMesh& mesh, const Triangle& face) {
   const auto& [a, b, c] = face;
@@ -39,7 +40,7 @@ TriangleD world_face(const LatticeMesh& mesh, std::uint32_t f) {
   return {mesh.frame.world(mesh.vertices[a]), mesh.frame.world(mesh.vertices[b]), mesh.frame.world(mesh.vertices[c])};
 }
 
-/// Around a triangle of the scene, with room for rounding.
+/// Returns a box around a triangle of the scene, with a margin for rounding.
 LatticeBox lattice_box(const TriangleD& t, const GridFrame& frame) {
   const LatticeBox box =
       box_of(rounded(frame.to_lattice(t[0])), rounded(frame.to_lattice(t[1])), rounded(frame.to_lattice(t[2])));
@@ -51,7 +52,7 @@ bool touches(const TriangleD& t, const TriangleD& face) {
                                      : triangles_intersect(t.data(), face.data());
 }
 
-/// The triangles that the mesh is to go around, each with a box.
+/// The scene's triangles, which the mesh must enclose, each with a box.
 class SceneBoxes {
  public:
   SceneBoxes(std::span<const TriangleD> triangles, const GridFrame& frame) : triangles_(triangles) {
@@ -62,7 +63,7 @@ class SceneBoxes {
   }
   [[nodiscard]] std::span<const TriangleD> triangles() const { return triangles_; }
   [[nodiscard]] const LatticeBox& box(std::size_t i) const { return boxes_[i]; }
-  /// Made when it is asked for first: a scene without folds needs none.
+  /// Returns a tree over the boxes. It is made on the first call, since most scenes have no folds and need none.
   [[nodiscard]] const BoxTree& tree() {
     if (tree_.size() == 0) {
       std::vector<std::uint32_t> all(boxes_.size());
@@ -90,9 +91,9 @@ int winding(const LatticeMesh& mesh, const FaceTree& tree, const Vec3d& point) {
   return sum;
 }
 
-using Faults = std::vector<std::atomic<char>>;  // of each face
+using Faults = std::vector<std::atomic<char>>;  // one flag for each face
 
-/// Marks the faces that have no area, or meet others.
+/// Marks the faces that have no area or meet other faces.
 void mark_met(const LatticeMesh& mesh, const FaceTree& tree, Faults& faulty) {
   parallel_ranges(std::int64_t(mesh.triangles.size()), kGrain, [&](std::int64_t begin, std::int64_t end) {
     for (auto f = std::uint32_t(begin); f < std::uint32_t(end); ++f) {
@@ -123,8 +124,8 @@ void mark_touched(const LatticeMesh& mesh, const FaceTree& tree, const SceneBoxe
   });
 }
 
-/// A corner of each part of the scene that is connected by corners. Where nothing touches the mesh, a part lies on one
-/// side of it as a whole.
+/// Returns one corner of each part of the scene that is connected by corners. If no triangle touches the mesh, each
+/// part lies on one side of it.
 std::vector<Vec3d> points_of_parts(std::span<const TriangleD> scene) {
   const WeldedTriangles mesh = welded(scene);
   DisjointSets parts(mesh.places.size());
@@ -143,13 +144,13 @@ bool is_in_domain(const TriangleD& t) {
   return in_predicate_domain(t[0]) && in_predicate_domain(t[1]) && in_predicate_domain(t[2]);
 }
 
-/// A part of the mesh that a tent may replace: a disc of faces.
+/// A disc of faces of the mesh that a tent may replace.
 struct Disc {
   std::vector<FaceId> faces;
-  std::vector<VertexId> rim;  // counter-clockwise
+  std::vector<VertexId> rim;  // the boundary's vertices, counterclockwise
 };
 
-/// Sets the rim from its edges; false if the faces are no disc.
+/// Finds the rim from its edges. Returns false if the faces are not a disc.
 bool trace_rim(const HalfEdgeMesh& mesh, const std::unordered_map<VertexId, VertexId>& next, Disc& disc) {
   const VertexId first = std::min_element(next.begin(), next.end())->first;
   for (VertexId v = first; disc.rim.empty() || v != first; v = next.at(v)) disc.rim.push_back(v);
@@ -161,11 +162,12 @@ bool trace_rim(const HalfEdgeMesh& mesh, const std::unordered_map<VertexId, Vert
   }
   std::sort(inner.begin(), inner.end());
   inner.erase(std::unique(inner.begin(), inner.end()), inner.end());
-  // A disc of V inner and R rim vertices has 2 V + R - 2 faces; with one rim, nothing else has.
+  // By Euler's formula, a disc of V inner and R rim vertices has 2 V + R - 2 faces, and no other shape with one rim
+  // has.
   return disc.rim.size() == next.size() && disc.faces.size() + 2 == 2 * inner.size() + disc.rim.size();
 }
 
-/// The connected sets of faces that have a vertex among the marked ones, as far as they are discs.
+/// Returns the connected sets of faces that have a marked vertex, if they are discs.
 std::vector<Disc> discs_around(const HalfEdgeMesh& mesh, const std::vector<char>& marked) {
   std::vector<char> taken(mesh.face_capacity());
   const auto is_wanted = [&](FaceId f) {
@@ -177,13 +179,14 @@ std::vector<Disc> discs_around(const HalfEdgeMesh& mesh, const std::vector<char>
     Disc disc;
     disc.faces.push_back(first);
     taken[first] = 1;
-    std::unordered_map<VertexId, VertexId> next;  // along the rim
+    std::unordered_map<VertexId, VertexId> next;  // the rim's next vertex after each
     bool is_disc = true;
     for (std::size_t i = 0; i < disc.faces.size(); ++i) {
       for (HalfEdgeId h = 3 * disc.faces[i]; h < 3 * disc.faces[i] + 3; ++h) {
         const FaceId beside = HalfEdgeMesh::face(mesh.twin(h));
         if (!is_wanted(beside)) {
-          is_disc = next.emplace(mesh.from(h), mesh.to(h)).second && is_disc;  // else the rim meets itself
+          // A repeated vertex means that the rim meets itself.
+          is_disc = next.emplace(mesh.from(h), mesh.to(h)).second && is_disc;
         } else if (taken[beside] == 0) {
           taken[beside] = 1;
           disc.faces.push_back(beside);
@@ -195,14 +198,15 @@ std::vector<Disc> discs_around(const HalfEdgeMesh& mesh, const std::vector<char>
   return discs;
 }
 
-/// Puts tents over faults: a disc of faces around one gives way to the faces between its rim and an apex outside.
+/// Puts tents over faults. A tent replaces a disc of faces around a fault: its faces join the disc's rim to an apex
+/// outside.
 class Tents {
  public:
-  /// `faces`: of the mesh as it is now.
+  /// `faces`: a tree over the mesh's present faces.
   Tents(LatticeMesh& mesh, const FaceTree& faces, SceneBoxes& scene)
       : mesh_(mesh), faces_(faces), scene_(scene.triangles()), scene_tree_(scene.tree()) {}
 
-  /// Where there is a place for one.
+  /// Puts a tent over each disc for which an apex is found.
   void put_over(const std::vector<Disc>& discs) {
     std::vector<char> gone(mesh_.triangles.size());
     for (const Disc& disc : discs) {
@@ -251,8 +255,9 @@ class Tents {
     return tent;
   }
 
-  /// Whether the apex lies so far from the faces that a surface of voxels would be nearer. Tightening takes back most
-  /// of a tent: the horse's, 8 to 16 voxels high, ends nearer than voxels do; a duck's, of some 60, does not.
+  /// Returns whether the apex lies so far from the faces that a surface of voxels would lie nearer. Tightening removes
+  /// most of a tent: one of 8 to 16 voxels on the horse model ends nearer than voxels do; one of about 60 on a duck
+  /// does not.
   [[nodiscard]] bool is_far(const Disc& disc, const LatticeCoord& apex) const {
     constexpr double kFar = 16 * kLatticePerVoxel;
     return std::none_of(disc.faces.begin(), disc.faces.end(), [&](FaceId f) {
@@ -263,11 +268,13 @@ class Tents {
     });
   }
 
-  /// Where an apex may be, relative to `origin`, the best first: as near to the planes of the faces as lies beyond all
-  /// of them, those left out that are folded over; else above the middle of the rim.
+  /// Returns the places for an apex, relative to `origin`, the best first. The first one lies beyond the planes of all
+  /// faces, as near to them as possible; faces that are folded over are ignored. The others lie above the middle of the
+  /// rim.
   [[nodiscard]] std::vector<Vec3d> apexes(const Disc& disc, const LatticeCoord& origin, const Vec3d& middle,
                                           const Vec3d& up, double size) const {
-    constexpr double kFolded = 0.1;  // of the sine between a face and the rim's axis
+    // A face is folded over if the cosine between its normal and the rim's axis is less.
+    constexpr double kFolded = 0.1;
     std::vector<Vec3d> places;
     Quadric planes;
     std::vector<PlaneConstraint> beyond;
@@ -288,7 +295,8 @@ class Tents {
     return places;
   }
 
-  /// Whether the tent meets neither the scene nor the rest of the mesh. Tents that meet each other are found later.
+  /// Returns whether the tent meets neither the scene nor the rest of the mesh. Tents that meet each other are found in
+  /// the next round.
   bool is_free(const Disc& disc, const LatticeCoord& apex, const std::vector<char>& gone) {
     mesh_.vertices.push_back(apex);
     const std::vector<Triangle> tent = tent_over(disc, VertexId(mesh_.vertices.size() - 1));
@@ -334,7 +342,7 @@ std::vector<char> vertices_near(const HalfEdgeMesh& mesh, const Faults& faulty, 
 
 bool mend_around(LatticeMesh& mesh, std::span<const TriangleD> scene) {
   constexpr int kRounds = 6;
-  constexpr std::size_t kFewFaults = 50;  // one for so many faces: a scene of overlapping parts has more
+  constexpr std::size_t kFewFaults = 50;  // at most one fault for so many faces: a scene of overlapping parts has more
   if (!std::all_of(scene.begin(), scene.end(), is_in_domain)) return false;
   SceneBoxes inside(scene, mesh.frame);
   for (int round = 0; round < kRounds; ++round) {

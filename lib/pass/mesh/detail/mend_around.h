@@ -5,11 +5,12 @@
 
 namespace bp {
 
-/// Makes a closed mesh around `scene` embedded where few of its faces are at fault: have no area, meet others, or touch
-/// the scene. A disc of faces around a fault gives way to a tent: the faces between the disc's rim and an apex outside.
-/// Where no tent has a place, a wider one is tried. Returns whether the mesh is embedded then, with each triangle of
-/// the scene strictly inside; decided exactly. False at once if more than one face of fifty is at fault. Parallel; the
-/// same for any number of threads. Cost: two queries of a box tree a face, for each of a few rounds.
+/// Makes a closed mesh around `scene` embedded, if few of its faces are at fault: have no area, meet others, or touch
+/// the scene. A disc of faces around each fault is replaced by a tent: faces between the disc's rim and an apex
+/// outside. If no tent fits, a wider one is tried. Returns whether the mesh is then embedded with each triangle of the
+/// scene strictly inside, which is decided exactly. Returns false at once if more than one face of fifty is at fault.
+/// Parallel; the result does not depend on the number of threads. Cost: two queries of a box tree for each face in each
+/// of at most 6 rounds.
 [[nodiscard]] bool mend_around(LatticeMesh& mesh, std::span<const TriangleD> scene);
 
 }  // namespace bp

@@ -13,7 +13,7 @@ namespace bp {
 
 namespace {
 
-/// Connected components.
+/// Returns the number of connected components.
 std::uint64_t shells_in(const LatticeMesh& mesh) {
   DisjointSets sets(mesh.vertices.size());
   std::uint64_t shells = mesh.vertices.size();
@@ -47,7 +47,8 @@ QuadMeasures measure_quads(const LatticeMesh& mesh, double volume) {
     m.bend_max = std::max(m.bend_max, bend);
     m.aspect_mean += aspect / double(m.count);
     m.aspect_max = std::max(m.aspect_max, aspect);
-    const auto across = double(orient3d_value(p[0], p[1], p[2], p[3]));  // six times what the other diagonal adds
+    // Six times the volume that the other diagonal adds.
+    const auto across = double(orient3d_value(p[0], p[1], p[2], p[3]));
     (across > 0 ? more : less) += across;
   }
   const double unit = std::pow(mesh.frame.voxel / kLatticePerVoxel, 3) / 6;
@@ -69,7 +70,7 @@ MeshMeasures measure(const LatticeMesh& mesh) {
   m.volume = volume_world(mesh);
   if (mesh.triangles.empty()) return m;
   m.shells = shells_in(mesh);
-  // Euler: V - E + F = 2 (shells - handles), and E = 3 F / 2.
+  // Euler's formula: V - E + F = 2 (shells - handles), with E = 3 F / 2.
   m.handles = (2 * m.shells + mesh.triangles.size() / 2 - mesh.vertices.size()) / 2;
   double shortest = HUGE_VAL, longest = 0, sum = 0, angle = M_PI;
   for (const auto& t : mesh.triangles) {

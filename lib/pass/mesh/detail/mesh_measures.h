@@ -4,7 +4,7 @@
 
 namespace bp {
 
-/// Adds the distances to the surface of what `mesh` encloses; `tree` is over the same triangles.
+/// Measures the distances between `mesh` and the surface that it encloses. `tree` is over the triangles of `enclosed`.
 void measure_distances(const LatticeMesh& mesh, const std::vector<TriangleD>& enclosed, const TriangleBvh& tree,
                        MeshMeasures& measures);
 

@@ -3,9 +3,9 @@
 
 namespace bp {
 
-/// Throws bad_argument if they make no sense.
+/// Throws bad_argument if the parameters contradict each other.
 void check_params(const MeshParams& params);
-/// Throws bad_input if a stream with this header does not hold what the mode needs.
+/// Throws bad_input if a stream with this header lacks the layer or filling that the mode needs.
 void check_fill(const MeshParams& params, const StreamHeader& header);
 
 }  // namespace bp

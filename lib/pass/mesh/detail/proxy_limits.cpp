@@ -11,13 +11,14 @@ namespace bp {
 
 namespace {
 
-constexpr double kPlace = 0.5;  // of the error, at least of a voxel
+// Edge of a place of NearSurface, as a share of the error bound, which is a voxel at least.
+constexpr double kPlace = 0.5;
 
 double place_edge(const ProxyBounds& bounds, const GridFrame& frame) {
   return kPlace * std::max(bounds.error_world, frame.voxel);
 }
 
-/// Lattice units cubed in a cubed scene unit, times six.
+/// Returns six times the cubed lattice units in a cubed scene unit.
 double volume6_per_world(const GridFrame& frame) {
   return 6 * std::pow(kLatticePerVoxel / frame.voxel, 3);
 }
@@ -52,7 +53,8 @@ void keep_pairs_within(StepLimits& limits, LatticeMesh& mesh) {
     pair.growth = growth_of(pair.before, pair.after);
     pairs.push_back(pair);
   }
-  // What one pair takes away gives no room to others: it may be drawn as it is. So those that add are asked first.
+  // Pairs that add volume are asked first, those that add least before others. A pair that would lower the volume gives
+  // no room to others, since it may also be drawn with its first diagonal.
   std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& p, const Pair& q) {
     return std::pair(p.growth <= 0, p.growth) < std::pair(q.growth <= 0, q.growth);
   });
@@ -72,14 +74,15 @@ ProxyLimits::ProxyLimits(const ProxyBounds& bounds, const GridFrame& frame, cons
                          std::size_t places)
     : bounds_(bounds), frame_(frame), tree_(enclosed) {
   if (bounds.error_world > 0) enclosed_.emplace(*enclosed, place_edge(bounds, frame), places);
-  constexpr double kMost = 0x1p120;  // int128 holds it, and no grid reaches it
+  constexpr double kMost = 0x1p120;  // int128 holds it, and no grid has such a volume
   limit6_ = int128(std::clamp(bounds.volume_world * volume6_per_world(frame_), -kMost, kMost));
 }
 
-/// The strict order jumps about: where places are fewer than those along the surface, each is sought again and again.
+/// Returns how many places NearSurface keeps. Simplification jumps from place to place: if fewer places are kept than
+/// the surface has, each is searched for again and again.
 std::size_t ProxyLimits::places_near(const ProxyBounds& bounds, const GridFrame& frame, const TriangleBvh* enclosed) {
   if (bounds.error_world <= 0) return 0;
-  constexpr double kLayers = 8;  // of places along the surface, those that share an entry included
+  constexpr double kLayers = 8;  // kept places for each place on the surface, since some share an entry
   double area = 0;
   for (std::size_t i = 0; i < enclosed->size(); ++i) area += area_of(enclosed->item(i).corners);
   const double wanted = std::min(kLayers * area / std::pow(place_edge(bounds, frame), 2), double(kMostPlaces));
@@ -135,7 +138,7 @@ bool ProxyLimits::near_enough(std::span<const LatticeTriangle> before, std::span
     }
     if (was <= limit) return false;
     limit = was;
-    --i;  // once more
+    --i;  // tests the same triangle with the wider limit
   }
   beyond_ = beyond_ || widened;
   return true;

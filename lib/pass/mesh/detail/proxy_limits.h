@@ -6,7 +6,7 @@
 #include "lib/mesh/lattice_mesh.h"
 #include "lib/mesh/step_limits.h"
 
-/// The targets --error and --volume of bpmesh, as bounds that each step keeps.
+/// Makes each step of simplification keep bpmesh's targets --error and --volume.
 namespace bp {
 
 struct ProxyBounds {
@@ -14,20 +14,23 @@ struct ProxyBounds {
   double volume_world = 0;  ///< scene units cubed, negative for a surface turned inwards; 0: none
 };
 
-/// No step takes a face farther from what is enclosed than error_world, or, where the faces it replaces were farther
-/// already, than their corners were. So the largest distance over the proxy is at most
+/// Refuses steps that break a bound. A step that moves a face farther from what is enclosed than error_world is
+/// refused, unless the corners of the faces that it replaces were already as far. So the largest distance over the
+/// proxy is at most
 ///   max(error_world, the largest distance over the surface that simplification began with),
-/// up to the rounding of doubles; with the closing enclosed, that is error_world. No step adds volume beyond
-/// volume_world.
+/// up to the rounding of doubles. If the closing is what is enclosed, that is error_world. A step that adds volume
+/// beyond volume_world is refused.
 class ProxyLimits final : public StepLimits {
  public:
-  /// `frame`: of what the steps will change. `enclosed`: may be null without an error bound.
+  /// `frame`: the frame of the mesh that the steps change. `enclosed`: a tree over the surface that is enclosed; may be
+  /// null without an error bound.
   ProxyLimits(const ProxyBounds& bounds, const GridFrame& frame, const TriangleBvh* enclosed)
       : ProxyLimits(bounds, frame, enclosed, places_near(bounds, frame, enclosed)) {}
-  /// What one takes of memory, `enclosed` aside: with an error bound 1 to 32 MiB, by the area of `enclosed`.
+  /// Returns the bytes that one object takes, without the tree: 1 to 32 MiB with an error bound, depending on the area
+  /// of `enclosed`.
   [[nodiscard]] static std::uint64_t bytes_needed(const ProxyBounds& bounds, const GridFrame& frame,
                                                   const TriangleBvh* enclosed);
-  /// The most that this may be.
+  /// The largest possible result of bytes_needed().
   static constexpr std::uint64_t kMostBytes = (std::uint64_t(1) << 20) * NearSurface::kBytesPerPlace;
   void begin(int128 volume6) override { volume6_ = volume6; }
   void relax(bool on) override { relaxed_ = on; }
@@ -37,7 +40,7 @@ class ProxyLimits final : public StepLimits {
   void add_part(const StepLimits& part) override;
   [[nodiscard]] std::uint64_t bytes_of_part() const override;
   [[nodiscard]] double error_lattice() const override { return bounds_.error_world / frame_.voxel * kLatticePerVoxel; }
-  /// "error" or "volume".
+  /// Returns "error" or "volume".
   [[nodiscard]] const char* last_refusal() const override { return last_refusal_; }
 
  private:
@@ -54,15 +57,15 @@ class ProxyLimits final : public StepLimits {
   std::optional<NearSurface> enclosed_;  // with an error bound
   int128 volume6_ = 0, limit6_ = 0;      // six times the volume, lattice units cubed
   bool relaxed_ = false;
-  bool beyond_ = false;  // faces beyond the error were allowed because they replaced others as far
+  bool beyond_ = false;  // faces beyond the error were allowed, because they replaced faces as far away
   const char* last_refusal_ = "";
 };
 
-/// Splits those pairs of `mesh` (quads.h) whose other diagonal would break a bound: however the others are drawn, all
-/// bounds hold. Of pairs that add volume, those that add least are kept.
+/// Splits the pairs of `mesh` (quads.h) whose other diagonal might break a bound. All bounds then hold for every choice
+/// of diagonals of the pairs that are left. Among the pairs that add volume, those that add least are kept.
 void keep_pairs_within(StepLimits& limits, LatticeMesh& mesh);
 
-/// Enclosed volume, scene units cubed; exact but for one rounding.
+/// Returns the enclosed volume, scene units cubed; exact except for one rounding.
 [[nodiscard]] double volume_world(const LatticeMesh& mesh);
 
 }  // namespace bp

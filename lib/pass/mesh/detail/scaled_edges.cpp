@@ -14,15 +14,15 @@ namespace bp {
 
 namespace {
 
-/// Answers as ScaleField::reaches_along() does, but bounds of S are kept for cells of space, and not found anew for
-/// each line. Both ask the same points of the line, but for those that a bound decides.
+/// Answers like ScaleField::reaches_along(), but keeps bounds of S for cells of space, instead of finding them for each
+/// line. Both evaluate S at the same points of the line; here some points are skipped since a bound decides.
 class ScaleLines {
  public:
   ScaleLines(const ScaleField& field, double voxel) : field_(field), voxel_(voxel), largest_(field.base) {
     for (const ScaleRule& rule : field.rules) largest_ = std::max(largest_, rule.scale);
   }
 
-  /// Lines are cut down to the edge of a voxel.
+  /// Returns whether S is at least `scale` along the whole line. Lines are halved down to the edge of a voxel.
   [[nodiscard]] bool reach(const Vec3d& a, const Vec3d& b, double scale) {
     if (scale > largest_) return false;
     if (field_.rules.size() < kFewRules) return field_.reaches_along(a, b, scale, voxel_);
@@ -31,10 +31,10 @@ class ScaleLines {
 
  private:
   using Part = std::shared_ptr<const ScalePart>;
-  /// A cube of space; its edge is 2^level voxels.
+  /// A cube of space. Its edge is 2^level voxels.
   struct Cell {
     int level = 0;
-    std::array<std::int64_t, 3> at{};  // in edges
+    std::array<std::int64_t, 3> at{};  // in edges of the cell
     friend bool operator==(const Cell&, const Cell&) = default;
   };
   struct CellHash {
@@ -44,14 +44,15 @@ class ScaleLines {
       return std::size_t(h ^ h >> 29);
     }
   };
-  /// Threads seldom meet in one.
+  /// A part of the kept bounds with a lock of its own, so that threads seldom wait for each other.
   struct Shard {
     std::mutex mutex;
     std::unordered_map<Cell, Part, CellHash> parts;
   };
-  static constexpr std::size_t kFewRules = 8, kShards = 32, kMostCells = 1024;  // of a shard
-  static constexpr int kCoarse = 6;      // cells from this level on visit all rules
-  static constexpr double kReach = 1.4;  // edges: a line as long as an edge, whose middle lies in the cell
+  static constexpr std::size_t kFewRules = 8, kShards = 32, kMostCells = 1024;  // cells kept in a shard, at most
+  static constexpr int kCoarse = 6;  // cells of this level or above evaluate all rules
+  // Radius of the part in edges: it holds a line as long as an edge whose middle lies in the cell.
+  static constexpr double kReach = 1.4;
 
   bool reach_by_cells(const Vec3d& a, const Vec3d& b, double scale) {
     const Vec3d middle = 0.5 * (a + b);
@@ -101,7 +102,7 @@ class ScaleLines {
 
   const ScaleField& field_;
   const double voxel_;
-  double largest_;  // no scale exceeds it
+  double largest_;  // the largest scale of the field
   std::array<Shard, kShards> shards_;
 };
 

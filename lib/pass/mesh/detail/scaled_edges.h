@@ -4,8 +4,9 @@
 
 namespace bp {
 
-/// No edge longer than `factor` times S anywhere along it; but never below two voxels, or nothing could be merged where
-/// the scale vanishes. Keeps references; thread-safe. Cost: as ScaleField::reaches_along(), of the rules near the edge.
+/// Returns a limit on edges: `factor` times the least S along the edge. Edges up to two voxels are always allowed,
+/// since nothing could be merged where the scale vanishes. Keeps references; thread-safe. Cost: as
+/// ScaleField::reaches_along(), for the rules near the edge.
 [[nodiscard]] EdgeLimit scaled_edges(const ScaleField& scale, const GridFrame& frame, double factor);
 
 }  // namespace bp
