@@ -4,8 +4,8 @@
 
 #include "lib/mesh/half_edge_mesh.h"
 
-/// Forces with which contact points press on faces: what a joint program ends with, the next one begins with. Between
-/// the two little changes, so a few rounds of it do.
+/// Keeps the forces with which contact points press on faces from one joint fit to the next. Little changes in between,
+/// so the next fit needs few rounds if it begins with them.
 namespace bp {
 
 class ContactForces {
@@ -16,14 +16,14 @@ class ContactForces {
     float size;
   };
   [[nodiscard]] bool empty() const { return forces_.empty(); }
-  /// 0 if there is none. Linear in those of the face.
+  /// Returns the force of a point on a face; 0 if there is none. Linear in the forces on the face.
   [[nodiscard]] float of(FaceId face, std::uint32_t point) const;
-  /// In place of those there. `faces`: above all numbers of faces. Linear.
+  /// Replaces all forces. `faces`: a bound above all numbers of faces. Linear.
   void set(std::span<const Force> forces, std::size_t faces);
 
  private:
-  std::vector<Force> forces_;         // by faces
-  std::vector<std::uint32_t> first_;  // per face: in forces_; and the end
+  std::vector<Force> forces_;         // sorted by face
+  std::vector<std::uint32_t> first_;  // for each face, its first force in forces_; and the end
 };
 
 }  // namespace bp

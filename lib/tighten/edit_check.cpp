@@ -11,10 +11,11 @@ namespace bp {
 
 namespace {
 
-constexpr double kOverhang = 0.1;  // of the star's middle side: how far beyond its box an apex may go
+constexpr double kOverhang = 0.1;  // share of the middle side of the star's box by which an apex may lie beyond it
 
-/// A fin has next to no volume and well-shaped faces: what betrays it is an apex far from all that was there. Along the
-/// edge of a plate stars are long, and what is far there is told by how thick they are.
+/// Returns whether the apex makes a fin. A fin has almost no volume and well-shaped faces, but its apex lies far from
+/// all old faces. The distance is compared with the middle side of the star's box, since stars are long at the edge of
+/// a plate.
 bool sticks_out(const LatticeCoord& apex, const LatticeBox& star) {
   std::array<double, 3> sides{};
   double over = 0;
@@ -53,7 +54,8 @@ void EditCheck::put_boxes(EditBoxes& boxes) const {
   for (const NewFace& f : faces_) boxes.add(box_of(f.corners[0], f.corners[1], f.corners[2]));
 }
 
-/// New edges run from the first to the second corner of each new face.
+/// Returns whether no new face is a needle and no new edge too long. New edges run from the first to the second corner
+/// of each new face.
 bool EditCheck::shape_is_fine() {
   const double floor = std::min(QualityFloor::kEdit, least_quality_ / 2);
   for (const NewFace& f : faces_) {
@@ -71,7 +73,8 @@ bool EditCheck::shape_is_fine() {
 }
 
 bool EditCheck::keeps_enclosed() {
-  blocker_.count = 0;  // what a check has seen before depends on the thread
+  // Clears what an earlier check of this thread has seen, so that the result does not depend on threads.
+  blocker_.count = 0;
   if (proxy_.enclosed.allows(faces_, swept_, &blocker_)) return true;
   ++counts.refused[Refusal::enclosed];
   blocked_ = true;
@@ -80,7 +83,8 @@ bool EditCheck::keeps_enclosed() {
   return false;
 }
 
-/// The last question, given the guard's answer: limits count what they allow as taken.
+/// Returns whether the change is free and within the limits. `free`: the guard's answer. It must be the last test,
+/// since limits count what they allow as taken.
 bool EditCheck::is_free(bool free) {
   const bool within = free && within_limits(proxy_.limits, mesh_, replaced_, faces_);
   counts.refused[Refusal::guard] += !free;
@@ -88,7 +92,8 @@ bool EditCheck::is_free(bool free) {
   return within;
 }
 
-/// What goes inwards everywhere does not leave what is enclosed.
+/// Returns whether the new faces stay within reach. A change that only goes inwards is not tested, since it cannot
+/// leave what is enclosed.
 bool EditCheck::stays_near() {
   if (proxy_.reach_units == 0 || swept_.size() == replaced_.size()) return true;
   const bool near = proxy_.enclosed.is_near(faces_, proxy_.reach_units);
@@ -107,8 +112,8 @@ bool EditCheck::fan_is_fine(const LatticeCoord& apex) {
   return is_free(guard_.star_is_free(faces_, replaced_));
 }
 
-/// A contact point of the faces replaced is surely outside of both faces of the edge ab: refuses most flips before the
-/// exact test. Points a unit deep count, for they are rounded.
+/// Returns whether a contact point of the replaced faces surely lies outside both faces of the edge ab. This refuses
+/// most flips before the exact test. Only points a unit deep count, since they are rounded.
 bool EditCheck::cuts_off_contacts(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoord& u,
                                   const LatticeCoord& w) const {
   const Vec3d at = to_double(a - proxy_.contacts.origin());

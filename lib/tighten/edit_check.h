@@ -11,7 +11,7 @@ namespace bp {
 struct EditCounts {
   std::uint64_t tries = 0;
   Refusals refused;
-  std::uint64_t beyond_reach = 0;  ///< of those refused for their growth
+  std::uint64_t beyond_reach = 0;  ///< of the changes refused for their growth, those refused by the reach
 
   EditCounts& operator+=(const EditCounts& more) {
     tries += more.tries;
@@ -21,7 +21,7 @@ struct EditCounts {
   }
 };
 
-/// A proxy that is edited, as a check reads it. All must outlive the check.
+/// The parts of a proxy that a check reads. All must outlive the check.
 struct EditedProxy {
   const HalfEdgeMesh& mesh;
   const FaceTree& tree;
@@ -30,11 +30,11 @@ struct EditedProxy {
   const EdgeLimit& edge_limit;
   StepLimits* limits;         ///< counts what it allows as taken
   const LatticeBox room;      ///< for new vertices
-  const double& reach_units;  ///< as ShapeLimits::reach
+  const double& reach_units;  ///< ShapeLimits::reach
 };
 
-/// Whether a change may be made, decided exactly (docs/bounding.md, "Tightening"). A check changes nothing of the
-/// proxy: checks on several threads may look at one proxy at the same time, unless it has limits.
+/// Decides exactly whether a change may be made (docs/bounding.md, "Tightening"). A check changes nothing of the proxy,
+/// so checks on several threads may read one proxy at the same time, unless it has limits.
 class EditCheck {
  public:
   explicit EditCheck(const EditedProxy& proxy);
@@ -42,15 +42,16 @@ class EditCheck {
   [[nodiscard]] bool allows_move(VertexId v, const LatticeCoord& to);
   [[nodiscard]] bool allows_collapse(HalfEdgeId h, const LatticeCoord& to);
   [[nodiscard]] bool allows_flip(HalfEdgeId h);
-  /// As ProxyEditor::cut(). opposite(h) has three faces.
+  /// Decides about ProxyEditor::cut(). opposite(h) must have three faces.
   [[nodiscard]] bool allows_cut(HalfEdgeId h);
 
-  /// What must stay inside and stood in the way, in the coordinates of the contact points; null if something else did.
+  /// Returns the enclosed thing that the last change would have cut into, in the coordinates of the contact points;
+  /// null if the change failed for another reason.
   [[nodiscard]] const Blocker* blocker() const { return blocked_ ? &blocker_ : nullptr; }
 
-  void put_boxes(EditBoxes& boxes) const;  ///< of the faces that would be there after the last question
+  void put_boxes(EditBoxes& boxes) const;  ///< puts the boxes of the faces that the last change would make
 
-  EditCounts counts;  ///< of all questions
+  EditCounts counts;  ///< of all changes that were tested
 
  private:
   void begin();
@@ -66,12 +67,12 @@ class EditCheck {
   const EditedProxy proxy_;
   const HalfEdgeMesh& mesh_;
   Guard guard_;
-  // Of the change at hand:
+  // The next members belong to the change that is tested.
   std::vector<NewFace> faces_;
   std::vector<FaceId> replaced_;
   std::vector<Tetrahedron> swept_;
-  double least_quality_ = 1;  // of the faces replaced
-  LatticeBox star_;           // around them
+  double least_quality_ = 1;  // the least quality of the replaced faces
+  LatticeBox star_;           // box around the replaced faces
   Blocker blocker_;
   bool blocked_ = false;
 };

@@ -1,5 +1,5 @@
-// Sources: cutting planes for a linear objective ([Kel60]), here few enough for Seidel's scheme [Se91] to solve them at
-// once.
+// Sources: cutting planes for a linear objective ([Kel60]); here they are few enough that Seidel's scheme [Se91] solves
+// them at once.
 #include "lib/tighten/fan_fit.h"
 
 #include <algorithm>
@@ -44,7 +44,7 @@ void FanFit::set_plane(Point& point) const {
   point.margin = kMargin / 2 * length(point.normal);
 }
 
-/// Walks each point to the face that it lies under, at most once around.
+/// Moves each point to the face that it lies under, walking at most once around the fan.
 void FanFit::bind(const Vec3d& apex) {
   const auto n = std::uint32_t(rim_.size());
   spokes_.clear();
@@ -68,7 +68,7 @@ void FanFit::bind(const Vec3d& apex) {
   }
 }
 
-/// Adds the deepest violation of each face to cuts_; false if there is none.
+/// Adds the deepest violation of each face to cuts_. Returns false if there is none.
 bool FanFit::cut(const Vec3d& apex) {
   deepest_.assign(rim_.size(), 0);
   deepest_point_.assign(rim_.size(), 0);
@@ -99,7 +99,7 @@ void FanFit::add_plane(const Vec3d& normal, const Vec3d& through, const Vec3d& o
   obstacles_.push_back(obstacle);
 }
 
-/// The face over p, seen along outward_, must pass above it.
+/// Adds a plane so that the face over p, seen along outward_, passes above it.
 void FanFit::avoid_corner(const Vec3d& apex, const Vec3d& p) {
   for (std::size_t s = 0; s < rim_.size(); ++s) {
     const Vec3d &a = rim_[s], &b = rim_[s + 1 == rim_.size() ? 0 : s + 1];
@@ -109,7 +109,7 @@ void FanFit::avoid_corner(const Vec3d& apex, const Vec3d& p) {
   }
 }
 
-/// A spoke that crosses pq, seen along outward_, must pass above it.
+/// Adds planes so that spokes that cross pq, seen along outward_, pass above it.
 void FanFit::avoid_edge(const Vec3d& apex, const Vec3d& p, const Vec3d& q) {
   const Vec3d across = cross(outward_, q - p);
   for (const Vec3d& r : rim_) {
@@ -120,11 +120,11 @@ void FanFit::avoid_edge(const Vec3d& apex, const Vec3d& p, const Vec3d& q) {
     if (dot(normal, apex - p) >= kMargin * length(normal)) continue;
     const double at_p = dot(spoke, p - apex), at_q = dot(spoke, q - apex),
                  share = at_p == at_q ? 0 : at_p / (at_p - at_q);
-    add_plane(normal, p, p + share * (q - p));  // where they cross
+    add_plane(normal, p, p + share * (q - p));  // the point where they cross
   }
 }
 
-/// The apex must be above pqr, if it is over it, seen along outward_.
+/// Adds a plane so that the apex lies above pqr, if it is over it, seen along outward_.
 void FanFit::avoid_face(const Vec3d& apex, const Vec3d& p, const Vec3d& q, const Vec3d& r) {
   Vec3d normal = cross(q - p, r - p);
   const double turn = dot(normal, outward_) < 0 ? -1 : 1;
@@ -150,7 +150,8 @@ bool FanFit::avoid(const Vec3d& apex, const Blocker& blocker, const Vec3d& shift
     }
   }
   if (blocker.count == 3) avoid_face(apex, p[0], p[1], p[2]);
-  for (std::size_t axis = 0; blocker.count == 8 && axis < 3; ++axis) {  // the side that looks outward, as two triangles
+  // The side that looks outward is tested as two triangles.
+  for (std::size_t axis = 0; blocker.count == 8 && axis < 3; ++axis) {
     const std::size_t u = std::size_t(1) << (axis + 1) % 3, v = std::size_t(1) << (axis + 2) % 3;
     const std::size_t at = outward_[axis] > 0 ? std::size_t(1) << axis : 0;
     avoid_face(apex, p[at], p[at + u], p[at + u + v]);

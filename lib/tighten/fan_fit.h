@@ -6,46 +6,49 @@
 #include "lib/enclosed/enclosed.h"
 #include "lib/mesh/constrained_minimum.h"
 
-/// Where to put the apex of a fan of faces so that it encloses least and still lies over given points. With the rim
-/// fixed, the volume under the fan is linear in the apex x, and so is "point p lies under face (x, a, b)":
-/// ((a - p) x (b - p)) . (x - p) >= 0. A point is held against the one face that it lies under, seen along the area
-/// vector of the rim, which does not depend on the apex. All in doubles: a proposal, which the caller checks exactly.
-/// Coordinates are relative to a point of the caller's choice near the fan, lattice units.
+/// Finds the apex of a fan of faces that encloses the least volume and still lies over given points. With a fixed rim,
+/// the volume under the fan is linear in the apex x, and so is "point p lies under face (x, a, b)": ((a - p) x (b - p))
+/// . (x - p) >= 0. A point constrains only the face that it lies under, seen along the area vector of the rim, which
+/// does not depend on the apex. The result is in doubles: a proposal that the caller checks exactly. Coordinates are
+/// relative to a point of the caller's choice near the fan, lattice units.
 namespace bp {
 
 class FanFit {
  public:
   void clear();                                        ///< starts a new fan
-  void add_rim(const Vec3d& p) { rim_.push_back(p); }  ///< counter-clockwise seen from outside
-  /// A point that must stay under the fan; `sector`: index of the rim corner that begins the face it is likely under.
+  void add_rim(const Vec3d& p) { rim_.push_back(p); }  ///< counterclockwise seen from outside
+  /// Adds a point that must stay under the fan. `sector`: number of the rim corner that begins the face it probably
+  /// lies under.
   void add_point(const Vec3d& p, std::uint32_t sector) { points_.push_back({p, sector}); }
-  /// Call when the rim is complete. False if the rim has no area vector, so that there is no way in.
+  /// Completes the rim. Returns false if it has no area vector, so that no direction leads inwards.
   [[nodiscard]] bool close();
 
-  /// Volume under the fan with apex x, up to a constant of the fan. Lattice units cubed.
+  /// Returns the volume under the fan with apex x, up to a constant of the fan, lattice units cubed.
   [[nodiscard]] double volume(const Vec3d& x) const;
   [[nodiscard]] const std::vector<Vec3d>& rim() const { return rim_; }
   [[nodiscard]] const Vec3d& outward() const { return outward_; }  ///< unit area vector of the rim
 
-  /// Keeps the fan over something that a fan with its apex at `apex` cuts into: the faces over its corners, the spokes
-  /// over its edges, the apex over its faces. `shift`: the fan's origin in the blocker's coordinates. False if neither
-  /// is in the way.
+  /// Keeps the fan over an obstacle that a fan with its apex at `apex` cuts into: the faces stay over its corners, the
+  /// spokes over its edges, the apex over its faces. `shift`: the fan's origin in the blocker's coordinates. Returns
+  /// false if no part of the obstacle is in the way.
   bool avoid(const Vec3d& apex, const Blocker& blocker, const Vec3d& shift);
-  /// Points of the blocker that the last avoid() lifted the fan over: contact points to come.
+  /// Returns the points of the obstacle over which the last avoid() lifted the fan. They become contact points.
   [[nodiscard]] const std::vector<Vec3d>& obstacles() const { return obstacles_; }
 
-  /// The apex of least volume, about `reach` from `start` at most. Cutting planes: the deepest violation of each face
-  /// is added to a small quadratic program until none is left. Nothing if the cuts contradict each other.
+  /// Returns the apex of least volume, at most about `reach` from `start`. It uses cutting planes: the deepest
+  /// violation of each face is added to a small quadratic program until none is left. Returns nothing if the cuts
+  /// contradict each other.
   [[nodiscard]] std::optional<Vec3d> least_volume(const Vec3d& start, double reach);
 
  private:
   static constexpr std::uint32_t kNone = ~std::uint32_t(0);
-  /// A point under face (apex, rim[sector], rim[sector + 1]), and the plane through it and that edge of the rim.
+  /// A point under the face (apex, rim[sector], rim[sector + 1]), and the plane through the point and that edge of the
+  /// rim.
   struct Point {
     Vec3d at;
     std::uint32_t sector;
-    std::uint32_t plane_of = kNone;  // the sector that the plane is of
-    Vec3d normal{};                  // the apex must be above
+    std::uint32_t plane_of = kNone;  // the sector for which the plane was computed
+    Vec3d normal{};                  // the apex must lie above the plane
     double margin = 0;               // times the normal's length
   };
   void set_plane(Point& point) const;
@@ -58,13 +61,13 @@ class FanFit {
 
   std::vector<Vec3d> rim_;
   std::vector<Point> points_;
-  Vec3d gradient_{}, outward_{};            // of the volume
+  Vec3d gradient_{}, outward_{};            // of the volume; and its direction
   std::vector<PlaneConstraint> avoided_;    // from avoid()
   std::vector<Vec3d> obstacles_;            // from the last avoid()
-  std::vector<PlaneConstraint> cuts_;       // of least_volume()
+  std::vector<PlaneConstraint> cuts_;       // within least_volume()
   std::vector<Vec3d> spokes_;               // scratch
-  std::vector<double> deepest_;             // scratch, per face
-  std::vector<std::size_t> deepest_point_;  // scratch, per face
+  std::vector<double> deepest_;             // scratch, for each face
+  std::vector<std::size_t> deepest_point_;  // scratch, for each face
 };
 
 }  // namespace bp

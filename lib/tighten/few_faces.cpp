@@ -13,13 +13,14 @@ namespace bp {
 
 namespace {
 
-constexpr double kHopeless = 1.25;         // times the least volume so far: fewer faces will not come below it
-constexpr double kPromising = 1.5;         // the same of a hull that is not tightened yet
-constexpr std::uint64_t kFewForHull = 32;  // more faces than that are better used than for a convex proxy
-/// Where a new way from the first surface is tried, too. It is also tried where the way is stuck.
+constexpr double kHopeless = 1.25;         // times the least volume so far: proxies of fewer faces will not hold less
+constexpr double kPromising = 1.5;         // the same for a hull that is not tightened yet
+constexpr std::uint64_t kFewForHull = 32;  // with more faces, another proxy is better than a convex one
+/// Numbers of faces for which a proxy is also made anew from the first surface. This also happens when the sequence is
+/// stuck.
 constexpr std::array<std::uint64_t, 6> kFresh{48, 32, 24, 20, 8, 6};
 
-/// The next number of faces on the way; fewer(n + 1): the first one up to n.
+/// Returns the next number of faces in the sequence; fewer(n + 1) is the first one up to n.
 std::uint64_t fewer(std::uint64_t n) {
   return n > 40 ? (n - 1) / 4 * 4 : (n - 1) / 2 * 2;
 }
@@ -41,10 +42,11 @@ class HullsWay {
 
   [[nodiscard]] const TightProxy& at() const { return at_; }
   [[nodiscard]] std::uint64_t faces() const { return at_.mesh.triangles.size(); }
-  /// The first proxy has few faces.
+  /// Returns whether the first proxy has few faces.
   [[nodiscard]] bool is_there() const { return faces() > 0 && faces() <= kFewFaces; }
 
-  /// On to the next number of faces that there is a way to, as long as parts and handles leave one; false at the end.
+  /// Goes on to the next number of faces that a proxy can be made for, and that parts and handles allow. Returns false
+  /// at the end.
   bool go() {
     const std::uint64_t least = least_faces();
     for (std::uint64_t n = fewer(faces()); n >= least; n = fewer(n))
@@ -53,7 +55,7 @@ class HullsWay {
   }
 
  private:
-  /// On to at most `n` faces; false if there is no way.
+  /// Goes on to at most `n` faces. Returns false if no proxy has so few.
   bool go(std::uint64_t n) {
     std::optional<TightProxy> best;
     const auto offer = [&](TightProxy stop) {
@@ -72,7 +74,7 @@ class HullsWay {
     return best.has_value();
   }
 
-  /// Four for each part and each handle: no closed surface has fewer.
+  /// Returns four faces for each part and each handle: no closed surface has fewer.
   [[nodiscard]] std::uint64_t least_faces() const {
     const std::size_t parts = components_of(at_.mesh).size();
     const std::size_t handles = (4 * parts + faces() - 2 * at_.mesh.vertices.size()) / 4;  // by Euler's formula
@@ -86,7 +88,7 @@ class HullsWay {
     return params;
   }
 
-  /// A proxy of n faces from another one of more.
+  /// Returns a proxy of n faces that is made from another one with more.
   [[nodiscard]] TightProxy tight(const TightProxy& from, std::uint64_t n) const {
     return tight_proxy(from.mesh, *outer_, params_for(n));
   }
@@ -97,7 +99,7 @@ class HullsWay {
     return tight_proxy(dense_, enclosed_, params);
   }
 
-  /// A hull of at most n faces around the hull of the first proxy.
+  /// Returns a hull of at most n faces around the hull of the first proxy.
   [[nodiscard]] std::optional<TightProxy> convex(std::uint64_t n) {
     if (hull_.empty() || n > kFewForHull) return {};
     keep_to_faces(hull_, n, kFarOut);
@@ -109,10 +111,10 @@ class HullsWay {
 
   const SurfaceSource& dense_;
   const Enclosed& enclosed_;
-  std::optional<FewContacts> outer_;  // of these, for all that follows from the first surface
+  std::optional<FewContacts> outer_;  // the enclosed contacts of grown_, for everything that is made from it
   SimplifyParams params_;
   LatticeBox box_;
-  std::vector<ConvexHull> hull_;  // one, if the scene is in one piece
+  std::vector<ConvexHull> hull_;  // one hull, if the scene is in one piece; else empty
   TightProxy at_, grown_;
 };
 
@@ -131,7 +133,7 @@ TightProxy tight_proxy_of_few(const SurfaceSource& dense, const Enclosed& enclos
     if (best && double(volume6_of(way.at().mesh)) > kHopeless * double(volume6_of(best->mesh))) break;
     if (!way.go()) break;
   }
-  if (!best) {  // parts take more
+  if (!best) {  // parts and handles need more faces
     TightProxy proxy = tight_proxy(dense, enclosed, params);
     const std::uint64_t faces = proxy.mesh.triangles.size();
     if (faces <= params.faces || !way.is_there() || way.faces() > faces) return proxy;

@@ -55,9 +55,10 @@ bool ProxyEditor::flip(HalfEdgeId h) {
 bool ProxyEditor::cut(HalfEdgeId h) {
   if (!check_.allows_cut(h)) return false;
   const HalfEdgeId beyond = mesh_.twin(h);
-  const HalfEdgeId out = mesh_.rotate(mesh_.twin(HalfEdgeMesh::next(h)));  // from the vertex to the third neighbour
+  // The half-edge from the vertex to its third neighbour.
+  const HalfEdgeId out = mesh_.rotate(mesh_.twin(HalfEdgeMesh::next(h)));
   const HalfEdgeId in = mesh_.twin(out);
-  // It is made in two steps, and between them no shell may turn that does not turn in the end.
+  // The cut is made in two steps. A shell that does not turn in the end must not turn between them.
   const std::array<FaceId, 1> spike{HalfEdgeMesh::face(h)};
   if (sense_.turns(spike[0], fan_gain6(mesh_, spike, mesh_.position(mesh_.from(in))))) return false;
   make_collapse(in, mesh_.position(mesh_.from(in)));
@@ -66,7 +67,7 @@ bool ProxyEditor::cut(HalfEdgeId h) {
   return true;
 }
 
-/// Notes that faces give way to a fan around `apex`.
+/// Records that the faces are replaced by a fan around `apex`.
 ProxyEditor::Unsettled& ProxyEditor::replace(std::span<const FaceId> faces, const LatticeCoord& apex) {
   sense_.add(faces.front(), fan_gain6(mesh_, faces, apex));
   if (unsettled_count_ == unsettled_.size()) unsettled_.emplace_back();
@@ -98,7 +99,7 @@ void ProxyEditor::make_collapse(HalfEdgeId h, const LatticeCoord& to) {
   tree_.maintain();
 }
 
-/// The new faces are a fan around one end of the new edge, if flat faces count.
+/// Flips the edge. The new faces are a fan around one end of the new edge, if faces without area are counted.
 void ProxyEditor::make_flip(HalfEdgeId h) {
   const HalfEdgeId t = mesh_.twin(h);
   const std::array<FaceId, 2> faces{HalfEdgeMesh::face(h), HalfEdgeMesh::face(t)};
@@ -114,7 +115,8 @@ void ProxyEditor::settle_points() {
   unsettled_count_ = 0;
 }
 
-/// Where neighbours have changed, too, one search for all is less work than one after each change.
+/// Settles the points of all changed faces with one search, which is less work than one after each change if neighbours
+/// have changed, too.
 void ProxyEditor::settle_points_of_many() {
   replaced_.clear();
   for (std::size_t i = 0; i < unsettled_count_; ++i)
@@ -125,7 +127,8 @@ void ProxyEditor::settle_points_of_many() {
   contacts_.hand_over_around(replaced_);
 }
 
-/// Around a star faces beyond the rim may be nearer now.
+/// Lists the points of the old faces with the nearest of the new ones. After a change of a star, faces beyond its rim
+/// may be nearer, too.
 void ProxyEditor::settle(const Unsettled& some, Settler& settler) {
   if (some.apex == kNoId) return contacts_.hand_over(some.from, some.from, settler.scratch);
   std::vector<FaceId>& around = settler.around;

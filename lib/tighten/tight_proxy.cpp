@@ -12,20 +12,26 @@ namespace bp {
 
 namespace {
 
-// The steps (1) to (5) and their numbers are those of docs/decisions/0003-order-of-steps.md, with what was measured.
-// Numbers of faces are multiples of those wanted.
-constexpr std::uint64_t kGrownTo = 6;                            // (1) ends there
-constexpr std::uint64_t kStrictFrom = 16, kStrictLeast = 10000;  // (1) in strict order from there, and at least these
-constexpr double kPauseAt = 3;                                   // (2) ends there
-constexpr double kByErrorTo = 1.25, kByErrorToOfFew = 1.5;       // (3) ends there; in regions, and of few faces
-constexpr double kMostGrowth = 6;      // (1) to (3), of one collapse: some times a face's share of the volume
-constexpr std::uint64_t kWhole = 16;   // (4) up to so many regions are one mesh
-constexpr int kJamRounds = 4;          // (4) of a sweep and collapses, where these jam above the target; at most
-constexpr std::uint64_t kSmall = 512;  // faces: fewer are worth another sweep in (2), and growing on where they jam
-constexpr double kNeedless = 2;        // (5) volumes over faces squared: a collapse around a ball adds 7 in the mean
-constexpr double kFewDropped = 0.95;   // (5) times the faces: where more are left, the next round would drop few
+// The steps (1) to (5) and their numbers are those of docs/decisions/0003-order-of-steps.md, which says what was
+// measured. Numbers of faces are multiples of the wanted number.
+constexpr std::uint64_t kGrownTo = 6;  // step (1) ends there
+// Step (1) is in strict order from this many faces on, or from kStrictLeast if that is more.
+constexpr std::uint64_t kStrictFrom = 16, kStrictLeast = 10000;
+constexpr double kPauseAt = 3;  // step (2) ends there
+// Step (3) ends there; the second one is for regions and for few faces.
+constexpr double kByErrorTo = 1.25, kByErrorToOfFew = 1.5;
+// Steps (1) to (3): the most that one collapse may add, in a face's shares of the volume.
+constexpr double kMostGrowth = 6;
+constexpr std::uint64_t kWhole = 16;  // step (4): up to so many regions are worked on as one mesh
+// Step (4): the most rounds of a sweep and collapses, if collapses jam above the target.
+constexpr int kJamRounds = 4;
+constexpr std::uint64_t kSmall = 512;  // faces: smaller proxies get another sweep in (2), and grow on if they jam
+// Step (5): in volumes over faces squared; a collapse on a ball adds 7 on average.
+constexpr double kNeedless = 2;
+// Step (5): share of the faces; if more are left, the next round would drop only few.
+constexpr double kFewDropped = 0.95;
 
-/// Collapses by volume know neither errors nor limits.
+/// Returns whether edges are collapsed by volume, which knows neither errors nor limits.
 bool by_volume(const SimplifyParams& params) {
   return params.faces > 0 && params.error_vox <= 0 && params.limits == nullptr;
 }
@@ -34,13 +40,13 @@ bool is_above_target(const LatticeMesh& proxy, const SimplifyParams& params) {
   return by_volume(params) && proxy.triangles.size() > params.faces;
 }
 
-/// Steps (2) to (5), of a proxy on its way.
+/// Does steps (2) to (5) on a grown proxy.
 class Steps {
  public:
   Steps(TightProxy grown, const Enclosed& enclosed, const SimplifyParams& params)
       : proxy_(std::move(grown)), enclosed_(enclosed), params_(params) {}
 
-  /// halfway: as tight_proxy() has it.
+  /// halfway: as in tight_proxy().
   TightProxy run(LatticeMesh* halfway) {
     if (params_.limits != nullptr) {
       relax();
@@ -53,7 +59,7 @@ class Steps {
     return finish();
   }
 
-  /// Steps (4) and (5).
+  /// Does steps (4) and (5).
   TightProxy finish() {
     const bool many =
         has_regions(faces(), params_) && (faces() > kWhole * params_.faces_per_region || !is_above_target());
@@ -66,7 +72,8 @@ class Steps {
       if (!has_regions(mesh.face_count(), params_)) return tightened_whole(editor);
       put_back(editor);
     }
-    tighten_regions(proxy_.mesh, enclosed_, tightening_of(params_), proxy_.tightened);  // each with its own editor
+    // Each region has an editor of its own.
+    tighten_regions(proxy_.mesh, enclosed_, tightening_of(params_), proxy_.tightened);
     return std::move(proxy_);
   }
 
@@ -82,15 +89,16 @@ class Steps {
   }
   [[nodiscard]] TightenParams one_sweep() const { return sweeps(1, 0, 0); }
 
-  /// (3) In regions fewer edges may collapse by volume, and an octahedron of a few faces keeps needless ones.
+  /// Returns where step (3) ends, as a multiple of the target. In regions fewer edges can collapse by volume, and a
+  /// proxy of few faces would keep needless ones, so it ends later for them.
   [[nodiscard]] double by_error_to() const {
     if (!by_volume(params_)) return 1;
     const bool whole = kByErrorTo * double(params_.faces) <= double(kWhole * params_.faces_per_region);
     return whole && params_.faces >= kFewFaces ? kByErrorTo : kByErrorToOfFew;
   }
 
-  /// (2) under limits. A surface of voxels may lie beyond them, and single steps within them would not lead back. They
-  /// are relaxed here, so vertices may move together.
+  /// Does step (2) under limits. A surface of voxels may lie beyond the limits, and single steps within them would not
+  /// lead back. The limits are relaxed here, so vertices may move together.
   void relax() {
     TightenCounts ignored;
     params_.limits->relax(true);
@@ -98,7 +106,8 @@ class Steps {
     params_.limits->relax(false);
   }
 
-  /// (2) Much of the growth is left in the pause, and half of the faces. Sweeps that gain a fiftieth are worth others.
+  /// Does the pause of step (2), which removes much of the growth when half of the grown faces are left. It sweeps on
+  /// while a sweep gains at least 2 %.
   void pause() {
     TightenParams some = sweeps(3, faces() < kSmall ? 2 : 1, 0.02);
     some.stops_early = true;
@@ -110,7 +119,8 @@ class Steps {
     }
   }
 
-  /// (2), (3) Where faces jam by their reach, collapses go on with a longer one.
+  /// Does the collapses of steps (2) and (3). If collapses are refused because of the reach, they go on with a longer
+  /// one.
   void collapse_by_error(double factor) {
     SimplifyParams late = params_;
     late.faces = std::uint64_t(factor * double(params_.faces));
@@ -125,15 +135,15 @@ class Steps {
     }
   }
 
-  /// (4) On the regions of a large proxy.
+  /// Does step (4) on the regions of a large proxy.
   void thin_regions() {
     SimplifyCounts now;
     bp::thin_regions(proxy_.mesh, enclosed_, params_.faces, one_sweep(), now);
     proxy_.simplified.add(now);
   }
 
-  /// (4) Where collapses jam, sweeps and collapses take turns, as long as they may reach the target at the pace of the
-  /// last turn.
+  /// Does step (4) on one mesh. If collapses jam, sweeps and collapses take turns, as long as they may reach the target
+  /// at the pace of the last turn.
   void collapse_by_volume(ProxyEditor& editor) {
     const auto settle = [&] { tighten_on(editor, one_sweep()); };
     proxy_.simplified.add(thin(editor, params_.faces, settle));
@@ -146,8 +156,8 @@ class Steps {
     }
   }
 
-  /// (5) Collapses that add next to nothing, in turns with sweeps where there are many: what is flat needs no face in
-  /// its middle, and one that it has there sticks out.
+  /// Does the first part of step (5): collapses that add almost nothing, in turns with sweeps while they drop many
+  /// faces. A flat side needs no vertex in its middle, and one that it has there sticks out.
   void drop_needless(ProxyEditor& editor) {
     const HalfEdgeMesh& mesh = editor.mesh();
     const std::uint64_t at_first = mesh.face_count();
@@ -164,7 +174,7 @@ class Steps {
     proxy_.simplified.stop = StopReason::least_volume;
   }
 
-  /// (5) The sweeps of regions, which have a gain each, end earlier.
+  /// Does the last part of step (5). Tightening regions ends earlier, since each region has a gain of its own.
   TightProxy tightened_whole(ProxyEditor& editor) {
     TightenParams last = tightening_of(params_);
     if (params_.limits == nullptr) last = enclosed_.is_exact() ? sweeps(10, 4, 1e-4) : sweeps(4, 2, 3e-4);
@@ -172,7 +182,7 @@ class Steps {
     return std::move(proxy_);
   }
 
-  /// The last step of an editor.
+  /// Ends the editing, and moves the editor's mesh into the proxy.
   void put_back(ProxyEditor& editor) {
     editor.erase_inner_shells();
     LatticeMesh out = editor.mesh().compact(proxy_.mesh.frame);
@@ -185,15 +195,16 @@ class Steps {
   const SimplifyParams& params_;
 };
 
-/// Faces and volume, or a volume inside that is lost, where a target is out of reach: a few faces less are not worth
-/// spikes.
+/// Returns the price of a proxy that cannot reach its target: faces times volume. For a proxy inside, it is faces over
+/// volume. So spikes are not accepted for a few faces less.
 double price(const TightProxy& proxy) {
   const double faces = double(proxy.mesh.triangles.size()), volume = proxy.tightened.volume_after;
   return volume > 0 ? faces * volume : faces / std::max(-volume, 1.0);
 }
 
-/// All that follows (1). Few tight faces may jam where growing goes on. That way is taken if it leads further, and to
-/// the end or for a lower price.
+/// Does steps (2) to (5). A tight proxy of few faces may jam where growing could go on; then growing first and
+/// tightening afterwards is tried, too. The second result is taken if it has fewer faces, and reaches the target or has
+/// at most the same price.
 TightProxy tight_from(const TightProxy& grown, const Enclosed& enclosed, const SimplifyParams& params,
                       LatticeMesh* halfway) {
   if (grown.mesh.triangles.empty()) return grown;
@@ -210,8 +221,9 @@ TightProxy tight_from(const TightProxy& grown, const Enclosed& enclosed, const S
   return is_above_target(other.mesh, params) && price(other) > price(proxy) ? proxy : other;
 }
 
-/// Where the surface of the voxels has few faces for each that is wanted, many of the proxy's may be steps of voxels,
-/// which tightening does not take away. Half or a third of the surface's do, and are used if they leave less volume.
+/// Makes the proxy also with a half and a third of the surface's faces, and takes the one of least volume. If the
+/// surface of the voxels has few faces for each wanted one, many faces of the proxy would remain steps of voxels, which
+/// tightening cannot remove.
 TightProxy least_from(const TightProxy& grown, const Enclosed& enclosed, const SimplifyParams& params,
                       LatticeMesh* halfway) {
   TightProxy proxy = tight_from(grown, enclosed, params, halfway);
@@ -230,7 +242,8 @@ TightProxy least_from(const TightProxy& grown, const Enclosed& enclosed, const S
   return proxy;
 }
 
-/// From the lattice of a frame to that of another, whose voxels are a whole number of times smaller. Exact.
+/// Moves points from the lattice of a frame to that of another, whose voxels are a whole number of times smaller.
+/// Exact.
 class Refining {
  public:
   Refining(const GridFrame& coarse, const GridFrame& fine) : factor_(std::llround(coarse.voxel / fine.voxel)) {
@@ -238,7 +251,7 @@ class Refining {
       shift_[i] = (coarse.origin[std::size_t(i)] * factor_ - fine.origin[std::size_t(i)]) * kLatticePerVoxel;
   }
   [[nodiscard]] LatticeCoord after(const LatticeCoord& p) const { return p * factor_ + shift_; }
-  /// The points that come to lie within the box.
+  /// Returns the box of the points that after() moves into `box`.
   [[nodiscard]] LatticeBox before(LatticeBox box) const {
     for (int i = 0; i < 3; ++i) {
       box.min[i] = -floor_div(shift_[i] - box.min[i], factor_);
@@ -258,7 +271,7 @@ TightenParams tightening_of(const SimplifyParams& params) {
   TightenParams tightening;
   static_cast<ShapeLimits&>(tightening) = params;
   tightening.faces_per_region = params.faces_per_region;
-  if (params.limits != nullptr) {  // they refuse what vertices that move together take back only later
+  if (params.limits != nullptr) {  // limits refuse steps whose gain comes only later, as when vertices move together
     tightening.sweeps = 0;
     tightening.final_sweeps = 10;
     tightening.least_gain = 1e-4;

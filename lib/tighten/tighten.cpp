@@ -1,5 +1,5 @@
-// Sweeps over all vertices, then all edges. Where something that must stay inside blocks a vertex's best place, the
-// fits learn of it: cutting planes with the exact test as the oracle.
+// Tightens by sweeps over all vertices, then all edges. If an enclosed thing blocks a vertex's best place, the fits
+// learn of it: these are cutting planes with the exact test as the oracle.
 #include "lib/tighten/tighten.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace bp {
 
 namespace {
 
-constexpr double kJointReach = 1;  // of the mean spoke: how far a vertex would go with nothing in its way
+constexpr double kJointReach = 1;  // of the mean spoke: the step of a vertex that nothing hinders
 constexpr std::size_t kMovesPerThread = 2, kFlipsPerThread = 64;
 constexpr int kSweepsPerRefresh = 8;
 
@@ -42,7 +42,7 @@ class Tightener {
   }
 
  private:
-  /// False if the last one gained too little.
+  /// Returns false if the last sweep gained too little.
   template <class Move>
   bool sweep_while_it_gains(int most, const Move& move) {
     double last = volume_of(mesh_);
@@ -59,7 +59,7 @@ class Tightener {
     return true;
   }
 
-  /// Those of faces that have changed since the last time.
+  /// Flips the edges of faces that have changed since the last call.
   void flip_edges() {
     const std::uint64_t since = flipped_at_;
     flipped_at_ = changes_;
@@ -70,7 +70,8 @@ class Tightener {
     finish_run();
   }
 
-  /// Nearly all are refused: so all are planned at once, and those that are in the way of others again.
+  /// Flips edges in waves. Nearly all flips are refused, so all are planned at once; those that another flip was in the
+  /// way of are planned again.
   void flip_in_waves(std::uint64_t since) {
     waiting_.clear();
     for (HalfEdgeId h = 0; h < 3 * mesh_.face_capacity(); ++h) {
@@ -105,7 +106,8 @@ class Tightener {
     return std::any_of(corners.begin(), corners.end(), [&](VertexId v) { return changed_at_[v] > since; });
   }
 
-  /// Those that go outwards first: the others then have the room that the joint fit counts on.
+  /// Moves all vertices by the joint fit. Vertices that go outwards are moved first, since the fit counts on the room
+  /// that they make for others.
   void move_together() {
     joint_.solve(kJointReach);
     order_.clear();
@@ -129,7 +131,7 @@ class Tightener {
     if (mesh_.volume6() > before) take_back();
   }
 
-  /// Some made room that the others could not take: back where they were.
+  /// Moves vertices back that made room which others could not use.
   void take_back() {
     run(
         went_out_.size(), [&](std::size_t i) { return went_out_[i].first; }, always,
@@ -139,7 +141,7 @@ class Tightener {
         });
   }
 
-  /// A vertex that could not move waits until its star has changed.
+  /// Moves each vertex alone. One that could not move waits until its star has changed.
   void move_each() {
     alone_ = true;
     run(
@@ -151,8 +153,9 @@ class Tightener {
 
   static bool always(std::size_t) { return true; }
 
-  /// Steps 0 to n - 1, of vertex_of(i), which are free, or else not wanted. Those that are wanted are planned by
-  /// plan(planner, i, plan): one after the other, or each in a wave with all after it that leave it alone.
+  /// Does the wanted steps among 0 to n - 1; step i is at vertex_of(i). A step is wanted if wants(i) and if its vertex
+  /// is free. Without waves, plan(planner, i, plan) plans them one after the other. With waves, the steps of a wave do
+  /// not touch each other's faces, and later ones wait.
   template <class VertexOf, class Wants, class Plan>
   void run(std::size_t n, const VertexOf& vertex_of, const Wants& wants, const Plan& plan) {
     if (!waves_) {
@@ -173,7 +176,7 @@ class Tightener {
     finish_run();
   }
 
-  /// Moves what can be in a wave from waiting_ to steps_, and leaves out what is not wanted.
+  /// Moves the steps that the next wave can take from waiting_ to steps_, and drops those that are not wanted.
   template <class VertexOf, class Wants>
   void choose(const VertexOf& vertex_of, const Wants& wants) {
     begin_wave();
@@ -202,7 +205,7 @@ class Tightener {
                        [&](StepPlanner& planner, std::size_t k) { plan(planner, steps_[k], plans_[k]); });
   }
 
-  /// What is in the way of another one waits for the next wave.
+  /// Makes the steps of a wave. A step that another one is in the way of waits for the next wave.
   void make_wave() {
     later_.clear();
     for (std::size_t k = 0; k < steps_.size(); ++k) {
@@ -242,7 +245,7 @@ class Tightener {
     }
   }
 
-  /// Of the two faces beside it.
+  /// Returns the corners of the two faces beside the edge.
   [[nodiscard]] std::array<VertexId, 4> corners_of(HalfEdgeId h) const {
     return {mesh_.from(h), mesh_.to(h), mesh_.opposite(h), mesh_.opposite(mesh_.twin(h))};
   }
@@ -260,19 +263,21 @@ class Tightener {
   const TightenParams& params_;
   TightenCounts& counts_;
   JointFit joint_;
-  bool alone_ = false;  // vertices move alone: they ask for contact points, and one that could not move waits
+  bool alone_ = false;  // vertices move alone: they need contact points, and one that could not move waits
   const bool waves_;
-  const bool settles_;  // contact points after each step: limits mind where the least of them are listed
+  const bool settles_;  // contact points after each step, since limits must know where the last of them are listed
   WaveClaims claims_;
   WaveBoxes boxes_;
   WaveWorkers<StepPlanner> planners_;
-  std::vector<std::size_t> waiting_, later_, steps_;  // numbers of steps; those of the wave
-  std::vector<StepPlan> plans_;                       // of the steps of the wave
+  std::vector<std::size_t> waiting_, later_, steps_;  // numbers of steps; steps_: those of the wave
+  std::vector<StepPlan> plans_;                       // for each step of the wave
   StepPlan plan_;
-  std::vector<std::pair<double, VertexId>> order_;           // by growth
+  std::vector<std::pair<double, VertexId>> order_;           // sorted by growth
   std::vector<std::pair<VertexId, LatticeCoord>> went_out_;  // each with its place before
-  std::uint64_t changes_ = 1, flipped_at_ = 0;               // moves and flips made so far; before the last flips
-  std::vector<std::uint64_t> changed_at_, stuck_at_;  // per vertex: changes made when it changed, when it was tried
+  // Number of moves and flips made so far; that number at the last flips.
+  std::uint64_t changes_ = 1, flipped_at_ = 0;
+  // For each vertex: changes_ when it changed, and when it was tried.
+  std::vector<std::uint64_t> changed_at_, stuck_at_;
 };
 
 }  // namespace
@@ -293,7 +298,7 @@ TightenCounts tighten_on(ProxyEditor& editor, const TightenParams& params) {
 
 LatticeMesh tighten(ProxyEditor& editor, const GridFrame& frame, const TightenParams& params, TightenCounts& counts) {
   HalfEdgeMesh before = editor.mesh();
-  erase_inner_shells(before, editor.inwards(), &editor.sense());  // those of collapses with the same editor
+  erase_inner_shells(before, editor.inwards(), &editor.sense());  // shells of collapses with the same editor
   counts = tighten_on(editor, params);
   editor.erase_inner_shells();
   counts.volume_before = volume_of(before);

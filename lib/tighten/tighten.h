@@ -4,17 +4,18 @@
 #include "lib/simplify/regions.h"
 #include "lib/tighten/proxy_editor.h"
 
-/// Tightening: vertex moves and edge flips that lower the proxy's volume while everything in `enclosed` stays inside
-/// and the proxy stays embedded. Simplification under constraints against its own faces can only grow; this takes the
-/// growth back.
+/// Tightens a proxy: moves vertices and flips edges to lower its volume, while everything in `enclosed` stays inside
+/// and the proxy stays embedded. Simplification that is checked only against its own faces must grow; tightening
+/// removes that growth.
 namespace bp {
 
 struct TightenParams : ShapeLimits {
-  int sweeps = 4;            ///< at most, that move all vertices together
-  int final_sweeps = 3;      ///< then, at most, that move each vertex as far as it goes alone
+  int sweeps = 4;            ///< most sweeps that move all vertices together
+  int final_sweeps = 3;      ///< most sweeps afterwards that move each vertex as far as it goes alone
   double least_gain = 5e-4;  ///< sweeps of a kind end when one gains less than this share of the volume
-  bool stops_early = false;  ///< no single vertices, where the last of the first sweeps gained less than that
-  double volume = 0;         ///< the volume for that, lattice units cubed; 0: of the mesh, which is whole then
+  bool stops_early = false;  ///< vertices do not move alone if the last of the first sweeps gained less than that
+  /// The volume for that share, lattice units cubed; 0: that of the mesh, which must be whole.
+  double volume = 0;
   std::uint64_t faces_per_region = kFacesPerRegion;  ///< as in SimplifyParams
 };
 
@@ -23,20 +24,21 @@ struct TightenCounts {
   double volume_before = 0, volume_after = 0;  ///< lattice units cubed
 };
 
-/// Lattice units cubed.
+/// Returns the volume of the mesh, lattice units cubed.
 [[nodiscard]] double volume_of(const HalfEdgeMesh& mesh);
 
-/// Tightens the mesh of the editor on the way to something else: it may come out larger, where vertices made room that
-/// others could not take and cannot go back themselves.
+/// Tightens an editor's mesh that is changed further afterwards. It may come out larger, since some vertices make room
+/// that others cannot use, and cannot go back themselves.
 TightenCounts tighten_on(ProxyEditor& editor, const TightenParams& params);
 
-/// The mesh of the editor, tightened; as it was if that made it larger: sweeps keep a margin of less than a lattice
-/// unit. Deterministic. Every step is checked exactly before it is taken. Cost: a few exact tests per vertex and
-/// sweep.
+/// Returns the tightened mesh of the editor. Returns it unchanged if the result would be larger, since sweeps keep a
+/// margin of less than a lattice unit. Deterministic. Every step is checked exactly before it is made. Cost: a few
+/// exact tests for each vertex and sweep.
 [[nodiscard]] LatticeMesh tighten(ProxyEditor& editor, const GridFrame& frame, const TightenParams& params,
                                   TightenCounts& counts);
 
-/// `proxy`: closed, 2-manifold, embedded, enclosing. The result has the same properties and at most the same volume.
+/// Tightens `proxy`, which must be closed, 2-manifold, embedded and enclosing. The result has the same properties and
+/// at most the same volume.
 [[nodiscard]] LatticeMesh tighten(const LatticeMesh& proxy, const Enclosed& enclosed, const TightenParams& params,
                                   TightenCounts& counts);
 

@@ -17,10 +17,8 @@ namespace {
 class MeshSource final : public TriangleSource {
  public:
   explicit MeshSource(const LatticeMesh& mesh) : triangles_(drawable_world_triangles(mesh)) {}
-  [[nodiscard]] std::uint64_t bytes() const {
-    return 2 * triangles_.size() * sizeof(TriangleD);
-    // Two copies: here, and as they are read.
-  }
+  // There are two copies: here, and as they are read.
+  [[nodiscard]] std::uint64_t bytes() const { return 2 * triangles_.size() * sizeof(TriangleD); }
   bool read(std::vector<TriangleD>& out) override {
     out.clear();
     if (counts_.triangles > 0) return false;

@@ -4,7 +4,8 @@
 
 namespace bp {
 
-/// Each phase has patches around the middles of what those before it leave between theirs.
+/// Makes the patches of each phase. The patches of a phase have their middles at vertices whose faces no earlier phase
+/// has put into a block.
 void FaceBlocks::build(const std::vector<VertexId>& vertices) {
   patches_.resize(mesh_.vertex_capacity());
   for (auto& of_phases : patches_) of_phases.fill(kNone);
@@ -21,7 +22,8 @@ void FaceBlocks::build(const std::vector<VertexId>& vertices) {
   }
 }
 
-/// They grow at the same pace from vertices far apart. What these do not reach joins the patch before it in space.
+/// Grows the patches of a phase at the same pace from vertices far apart. A vertex that they do not reach joins the
+/// patch of the vertex before it in space.
 void FaceBlocks::set_patches(std::size_t phase, const std::vector<VertexId>& along,
                              const std::vector<VertexId>& vertices) {
   std::vector<VertexId> from;
@@ -55,7 +57,7 @@ void FaceBlocks::grow(std::size_t phase, std::vector<VertexId>& from) {
   }
 }
 
-/// Of the first phase in which its corners have a patch in common.
+/// Returns the block of the first phase in which the face's corners have a patch in common.
 std::size_t FaceBlocks::of(FaceId f) const {
   if (!built()) return 0;
   const auto& a = patches_[mesh_.from(3 * f)];

@@ -5,24 +5,25 @@
 #include "lib/core/parallel.h"
 #include "lib/mesh/half_edge_mesh.h"
 
-/// The faces of a mesh in blocks, for what changes something at their corners: those of a phase have no vertex in
-/// common, so they can be taken at the same time.
+/// Sorts the faces of a mesh into blocks, for work that changes data at their corners. Faces in different blocks of one
+/// phase have no common vertex, so these blocks are worked on at the same time.
 namespace bp {
 
 class FaceBlocks {
  public:
-  /// Keeps a reference. One block, until build().
+  /// Keeps a reference. Until build() there is one block.
   explicit FaceBlocks(const HalfEdgeMesh& mesh) : mesh_(mesh) {}
 
-  /// For the mesh as it is; when its edges flip, the blocks are those of the same patches of vertices, and as good for
-  /// all but a few faces. `vertices`: the living ones, those near in space near each other. Linear.
+  /// Makes the blocks for the present mesh. Blocks belong to patches of vertices: they stay valid when edges flip, and
+  /// then only few more faces fall into the last block. `vertices`: the living vertices, with neighbours in space near
+  /// each other. Linear.
   void build(const std::vector<VertexId>& vertices);
   [[nodiscard]] bool built() const { return !patches_.empty(); }
 
   [[nodiscard]] std::size_t count() const { return built() ? kPhases * kPerPhase + 1 : 1; }
-  /// The last one is for faces that are in none of a phase: few.
+  /// Returns the block of a face. The last block holds the few faces that no phase can take.
   [[nodiscard]] std::size_t of(FaceId f) const;
-  /// act(block) for all of them, phase after phase. Parallel.
+  /// Calls act(block) for all blocks, phase after phase, and those of a phase in parallel.
   template <class Act>
   void for_each(const Act& act) const {
     for (std::size_t first = 0; first + 1 < count(); first += kPerPhase)
@@ -38,7 +39,7 @@ class FaceBlocks {
   void grow(std::size_t phase, std::vector<VertexId>& from);
 
   const HalfEdgeMesh& mesh_;
-  std::vector<std::array<std::uint8_t, kPhases>> patches_;  // per vertex: the one that it is in, in each phase
+  std::vector<std::array<std::uint8_t, kPhases>> patches_;  // for each vertex, its patch in each phase
 };
 
 }  // namespace bp

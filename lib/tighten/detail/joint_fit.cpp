@@ -1,7 +1,7 @@
 // Source: [Hil57], coordinate ascent on the dual: each constraint in turn takes the force that it needs, given the
 // forces of the others. The stiffness is a multiple of the identity at each vertex, so a force on a face shifts its
-// corners at once and nothing has to be factorised. Conjugate gradients on penalties did not converge: which points
-// press changes with each step.
+// corners at once, and no matrix is factorised. Conjugate gradients on penalties did not converge, since each step
+// changes which points press.
 #include "lib/tighten/detail/joint_fit.h"
 
 #include <algorithm>
@@ -17,12 +17,12 @@ namespace bp {
 namespace {
 
 constexpr double kJointMargin = 0.6;  // lattice units over a point: rounding a corner moves it by up to 0.87
-constexpr double kDeepest = 2;        // lattice units: a point that much above its face is under another one
-constexpr double kRim = 8;      // lattice units: a point so near to the rim of its face is under those beside it, too
-constexpr double kLongest = 2;  // times the unhindered step: how far forces may push
+constexpr double kDeepest = 2;        // lattice units: a point that is so much above its face lies under another one
+constexpr double kRim = 8;      // lattice units: a point so near to the rim of its face lies under the neighbours, too
+constexpr double kLongest = 2;  // times the unhindered step: the largest shift that forces may cause
 constexpr int kRounds = 8;      // over all rows
-constexpr int kRoundsOn = 6;    // where it begins with the forces of another one
-constexpr int kPressingRounds = 8;    // after each, over those with a force
+constexpr int kRoundsOn = 6;    // the same if it begins with the forces of an earlier fit
+constexpr int kPressingRounds = 8;    // after each round, over the rows with a force
 constexpr double kLeastGive = 1e-30;  // so that its inverse is a float
 constexpr std::int64_t kFacesAtOnce = 128, kVerticesAtOnce = 512;
 
@@ -61,7 +61,8 @@ void JointFit::solve(double reach) {
   }
 }
 
-/// Along a curve through space, so that the vertices of a block are neighbours in memory, too.
+/// Gives each living vertex a place along a curve through space, so that the vertices of a block are neighbours in
+/// memory, too.
 void JointFit::set_places() {
   place_.assign(shift_.size(), 0);
   living_.clear();
@@ -132,7 +133,7 @@ void JointFit::relax(Block& block) {
   }
 }
 
-/// Where vertices go with nothing in their way: `reach` mean spokes against the gradient of the volume.
+/// Sets the shifts of vertices that nothing hinders: `reach` times the mean spoke, against the gradient of the volume.
 void JointFit::set_free_shifts(double reach) {
   const std::size_t n = mesh_.vertex_capacity();
   shift_.assign(n, {});
@@ -157,7 +158,7 @@ void JointFit::set_free_shift(VertexId v, double reach) {
     ++count;
   });
   const double size = length(gradient_[v]);
-  if (!(size > 0)) return;  // no way in
+  if (!(size > 0)) return;  // the volume has no direction to fall in
   reach_[v] = reach * spokes / count;
   softness_[v] = reach_[v] / size;
   shift_[v] = -softness_[v] * gradient_[v];
@@ -186,7 +187,8 @@ void JointFit::add_rows(FaceId f, std::vector<Block>& to) const {
   }
 }
 
-/// A point at a corner or an edge of its face lies under the others there, too: a convex edge is held from both sides.
+/// Adds rows for the neighbours of a face if the point lies near a corner or an edge: it lies under the neighbours,
+/// too, so that a convex edge is held from both sides.
 void JointFit::add_rows_beside(const Facet& facet, std::uint32_t point, std::vector<Block>& to) const {
   const Vec3d& p = contacts_[point];
   const auto is_at = [](const Vec3d& off, double scale) { return dot(off, off) <= kRim * kRim * scale; };
@@ -217,9 +219,9 @@ void JointFit::add_row(const Facet& facet, std::uint32_t point, std::vector<Bloc
   const double height = dot(u, gradient[0]) / facet.area;
   if (height < -kDeepest || height > kLongest * facet.reach) return;
   double least = kJointMargin - height;
-  if (facet.held) least = std::min(least, 0.0);  // near a corner that stays, others would have to go far for a margin
+  if (facet.held) least = std::min(least, 0.0);  // a locked corner would send the others far for a margin
   std::array<Vec3d, 3> g;
-  double give = 0;  // how much the height rises by a unit of force
+  double give = 0;  // rise of the height by a unit of force
   for (std::size_t k = 0; k < 3; ++k) {
     g[k] = (1 / facet.area) * gradient[k];
     give += facet.softness[k] * dot(g[k], g[k]);

@@ -14,15 +14,17 @@ namespace bp {
 
 namespace {
 
-constexpr double kMostLeft = 0.9;       // of the area: what is flat or round keeps more
-constexpr std::size_t kMostFaces = 32;  // at a spike
+// Largest share of the area that may be left: where it is flat or round, more is left.
+constexpr double kMostLeft = 0.9;
+constexpr std::size_t kMostFaces = 32;  // at the vertex of a spike
 constexpr int kFallRounds = 4;
 
-/// Volume that the proxy in its skin loses by a cut along `h`, the edge of a face across from the spike. The faces that
-/// go make room for a fan around the third neighbour.
+/// Returns the volume that the proxy with its skin loses by a cut along `h`, the edge of a face across from the spike.
+/// The faces that vanish are replaced by a fan around the third neighbour.
 double gain_of_cut(const HalfEdgeMesh& mesh, HalfEdgeId h) {
   const HalfEdgeId t = mesh.twin(h);
-  const std::array<FaceId, 2> faces{HalfEdgeMesh::face(h), HalfEdgeMesh::face(t)};  // the others meet the neighbour
+  // The other faces meet the third neighbour.
+  const std::array<FaceId, 2> faces{HalfEdgeMesh::face(h), HalfEdgeMesh::face(t)};
   const LatticeCoord &a = mesh.position(mesh.from(h)), &b = mesh.position(mesh.to(h)),
                      &spike = mesh.position(mesh.opposite(h)), &beyond = mesh.position(mesh.opposite(t)),
                      &third = mesh.position(mesh.opposite(mesh.twin(HalfEdgeMesh::next(h))));
@@ -32,7 +34,7 @@ double gain_of_cut(const HalfEdgeMesh& mesh, HalfEdgeId h) {
   return kSkin * (before - after) - double(fan_gain6(mesh, faces, third)) / 6;
 }
 
-/// Best first.
+/// Cuts off a spike, by the best cut that is allowed.
 bool cut(ProxyEditor& editor, VertexId v) {
   const HalfEdgeMesh& mesh = editor.mesh();
   std::array<std::pair<double, HalfEdgeId>, 3> rim{};
@@ -45,7 +47,7 @@ bool cut(ProxyEditor& editor, VertexId v) {
   return std::any_of(rim.begin(), rim.end(), [&](const auto& c) { return c.first < 0 && editor.cut(c.second); });
 }
 
-/// Vertices that go to the place of a neighbour. A fin has no volume, but two sides: a skin around it has.
+/// Moves vertices to the place of a neighbour. A fin has no volume, but its skin has, since a fin has two sides.
 class Falls {
  public:
   explicit Falls(ProxyEditor& editor) : editor_(editor), mesh_(editor.mesh()) {}
@@ -77,7 +79,7 @@ class Falls {
                        [&](const Fall& f) { return editor_.collapse(f.edge, mesh_.position(mesh_.to(f.edge))); });
   }
 
-  /// Those that take some of the area away, and volume of the proxy in its skin; best first.
+  /// Lists the falls that remove a share of the area, and lower the volume of the proxy with its skin; best first.
   void find_falls(VertexId v) {
     falls_.clear();
     const double skin = kSkin * area(v, mesh_.position(v));
@@ -93,7 +95,7 @@ class Falls {
               [](const Fall& a, const Fall& b) { return std::tie(b.gain, a.edge) < std::tie(a.gain, b.edge); });
   }
 
-  /// Of the faces of v, if it were at `p`.
+  /// Returns the area that the faces of v would have if v were at `p`.
   [[nodiscard]] double area(VertexId v, const LatticeCoord& p) const {
     double sum = 0;
     mesh_.for_each_outgoing(
@@ -103,7 +105,7 @@ class Falls {
 
   ProxyEditor& editor_;
   const HalfEdgeMesh& mesh_;
-  std::vector<FaceId> faces_;  // of the vertex at hand
+  std::vector<FaceId> faces_;  // of the vertex that may fall
   std::vector<Fall> falls_;
 };
 

@@ -3,12 +3,13 @@
 
 namespace bp {
 
-/// Takes out vertices that stand far out with next to no volume, as the steps of voxels leave them on what is slanted.
-/// Fits of the volume jam there.
+/// Removes vertices that stand far out with almost no volume. The steps of voxels leave them on slanted sides, where
+/// fits of the volume jam. There are two ways, each taken only where it lowers the volume of the proxy with a thin
+/// skin:
 ///   falls  a vertex goes to the place of a neighbour
 ///   cuts   a vertex of three faces beside an edge is cut off; a fall would leave needles
-/// Each where it lowers the volume of the proxy in a thin skin.
-/// Returns how many vertices went. Deterministic. Cost: O(vertices), and some exact tests for each that stands out.
+/// Returns the number of removed vertices. Deterministic. Cost: O(vertices), and some exact tests for each that stands
+/// out.
 std::uint64_t drop_spikes(ProxyEditor& editor);
 
 }  // namespace bp

@@ -6,7 +6,7 @@ namespace bp {
 
 namespace {
 
-constexpr double kReach = 0.5;  // of the mean spoke: how far a vertex may move at once, alone
+constexpr double kReach = 0.5;  // of the mean spoke: the largest step of a vertex that moves alone
 constexpr int kAvoidRounds = 4;
 
 }  // namespace
@@ -30,7 +30,8 @@ void StepPlanner::begin(VertexId v, StepPlan& plan) {
   plan.learned.clear();
 }
 
-/// What is in the way becomes contact points for the next joint fit; this time the vertex goes a part of its way.
+/// Tries to move a vertex along x. If something is in the way, it becomes contact points for the next joint fit, and
+/// the vertex goes a part of the way.
 void StepPlanner::approach(VertexId v, const Vec3d& x, StepPlan& plan) {
   begin(v, plan);
   if (rounded(x) == LatticeCoord{} || try_move(x)) return;
@@ -72,7 +73,7 @@ void StepPlanner::count(ProxyEditor& editor) {
   check_.counts = {};
 }
 
-/// Less of the way; and where limits may mind a step aside, straight inwards.
+/// Tries shorter steps along x. With limits, which may refuse a step aside, it also tries steps straight inwards.
 void StepPlanner::shorten(const Vec3d& x, double reach) {
   for (double share = 0.5; share > 0.1 && worth_trying(share * x); share /= 2) {
     if (try_move(share * x)) return;
@@ -97,7 +98,7 @@ bool StepPlanner::try_move(const Vec3d& x) {
   return true;
 }
 
-/// From what stood in the way of a move by x; false if the fit knows no way around it.
+/// Learns contact points from the obstacle of a move by x. Returns false if the fit knows no way around it.
 bool StepPlanner::learns(const Vec3d& x) {
   if (!fit_.avoid(x, *check_.blocker(), place())) return false;
   plan_->learned.insert(plan_->learned.end(), fit_.obstacles().begin(), fit_.obstacles().end());
@@ -108,7 +109,7 @@ Vec3d StepPlanner::place() const {
   return to_double(mesh_.position(vertex_) - editor_.contacts().origin());
 }
 
-/// The star as a fan about the vertex; its mean spoke.
+/// Sets the rim of the fit from the vertex's star. Returns the mean spoke.
 double StepPlanner::gather_rim() {
   const LatticeCoord p = mesh_.position(vertex_);
   fit_.clear();

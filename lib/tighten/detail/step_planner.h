@@ -7,35 +7,36 @@
 
 namespace bp {
 
-/// What was found for a vertex, or an edge.
+/// A planned change at a vertex or an edge.
 struct StepPlan {
   VertexId vertex = kNoId;
   HalfEdgeId edge = kNoId;
   std::optional<LatticeCoord> to;  ///< where the vertex goes
-  bool flips = false;              ///< the edge
+  bool flips = false;              ///< the edge is flipped
   std::vector<Vec3d> learned;      ///< contact points, relative to the vertex
-  EditBoxes boxes;                 ///< of the new faces, if there are any
+  EditBoxes boxes;                 ///< of the new faces; empty if nothing changes
 
   [[nodiscard]] bool changes_mesh() const { return to.has_value() || flips; }
   void make(ProxyEditor& editor) const;
 };
 
-/// Finds where a vertex can go, or whether an edge can be flipped, and changes nothing. Planners of one editor may work
-/// at the same time.
+/// Plans where a vertex can go, or whether an edge can be flipped, without changing anything. Planners of one editor
+/// may work at the same time.
 class StepPlanner {
  public:
-  /// `any_limits`: shorter ways are tried straight inwards, too: limits may mind a step aside.
+  /// `any_limits`: the proxy has limits, which may refuse a step aside, so shorter steps straight inwards are tried,
+  /// too.
   StepPlanner(const ProxyEditor& editor, bool any_limits);
 
-  /// As far along x as is allowed of the whole way, a half, a quarter.
+  /// Plans to move v by x, by a half or by a quarter of it: the first that is allowed.
   void approach(VertexId v, const Vec3d& x, StepPlan& plan);
-  /// To where the star has the least volume over its contact points, or a part of the way.
+  /// Plans to move v to the place where its star has the least volume over its contact points, or a part of the way.
   void find_place(VertexId v, StepPlan& plan);
-  /// Along x, if that lowers the volume.
+  /// Plans to move v by x, if that lowers the volume.
   void go_back(VertexId v, const Vec3d& x, StepPlan& plan);
   void flip(HalfEdgeId h, StepPlan& plan);
 
-  /// Tells the editor what its checks counted.
+  /// Adds to the editor's counts what its checks counted.
   void count(ProxyEditor& editor);
 
  private:

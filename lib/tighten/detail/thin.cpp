@@ -13,7 +13,8 @@ namespace bp {
 
 namespace {
 
-constexpr double kMergeReach = 0.5;  // of the mean spoke: how far the merged vertex may leave the edge's middle
+// The largest distance of the merged vertex from the edge's middle, in mean spokes.
+constexpr double kMergeReach = 0.5;
 constexpr int kMergeRounds = 4;
 constexpr std::size_t kCostsPerThread = 8;
 
@@ -22,24 +23,25 @@ struct Candidate {
   double cost;   // volume added
 };
 
-/// What was found for an edge.
+/// A planned collapse of an edge.
 struct ThinPlan {
   enum class Outcome { refused, too_dear, allowed };
   Outcome outcome = Outcome::refused;
-  double cost = 0;  // if it is too dear; then this is only an estimate, or not
+  double cost = 0;  // if it is too dear: the cost, an estimate if `stale`
   bool stale = false;
-  LatticeCoord to;  // if it is allowed: where its vertex goes
-  EditBoxes boxes;  // and where the new faces lie
+  LatticeCoord to;  // if it is allowed: the new place of its vertex
+  EditBoxes boxes;  // if it is allowed: the boxes of the new faces
 };
 
-/// What a collapse may cost: more than both is to wait for its turn.
+/// The costs that decide whether a collapse waits. It waits if it costs more than its own entry and more than the next
+/// one.
 struct Turn {
-  double own;   // cost expected
-  double next;  // of the cheapest of those that wait; none: infinite
+  double own;   // the expected cost
+  double next;  // cost of the cheapest collapse that waits; infinite if none waits
   double most;
 };
 
-/// Plans collapses, and changes nothing. Planners of one editor may work at the same time.
+/// Plans collapses without changing anything. Planners of one editor may work at the same time.
 class ThinPlanner {
  public:
   explicit ThinPlanner(const ProxyEditor& editor) : editor_(editor), mesh_(editor.mesh()), check_(editor.new_check()) {}
@@ -49,7 +51,7 @@ class ThinPlanner {
     return c ? std::optional(c->cost) : std::nullopt;
   }
 
-  /// `stale`: the cost expected is an estimate, which may be too low.
+  /// Plans the collapse of h. `stale`: its expected cost is an estimate, which may be too low.
   void plan(HalfEdgeId h, bool stale, const Turn& turn, ThinPlan& plan) {
     plan.outcome = ThinPlan::Outcome::refused;
     plan.stale = stale;
@@ -65,7 +67,7 @@ class ThinPlanner {
     }
   }
 
-  /// Adds what it counted, and clears that.
+  /// Adds its counts to the editor's and to `counts`, and clears them.
   void count(ProxyEditor& editor, SimplifyCounts& counts) {
     counts.solved += counts_.solved;
     counts.refused += counts_.refused;
@@ -76,7 +78,7 @@ class ThinPlanner {
   }
 
  private:
-  /// For at most `most`.
+  /// Finds a place for the merged vertex where the collapse costs at most `most`.
   void find_place(HalfEdgeId h, Candidate c, double most, ThinPlan& plan) {
     const LatticeCoord p = mesh_.position(mesh_.from(h));
     const Vec3d shift = to_double(p - editor_.contacts().origin());
@@ -125,7 +127,7 @@ class ThinPlanner {
     return Candidate{*x, fit_.volume(*x) - before};
   }
 
-  /// The fan that would replace both stars; the volume under them now.
+  /// Sets the fit to the fan that would replace both stars. Returns the volume under them now.
   double gather(HalfEdgeId h) {
     const HalfEdgeId t = mesh_.twin(h);
     const LatticeCoord origin = mesh_.position(mesh_.from(h));
@@ -133,7 +135,7 @@ class ThinPlanner {
     middle_ = 0.5 * w;
     size_ = 0;
     fit_.clear();
-    double before = 0;  // the faces at from(h), the origin, add none
+    double before = 0;  // the faces at from(h) add nothing, since it is the origin
     std::uint32_t sector = 0, sector_of_t = 0;
     for (const HalfEdgeId spoke : {h, t}) {
       if (spoke == t) sector_of_t = sector;
@@ -146,7 +148,8 @@ class ThinPlanner {
       }
     }
     size_ /= double(sector);
-    add_points(HalfEdgeMesh::face(h), origin, 0);  // the faces that vanish lie under the spokes to their far corners
+    // The faces that vanish lie under the spokes to their opposite corners.
+    add_points(HalfEdgeMesh::face(h), origin, 0);
     add_points(HalfEdgeMesh::face(t), origin, sector_of_t);
     return before;
   }
@@ -161,7 +164,7 @@ class ThinPlanner {
   EditCheck check_;
   SimplifyCounts counts_;
   FanFit fit_;
-  Vec3d middle_{};   // of the edge solved last, from its start
+  Vec3d middle_{};   // of the edge solved last, relative to its start
   double size_ = 0;  // mean spoke of its fan
 };
 
@@ -268,7 +271,7 @@ class Thinner final : public ThinOrder {
     renewed_.push_back({e, ++serial_[e]});
   }
 
-  /// New entries for the edges at u; those one step further out keep theirs as an estimate.
+  /// Makes new entries for the edges at u. The edges one step further out keep their entries as estimates.
   void renew_around(VertexId u) {
     mesh_.for_each_outgoing(u, [&](HalfEdgeId g) {
       renew(g);
@@ -300,10 +303,10 @@ class Thinner final : public ThinOrder {
   std::vector<char> stale_;            // its entry's cost is an estimate
   std::vector<char> queued_;           // it has a valid entry
   CostQueue queue_;
-  // Of the wave:
-  std::vector<ThinPlan> plans_;               // of the members
-  std::vector<Renewal> renewed_;              // edges that cost something else now
-  std::vector<std::optional<double>> costs_;  // of these
+  // The next members belong to the present wave.
+  std::vector<ThinPlan> plans_;               // for each member
+  std::vector<Renewal> renewed_;              // edges whose cost has changed
+  std::vector<std::optional<double>> costs_;  // for each renewed edge
 };
 
 }  // namespace

@@ -6,33 +6,35 @@
 #include "lib/simplify/simplify.h"
 #include "lib/tighten/proxy_editor.h"
 
-/// Collapses in order of the volume that each adds, its vertex put where that is least (fan_fit.h). Right for the last
-/// part of a simplification, when the proxy lies close to what it encloses: volume is then what a lost vertex costs.
+/// Collapses edges in the order of the volume that each adds, and puts the merged vertex where that volume is least
+/// (fan_fit.h). This suits the last part of a simplification, when the proxy lies close to what it encloses: there the
+/// added volume is the true cost of a lost vertex.
 namespace bp {
 
-/// Collapses of an editor's mesh, cheapest first.
+/// The collapses of an editor's mesh, cheapest first.
 class ThinOrder : public CostOrder {
  public:
-  /// To be called at the beginning, and after other changes of the mesh: all vertices may have moved, and edges
-  /// flipped, so costs are estimates, and edges without one get another chance.
+  /// Marks all costs as estimates and gives edges without a cost another chance. Call it at the beginning, and after
+  /// any other change of the mesh, in which vertices may have moved and edges flipped.
   virtual void renew() = 0;
   SimplifyCounts counts;  ///< collapses, fits and refusals
 };
 
-/// Keeps a reference. Deterministic. Cost: some ten fits and two exact tests a collapse.
+/// Makes the order. Keeps a reference. Deterministic. Cost: about ten fits and two exact tests for each collapse.
 [[nodiscard]] std::unique_ptr<ThinOrder> make_thin_order(ProxyEditor& editor);
 
-/// How many faces are to be left after stage 1, 2... kThinStages of the way from one number of faces to another: equal
-/// shares. Between stages the mesh is tightened, because what a collapse costs is known only of a tight proxy.
+/// Returns the number of faces to be left after stage 1, 2, ... kThinStages on the way from one number of faces to
+/// another; stages are equal shares. The mesh is tightened between stages, because only a tight proxy shows what a
+/// collapse costs.
 constexpr int kThinStages = 4;
 [[nodiscard]] std::uint64_t faces_after(int stage, std::uint64_t from, std::uint64_t to);
 
 /// Collapses edges of a tight proxy until `faces` are left or nothing can be collapsed. `settle`: tightens the editor's
-/// mesh; called after each stage but the last. `first_stage`: those before it were done elsewhere.
+/// mesh; called after each stage but the last. `first_stage`: the stages before it are skipped.
 [[nodiscard]] SimplifyCounts thin(ProxyEditor& editor, std::uint64_t faces, const std::function<void()>& settle,
                                   int first_stage = 1);
 
-/// Collapses each edge that adds `most` or less, until none is left. Returns its work.
+/// Collapses all edges that add at most `most` each. Returns the counts.
 [[nodiscard]] SimplifyCounts thin_free(ProxyEditor& editor, double most);
 
 }  // namespace bp

@@ -11,7 +11,7 @@ namespace bp {
 
 namespace {
 
-/// The proxy cut into regions, each with an editor.
+/// A proxy that is cut into regions, each with an editor.
 class Editors {
  public:
   Editors(Piece& whole, const Enclosed& enclosed, const TightenParams& params, int turn)
@@ -50,7 +50,7 @@ class Editors {
     return n;
   }
 
-  /// The last step: the proxy as it is now.
+  /// Puts the regions back into the proxy. Nothing may be edited afterwards.
   void put_back() {
     for_each([&](std::size_t i) {
       parts_[i]->editor.erase_turned_shells();
@@ -71,7 +71,7 @@ class Editors {
     HalfEdgeMesh mesh;
     ProxyEditor editor;
     TightenCounts tightened;
-    std::unique_ptr<ThinOrder> order;  // once it is needed
+    std::unique_ptr<ThinOrder> order;  // null until it is needed
   };
 
   template <class Body>
@@ -88,7 +88,7 @@ Piece piece_of(const LatticeMesh& proxy) {
   return {kEverywhere, proxy.vertices, proxy.triangles, {}};
 }
 
-/// Without the shells that bound nothing any more; returns the volume.
+/// Moves the piece into the proxy, without shells that bound nothing any more. Returns its volume.
 double take(Piece&& whole, bool inwards, LatticeMesh& proxy) {
   HalfEdgeMesh mesh(std::move(whole.vertices), whole.triangles, kEverywhere);
   erase_inner_shells(mesh, inwards);
@@ -98,7 +98,7 @@ double take(Piece&& whole, bool inwards, LatticeMesh& proxy) {
   return volume_of(mesh);
 }
 
-/// With the cells of one turn. Adds to the counts of work; volume_after is new.
+/// Tightens the regions that the cells of one turn cut. Adds to the counts of work, and sets volume_after.
 void tighten_turn(LatticeMesh& proxy, const Enclosed& enclosed, const TightenParams& params, int turn,
                   TightenCounts& counts) {
   Piece whole = piece_of(proxy);
@@ -130,7 +130,7 @@ void thin_regions(LatticeMesh& proxy, const Enclosed& enclosed, std::uint64_t fa
   counts = {};
   counts.faces_in = counts.faces_flat = whole.triangles.size();
   static_assert(kThinStages % 2 == 0);
-  for (int stage = 1; stage <= kThinStages; stage += 2) {  // two with each set of cells
+  for (int stage = 1; stage <= kThinStages; stage += 2) {  // each set of cells serves two stages
     Editors editors(whole, enclosed, settle, stage / 2 + 1);
     const std::uint64_t at_first = whole.triangles.size();
     for (const int half : {stage, stage + 1}) {
@@ -150,7 +150,7 @@ void thin_regions(LatticeMesh& proxy, const Enclosed& enclosed, std::uint64_t fa
 void tighten_regions(LatticeMesh& proxy, const Enclosed& enclosed, const TightenParams& params, TightenCounts& counts) {
   LatticeMesh tight = proxy;
   TightenParams first = params, second = params;
-  first.final_sweeps = std::min(params.final_sweeps, 1);  // for those that are locked in the second turn
+  first.final_sweeps = std::min(params.final_sweeps, 1);  // for the vertices that are locked in the second turn
   second.sweeps = 1;
   counts = counts_before(proxy);
   tighten_turn(tight, enclosed, first, 0, counts);
