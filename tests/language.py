@@ -5,8 +5,8 @@ manuals is what --help prints.
 Prints, for each kind of text and for each page, the number of sentences, the median of their words, the share above 40
 words, and the words of a page. --long: also the sentences above 40 words, and words to avoid, with their files. --bar:
 exit status 1 unless each kind keeps to BARS, no manual has more than 1,200 words, no page, message or comment has words to avoid, and no
-sentence of a comment begins with a line of language_starts.txt. Rooms of UNFINISHED may have such sentences; their number is printed. Code
-blocks, tables and headings do not count. Comments behind code are labels: sentences begin with a capital letter."""
+sentence of a comment begins with a line of language_starts.txt. Code blocks, tables and headings do not count. Comments behind code are
+labels: sentences begin with a capital letter."""
 import re
 import subprocess
 import sys
@@ -16,9 +16,6 @@ LONG, MANUAL = 40, 1200
 BARS = {"pages": (12, 1.0), "comments": (12, 1.0), "messages": (12, 1.0)}  # median, percent of long ones
 AVOID = re.compile(r"\b(hangs? on|stands? off|is said|are said|comes to|whatever the|is none(?! of))\b", re.I)
 AVOID_IN_COMMENTS = re.compile(r"\b(hangs? on|stands? off|is said|are said|comes to|comes past|is drawn to|for want of|is not; empty)\b", re.I)
-
-# Rooms whose comments are not yet in whole sentences. Take out a room when it is done.
-UNFINISHED = ["lib/check"]
 
 
 def sentences(text, name=""):
@@ -78,24 +75,17 @@ def comment_sentences(text):
 
 
 def bad_starts(root, files):
-    """Prints the sentences that begin with a line of language_starts.txt, and how many each unfinished room has. True if a finished room
-    has one."""
+    """Prints the sentences that begin with a line of language_starts.txt. True if there is one."""
     starts = [line for line in (root / "tests/language_starts.txt").read_text(encoding="utf-8").split("\n") if line and line[0] != "#"]
     pattern = re.compile("(?:" + "|".join(re.escape(s) for s in starts) + r")(?:(?<=,)|\b)")
-    left, bad = dict.fromkeys(UNFINISHED, 0), False
+    bad = False
     for name in files:
         if not name.endswith((".h", ".cpp", ".cu", ".cuh", ".ts")):
             continue
-        room = next((r for r in UNFINISHED if name.startswith(r + "/")), None)
         for line, sentence in comment_sentences((root / name).read_text(encoding="utf-8")):
-            if not pattern.match(sentence):
-                continue
-            if room:
-                left[room] += 1
-            else:
+            if pattern.match(sentence):
                 print(f"{name}:{line}: name the subject first: {sentence[:80]}")
                 bad = True
-    print("sentences without a subject in unfinished rooms: " + ", ".join(f"{r} {n}" for r, n in left.items()))
     return bad
 
 

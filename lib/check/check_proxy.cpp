@@ -20,7 +20,7 @@ namespace bp {
 
 namespace {
 
-/// Volume, side lengths (each triangle's three), least angle.
+/// Measures the volume, the lengths of sides (three for each triangle) and the least angle.
 void measure(const WeldedMesh& mesh, CheckReport& report) {
   report.volume = 0;
   if (mesh.triangles.empty()) return;
@@ -44,7 +44,8 @@ void measure(const WeldedMesh& mesh, CheckReport& report) {
   report.angle_min_degrees = least_angle * 180 / M_PI;
 }
 
-/// Returns how many triangles of the scene fit the memory: twice while they are gathered, and their hierarchy.
+/// Returns how many triangles of the scene fit into the memory: two copies while they are gathered, and their
+/// hierarchy.
 std::uint64_t most_kept(const CheckOptions& options) {
   return options.scene_memory_bytes / (TriangleBvh::bytes_needed(1) + 2 * sizeof(TriangleD));
 }
@@ -72,7 +73,7 @@ void measure_distances(const Surface& surface, SceneMemory& scene, const CheckOp
   if (all_of_scene.size() <= kMostBounded) bound_largest(all_of_scene, surface.bvh(), *report.scene_to_proxy);
   TriangleSample proxy(options.distance_samples);
   std::vector<TriangleD> all;
-  for (std::size_t i = 0; i < surface.bvh().size(); ++i) {  // in an order of neighbours
+  for (std::size_t i = 0; i < surface.bvh().size(); ++i) {  // neighbours follow each other
     const TriangleBvh::Item& item = surface.bvh().item(i);
     proxy.see(item.id, item.corners);
     if (surface.bvh().size() <= kMostBounded) all.push_back(item.corners);
@@ -82,7 +83,8 @@ void measure_distances(const Surface& surface, SceneMemory& scene, const CheckOp
   if (!all.empty()) bound_largest(all, tree, *report.proxy_to_scene);
 }
 
-/// Asks again of all that was read, once it is known by how much it may be off. `cells`: null, or of the surface.
+/// Repeats the questions about what was read, once it is known by how much coordinates may be off. `cells`: cells of
+/// the surface, or null.
 void check_rounding(const WeldedMesh& mesh, const Surface& surface, const InsideCells* cells, TriangleSource& scene,
                     const CheckOptions& options, CheckReport& report) {
   const ClearanceQuestion question{report.scene_counts.rounding, report.proxy_off, options.margin_world,
@@ -122,7 +124,8 @@ void check_scene(const WeldedMesh& mesh, const Surface& surface, TriangleSource&
   measure_distances(surface, memory, options, report);
 }
 
-/// Of a voxel: voxels that a triangle touches are found with vertices that are rounded to 2^-16 (lib/voxel).
+/// The largest error of a coordinate in voxels for which hiding is decided. The voxels that a triangle touches are
+/// found with vertices that are rounded to 2^-16 (lib/voxel).
 constexpr double kMostHiddenOff = 0x1p-20;
 
 void check_scene_around(const WeldedMesh& mesh, const Surface& surface, TriangleSource& scene,

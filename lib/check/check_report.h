@@ -10,15 +10,15 @@
 #include "lib/core/coords.h"
 #include "lib/core/triangle_source.h"
 
-/// The verdict of check_proxy(): what was counted, and the first few places of each kind.
+/// The verdict of check_proxy(): the counts, and the first few places of each kind of fault.
 namespace bp {
 
-/// One place where something is wrong. What the numbers name depends on the finding: triangles or vertices of the
-/// proxy, triangles of the scene.
+/// One place of a fault. Its numbers belong to triangles or vertices of the proxy, or to triangles of the scene, as the
+/// finding says.
 struct Example {
   std::uint64_t index = 0;  ///< counted from 0, in the order of the input
-  std::uint64_t other = 0;  ///< second triangle of a pair, or other end of an edge
-  Vec3d position{};         ///< a point of it, scene units
+  std::uint64_t other = 0;  ///< number of the second triangle of a pair, or of the other end of an edge
+  Vec3d position{};         ///< a point of the place, scene units
 };
 
 struct Finding {
@@ -29,7 +29,7 @@ struct Finding {
     ++count;
     if (examples.size() < max_examples) examples.push_back(e);
   }
-  /// Appends what was found behind this.
+  /// Appends the examples of a later part of the input, and adds its count.
   void append(const Finding& f, std::size_t max_examples) {
     count += f.count;
     for (const Example& e : f.examples)
@@ -37,39 +37,41 @@ struct Finding {
   }
 };
 
-/// From all points of one surface to the nearest of another: the one-sided Hausdorff distance, and the mean of samples.
+/// The distance from all points of one surface to another: its maximum, which is the one-sided Hausdorff distance, and
+/// the mean of samples.
 struct SampledDistance {
   std::uint64_t samples = 0;
-  double max = 0, mean = 0;       ///< scene units; max: of the points looked at, a lower bound
+  double max = 0, mean = 0;       ///< scene units; max: the maximum over samples, a lower bound
   Vec3d where{};                  ///< the point that is farthest
-  std::optional<double> at_most;  ///< no point is farther, but for rounding; none: only samples were looked at
+  std::optional<double> at_most;  ///< an upper bound up to rounding; none: only samples were measured
 };
 
-/// Of a question: yes and no are exact.
+/// The answer to a question. Yes and no are exact.
 enum class Answer { proven, refuted, undecided };
 [[nodiscard]] constexpr const char* to_string(Answer a) {
   return a == Answer::proven ? "proven" : a == Answer::refuted ? "refuted" : "not decided";
 }
-/// All of several: one that is refuted refutes all of them.
+/// Returns whether all of several answers are yes: one that is refuted refutes all of them.
 [[nodiscard]] constexpr Answer all_of(Answer a, Answer b) {
   if (a == Answer::refuted || b == Answer::refuted) return Answer::refuted;
   return a == Answer::undecided ? a : b;
 }
 
 struct CheckReport {
-  // The proxy as a mesh. Vertices of equal position count as one, whatever the file's indices say.
-  std::uint64_t vertices = 0;         ///< distinct, used by a triangle
+  // The proxy as a mesh. Vertices of equal position count as one, even if the file numbers them differently.
+  std::uint64_t vertices = 0;         ///< distinct ones that a triangle uses
   std::uint64_t triangles = 0;        ///< as given
-  FaceCounts faces;                   ///< that the triangles were cut from
+  FaceCounts faces;                   ///< the faces that the triangles were cut from
   std::uint64_t merged_vertices = 0;  ///< repeated positions in the input
-  std::uint64_t components = 0;       ///< triangles connected by edges
+  std::uint64_t components = 0;       ///< sets of triangles that edges connect
   std::int64_t euler = 0;             ///< vertices - edges + triangles
-  std::optional<std::int64_t> genus;  ///< sum over components; of a closed, oriented 2-manifold only
+  std::optional<std::int64_t> genus;  ///< sum over components; only for a closed, oriented 2-manifold
 
   std::uint64_t differing = 0;  ///< IndexedMesh::differing
   Unfollowed unfollowed;        ///< IndexedMesh::unfollowed
-  Finding bad_faces;  ///< index: triangle that names a vertex that does not exist. Those that a reader left out
-                      ///< (IndexedMesh::bad_faces) are counted, and no examples
+  /// index: triangle that names a vertex that does not exist. Triangles that a reader left out (IndexedMesh::bad_faces)
+  /// are only counted.
+  Finding bad_faces;
   Finding non_finite_vertices;   ///< index: vertex with a NaN or infinite coordinate
   Finding undecidable_vertices;  ///< index: vertex outside the domain of exact predicates (1e-90 to 1e90, or 0)
   Finding degenerate_triangles;  ///< index: triangle of exactly zero area
@@ -79,58 +81,65 @@ struct CheckReport {
   Finding nonmanifold_edges;     ///< index, other: vertices of an edge with more than two triangles
   Finding nonmanifold_vertices;  ///< index: vertex whose triangles form more than one fan
   Finding self_intersections;    ///< index < other: triangles that meet beyond the corner or edge they share
-  Finding inverted_components;   ///< index: first triangle of a closed component that no other surrounds and whose
-                                 ///< signed volume is not positive
+  /// Index: first triangle of a closed component that no other surrounds and whose signed volume is not positive.
+  Finding inverted_components;
 
   // The scene against the proxy.
   bool has_scene = false;
   bool sides_decided = false;  ///< false: the proxy is not closed, so "outside" has no meaning and was not counted
-  std::string place_unknown;   ///< why it is not known where scene and proxy lie to each other; empty: it is
+  std::string place_unknown;   ///< why the places of scene and proxy are not known; empty if they are
   std::string scene_name;
   SceneCounts scene_counts;
-  std::uint64_t scene_triangles = 0;  ///< tested: those with an area
-  Bounds3d scene_bounds;              ///< of all triangles of the scene; empty if the proxy is to lie inside
+  std::uint64_t scene_triangles = 0;  ///< tested triangles, which are those with an area
+  Bounds3d scene_bounds;              ///< box of all triangles of the scene; empty if the proxy must lie inside
   Finding touching;                   ///< index: scene triangle, other: proxy triangle that it touches or crosses
   Finding outside;                    ///< index: scene triangle that touches nothing and has winding number < 1
   Finding undecidable_scene;          ///< index: scene triangle outside the domain of exact predicates
-  std::uint64_t bent = 0;       ///< polygons of the scene that are not flat, tested as the triangles that were read
-  std::uint64_t bent_open = 0;  ///< those that are not proven to be enclosed over other diagonals, too
+  std::uint64_t bent = 0;  ///< polygons of the scene that are not flat, tested as the triangles that were read
+  /// The bent polygons that are not proven to be enclosed if they are drawn over other diagonals.
+  std::uint64_t bent_open = 0;
 
-  // What was rounded as it was read (lib/core/triangle_source.h, detail/gap.h).
-  double proxy_off = 0;     ///< a point of the proxy may be off by so much, scene units
-  Finding within_rounding;  ///< index: scene triangle that is no farther from the proxy than both may be off; other:
-                            ///< such a triangle of the proxy
+  // Findings on coordinates that were rounded when they were read (lib/core/triangle_source.h, detail/gap.h).
+  double proxy_off = 0;  ///< the largest error of a point of the proxy, scene units
+  /// Index: scene triangle that is no farther from the proxy than both may be off; other: such a triangle of the proxy.
+  Finding within_rounding;
+  /// Only if coordinates were rounded: a corner of the scene is on the wrong side of the proxy, and farther from it
+  /// than both may be off.
+  bool misplaced = false;
 
-  bool misplaced = false;  ///< where anything was rounded: a corner of the scene is on the wrong side of the proxy, and
-                           ///< farther from it than both may be off
-  // The least distance between both (gap.h).
-  double margin = 0;                ///< asked for, scene units; 0: not asked
+  // The least distance between scene and proxy (gap.h).
+  double margin = 0;                ///< the distance asked for, scene units; 0: not asked
   std::optional<double> least_gap;  ///< between scene and proxy, if a margin is asked for; in doubles
   Finding too_near;                 ///< index: scene triangle, other: proxy triangle that is nearer to it
-  Finding perhaps_near;             ///< the same, where doubles do not decide
+  Finding perhaps_near;             ///< the same, if doubles cannot decide it
 
   // The proxy inside the scene (inside.h).
-  bool wants_inside = false;  ///< asked for, instead of enclosure
+  bool wants_inside = false;  ///< this is asked instead of enclosure
   bool scene_closed = false;
   Finding swallowed;        ///< index: scene triangle that lies inside the proxy
   Finding outside_parts;    ///< index: first triangle of a component that is seen from outside along an axis
-  Finding unsettled_parts;  ///< index: first triangle of a component neither seen nor known to be enclosed
+  Finding unsettled_parts;  ///< index: first triangle of a component that is neither seen nor proven to be enclosed
 
   // The proxy hidden by the scene, once openings are closed (hidden.h).
-  bool asks_hidden = false;        ///< its file says how; asked if the proxy is not proven to be strictly inside
-  HidingRecipe recipe;             ///< that its file names
+
+  /// The proxy's file says how; asked if the proxy is not proven to be strictly inside.
+  bool asks_hidden = false;
+  HidingRecipe recipe;             ///< the recipe that the proxy's file names
   std::string hidden_unknown;      ///< why the question is not decided; empty if it is decided
-  std::uint64_t hidden_bytes = 0;  ///< of memory that deciding it takes, where memory is why it is not decided
+  std::uint64_t hidden_bytes = 0;  ///< bytes that deciding it takes, if the memory is the reason why it is not decided
   Finding exposed;                 ///< index: proxy triangle; position: middle of a voxel there that is not hidden
 
   // The proxy as convex parts that may overlap (convex.h).
-  bool wants_convex = false;  ///< asked for: then self-intersections are those within parts
+  bool wants_convex = false;  ///< this is asked; then self-intersections are those within parts
   Finding nonconvex_parts;    ///< index: first triangle of a part, other: a vertex of it beyond one of its triangles
   Finding not_held;           ///< index: scene triangle with a point in no open part
-  Finding perhaps_not_held;   ///< index: scene triangle of which that is not decided: parts overlap too little there
+  /// Index: scene triangle for which it is not decided, since parts overlap too little there.
+  Finding perhaps_not_held;
 
   // Measures, in doubles.
-  std::optional<double> volume, scene_volume;  ///< cubed scene units; none if open, or not asked (SignedVolume)
+
+  /// Cubed scene units; none if a mesh is open, or if it was not asked for (SignedVolume).
+  std::optional<double> volume, scene_volume;
   double edge_min = 0, edge_mean = 0, edge_max = 0;
   double angle_min_degrees = 0;
   std::optional<SampledDistance> scene_to_proxy, proxy_to_scene;
@@ -146,7 +155,7 @@ struct CheckReport {
   [[nodiscard]] bool manifold() const { return nonmanifold_edges.count == 0 && nonmanifold_vertices.count == 0; }
   [[nodiscard]] bool embedded() const { return self_intersections.count == 0; }
   [[nodiscard]] bool outward() const { return inverted_components.count == 0; }
-  /// Strict: every scene triangle, boundary included, lies in the open interior of the proxy.
+  /// Returns whether every scene triangle with its boundary lies in the open interior of the proxy.
   [[nodiscard]] Answer enclosure() const {
     if (!has_scene || !sides_decided || !place_unknown.empty()) return Answer::undecided;
     if (touching.count + outside.count + not_held.count > 0) return surely(Answer::refuted);
@@ -154,47 +163,49 @@ struct CheckReport {
                ? Answer::undecided
                : Answer::proven;
   }
-  /// No point of the scene is nearer to the proxy's surface than `margin`.
+  /// Returns whether no point of the scene is nearer to the proxy's surface than `margin`.
   [[nodiscard]] Answer keeps_margin() const {
     if (!place_unknown.empty()) return Answer::undecided;
     if (too_near.count > 0) return surely(Answer::refuted);
     return perhaps_near.count + undecidable_scene.count > 0 || is_partial() ? Answer::undecided : Answer::proven;
   }
-  /// Whether the files hold more than was compared, or hold it elsewhere.
+  /// Returns whether the files hold more than was compared, or hold it elsewhere.
   [[nodiscard]] bool is_partial() const { return scene_counts.is_partial() || unfollowed.any(); }
-  /// A part of the proxy that is missing may enclose what seems to be outside.
+  /// Returns whether scene or proxy may lie elsewhere: a part of the proxy that was not followed may enclose what seems
+  /// to be outside.
   [[nodiscard]] bool may_lie_elsewhere() const { return scene_counts.unfollowed.moves() || unfollowed.any(); }
-  /// A NO about places is not sure where programs may draw the scene or the proxy elsewhere. Where reading has rounded
-  /// coordinates, it is sure only if a corner shows it from farther away.
+  /// Returns a NO about places if it is sure. It is not sure if programs may draw the scene or the proxy elsewhere, or
+  /// if coordinates were rounded and no corner shows it from farther away than the rounding.
   [[nodiscard]] Answer surely(Answer as_read) const {
     if (may_lie_elsewhere()) return Answer::undecided;
     return scene_counts.rounding.most + proxy_off > 0 && !misplaced ? Answer::undecided : as_read;
   }
   [[nodiscard]] bool encloses() const { return enclosure() == Answer::proven; }
   [[nodiscard]] bool convex() const { return sides_decided && nonconvex_parts.count == 0; }
-  /// Strict: the solid of the proxy meets no scene triangle, and every path to it from far away crosses the scene.
+  /// Returns whether the proxy lies strictly inside: its solid meets no scene triangle, and every path to it from far
+  /// away crosses the scene.
   [[nodiscard]] Answer insideness() const {
     if (!has_scene || !sides_decided || !place_unknown.empty()) return Answer::undecided;
     if (touching.count + swallowed.count > 0) return surely(Answer::refuted);
     if (undecidable_scene.count > 0 || is_partial())
-      return Answer::undecided;  // what is left out may be what hides a part
+      return Answer::undecided;  // the missing parts may be the ones that hide this part
     if (outside_parts.count > 0) return surely(Answer::refuted);
     return unsettled_parts.count + within_rounding.count > 0 ? Answer::undecided : Answer::proven;
   }
-  /// Part of insideness(): the solid of the proxy meets no scene triangle.
+  /// Returns whether the solid of the proxy meets no scene triangle, which is a part of insideness().
   [[nodiscard]] Answer free_of_scene() const {
     if (!place_unknown.empty()) return Answer::undecided;
     if (touching.count + swallowed.count > 0) return surely(Answer::refuted);
     return within_rounding.count > 0 || unfollowed.any() ? Answer::undecided : Answer::proven;
   }
   [[nodiscard]] bool inside() const { return insideness() == Answer::proven; }
-  /// Only if asks_hidden.
+  /// Returns whether the scene hides the proxy. Only if asks_hidden.
   [[nodiscard]] Answer hiddenness() const {
     if (!hidden_unknown.empty() || !place_unknown.empty()) return Answer::undecided;
     if (exposed.count > 0) return may_lie_elsewhere() ? Answer::undecided : Answer::refuted;
     return is_partial() ? Answer::undecided : Answer::proven;
   }
-  /// As a mesh, without the scene.
+  /// Returns whether the proxy is sound as a mesh, without the scene.
   [[nodiscard]] Answer soundness() const {
     if (empty() || bad_faces.count + non_finite_vertices.count > 0) return Answer::refuted;
     if (!sound() || !embedded() || !outward() || nonconvex_parts.count > 0) return Answer::refuted;
@@ -202,12 +213,13 @@ struct CheckReport {
         all_of(all_of(on_edges(boundary_edges.count == 0), on_edges(oriented())), on_edges(manifold()));
     return undecidable_vertices.count + differing > 0 || unfollowed.any() ? all_of(edges, Answer::undecided) : edges;
   }
-  /// Triangles at undecidable vertices are left out of all counts of edges: what is missing there is no failure then.
+  /// Returns the answer to a question about edges. Triangles at undecidable vertices are left out of all counts of
+  /// edges, so a missing triangle there is no failure.
   [[nodiscard]] Answer on_edges(bool fine) const {
     if (fine) return Answer::proven;
     return undecidable_vertices.count > 0 ? Answer::undecided : Answer::refuted;
   }
-  /// Of all that was asked.
+  /// Returns the answer to everything that was asked.
   [[nodiscard]] Answer answer() const {
     if (!has_scene) return soundness();
     const Answer place = all_of(soundness(), asks_hidden ? hiddenness() : wants_inside ? insideness() : enclosure());

@@ -6,13 +6,13 @@
 #include "lib/check/tile_finding.h"
 #include "lib/tileset/tileset.h"
 
-/// Rules for a tileset beyond its schema.
+/// Checks the rules for a tileset that its schema cannot express.
 namespace bp {
 
 /// Returns why a tile that its file calls a leaf cannot be one; empty if it can. A leaf encloses nothing, so the file's
-/// word is not enough: a leaf has no children, lies below a tile that is proven, and may move the scene by rounding
-/// only: by less than that tile's error, and by at most 2^-22 of the edge of that tile's cell. `above`: the nearest
-/// tile above that has content, or null.
+/// word is not enough. A leaf must have no children, and must lie below a tile that is proven. It may move the scene
+/// only by rounding: by less than that tile's error, and by at most 2^-22 of the edge of that tile's cell. `above`: the
+/// nearest tile above that has content, or null.
 [[nodiscard]] std::string leaf_fault(const Tile& leaf, const Tile* above);
 
 /// The facts about the content of a tile.

@@ -3,10 +3,10 @@
 
 #include "lib/core/triangle_source.h"
 
-/// Texts on a scene whose files hold more than is checked. Shared by the verdicts on meshes and on tilesets.
+/// Words about a scene whose files hold more than is checked. The verdicts on meshes and on tilesets share them.
 namespace bp {
 
-/// Returns "1 mesh part twice, plain and compressed, ..."
+/// Returns "1 mesh part twice, plain and compressed, ...".
 [[nodiscard]] std::string held_twice(std::uint64_t differing);
 /// Returns "1 mesh in a pose of its joints, ..."; empty if there is none.
 [[nodiscard]] std::string not_followed(const Unfollowed& unfollowed);

@@ -2,22 +2,22 @@
 #include <cstdint>
 #include <vector>
 
-/// The division of a check into parts: which tiles a part is about.
+/// Divides a check into parts by its tiles.
 namespace bp {
 
 struct CoverTile;
 
 constexpr std::uint64_t kMostTileParts = 65536;
 
-/// One of `of` parts, counted from 0.
+/// The part of this number, counted from 0, among `of` parts.
 struct TilePart {
   std::uint64_t number = 0, of = 1;
 };
 
 /// Returns for each tile (as for check_cover()) whether it belongs to the part. Each tile belongs to exactly one of the
-/// parts, for any number of parts. The division depends only on the tree, not on files, which machines may see
-/// differently. Tiles are dealt out depth by depth, those with a content first, so that neighbours come to different
-/// parts: the work is in few places, and a tile of an upper depth has more.
+/// parts, for any number of parts. Only the tree decides the division, since machines may see files differently. Tiles
+/// are dealt out depth by depth, those with a content first. So neighbours go to different parts, which matters because
+/// the work is concentrated in few places, and tiles of an upper depth take more.
 [[nodiscard]] std::vector<bool> tiles_of(TilePart part, const std::vector<CoverTile>& tiles);
 
 }  // namespace bp

@@ -3,7 +3,7 @@
 
 #include "lib/check/check_report.h"
 
-/// The report for people and for programs. The same report gives the same bytes.
+/// Writes the report for people and for programs. The same report gives the same bytes.
 namespace bp {
 
 /// Returns lines for a terminal; the last one is the verdict: "holds" or "does not hold: ...".

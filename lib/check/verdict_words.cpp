@@ -74,13 +74,13 @@ std::span<const FindingText> finding_texts() {
   return kFindings;
 }
 
-/// The sign is ignored, since the scene may face inwards.
+/// The sign of the scene's volume is ignored, since the scene may face inwards.
 std::optional<double> volume_ratio(const CheckReport& r) {
   if (!r.volume || !r.scene_volume) return {};
   return *r.volume / std::abs(*r.scene_volume);
 }
 
-/// "1 edge has one triangle only", "2 edges have one triangle only".
+/// Returns "1 edge has one triangle only", "2 edges have one triangle only".
 std::string counted(const Finding& f, const FindingText& t) {
   const std::string text = t.text;
   const std::size_t open = text.find('['), bar = text.find('|'), close = text.find(']');

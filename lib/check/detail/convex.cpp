@@ -13,14 +13,14 @@ namespace {
 
 struct Part {
   std::vector<std::uint32_t> triangles;  // of the mesh
-  std::vector<std::uint32_t> points;     // distinct
+  std::vector<std::uint32_t> points;     // distinct corners
   Bounds3d bounds;
 };
 
 std::vector<Part> parts_of(const WeldedMesh& mesh) {
   std::vector<Part> parts;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (mesh.degenerate[t] != 0) continue;  // bounds nothing, and is a finding of its own
+    if (mesh.degenerate[t] != 0) continue;  // it bounds nothing, and is a finding of its own
     if (mesh.component[t] >= parts.size()) parts.resize(mesh.component[t] + 1);
     Part& part = parts[mesh.component[t]];
     part.triangles.push_back(std::uint32_t(t));
@@ -43,7 +43,7 @@ int side(const WeldedMesh& mesh, std::uint32_t triangle, const Vec3d& p) {
 
 constexpr std::uint32_t kNone = ~std::uint32_t(0);
 
-/// A vertex beyond triangle i of the part, or kNone.
+/// Returns a vertex beyond triangle i of the part, or kNone.
 std::uint32_t vertex_beyond(const WeldedMesh& mesh, const Part& part, std::size_t i) {
   for (const std::uint32_t p : part.points) {
     if (side(mesh, part.triangles[i], mesh.points[p]) > 0) return p;
@@ -62,7 +62,7 @@ bool holds(const WeldedMesh& mesh, const Part& part, const TriangleD& t) {
   });
 }
 
-/// Exact.
+/// Returns whether a corner of the triangle lies in no part. Exact.
 bool has_bare_corner(const WeldedMesh& mesh, const std::vector<Part>& parts, const ConvexCover& cover,
                      const TriangleD& t) {
   return std::any_of(t.begin(), t.end(), [&](const Vec3d& p) {
@@ -86,7 +86,7 @@ std::vector<std::vector<TriangleD>> corners_of(const WeldedMesh& mesh, const std
   return corners;
 }
 
-/// All of a scene, in parallel: `check` is what finds things in a batch.
+/// Checks all triangles of a scene, in parallel. `check` finds the faults of a batch.
 template <class Check>
 void for_each_batch(TriangleSource& scene, std::size_t max_examples, ConvexReport& report, const Check& check) {
   scene.rewind();

@@ -5,7 +5,8 @@
 #include "lib/check/detail/scene_batches.h"
 #include "lib/geometry/triangle_bvh.h"
 
-/// Distances of samples, and bounds of the largest. Which triangles are sampled depends on their numbers alone.
+/// Measures distances of samples, and bounds of the largest distance. Only the numbers of triangles decide which ones
+/// are sampled.
 namespace bp {
 
 /// Keeps at most `capacity` of a stream of numbered triangles: those whose hashed number is lowest, roughly.
@@ -63,11 +64,12 @@ class SceneMemory {
 /// Distances from the points to the nearest triangle. Parallel. Neither may be empty.
 [[nodiscard]] SampledDistance distances(const std::vector<Vec3d>& points, const TriangleBvh& to);
 
-/// More triangles than that have only samples, for time and memory: among so many, samples lie close.
+/// With more triangles there are only samples, to save time and memory: among so many, samples lie close.
 constexpr std::size_t kMostBounded = 1 << 15;
 
-/// Adds what no point of `from` exceeds, as a rule 0.1 % beyond the farthest point that is found, and that point. Up to
-/// kMostBounded triangles, at least one. Parallel; the result does not depend on the number of threads.
+/// Adds an upper bound of the distance of any point of `from`, usually 0.1 % more than that of the farthest point
+/// found, and that point. For 1 to kMostBounded triangles. Parallel; the result does not depend on the number of
+/// threads.
 void bound_largest(const std::vector<TriangleD>& from, const TriangleBvh& to, SampledDistance& distance);
 
 }  // namespace bp

@@ -22,8 +22,9 @@ struct EnclosureBatch {
   SceneMemory::Part kept;
 };
 
-/// Sides of corners met lately. A triangle that touches nothing lies on one side, so all its corners share the answer,
-/// and so do all triangles at these corners that touch nothing. Forgetting costs time, never the result.
+/// The sides of corners that were tested recently. A triangle that touches nothing lies on one side, so all its corners
+/// share the answer, and so do all such triangles at these corners. A forgotten corner costs time, but never changes
+/// the result.
 class SideCache {
  public:
   SideCache() : slots_(kSlots) {}
@@ -76,7 +77,7 @@ void check_gap(const WeldedMesh& mesh, const Surface& surface, const EnclosureQu
   (gap.answer == Answer::refuted ? e.too_near : e.perhaps_near).add({number, other, centre(t)}, question.max_examples);
 }
 
-/// Whether all triangles of a polygon lie in one plane. What is not finite lies in none.
+/// Returns whether all triangles of a polygon lie in one plane; false if a coordinate is not finite.
 bool is_flat(std::span<const TriangleD> polygon) {
   if (!std::all_of(polygon.begin(), polygon.end(), all_finite)) return false;
   const auto plane =
@@ -90,20 +91,21 @@ bool is_flat(std::span<const TriangleD> polygon) {
                      [&](const TriangleD& t) { return std::all_of(t.begin(), t.end(), is_in_plane); });
 }
 
-/// Looks at triangles of one batch after the other.
+/// Checks the triangles of a batch.
 class EnclosureCheck {
  public:
   EnclosureCheck(const WeldedMesh& mesh, const Surface& surface, const InsideCells* cells,
                  const EnclosureQuestion& question, EnclosureReport& report)
       : mesh_(mesh), surface_(surface), cells_(cells), question_(question), report_(report) {}
 
-  /// `box`: of the triangle, which is finite.
+  /// `box`: the triangle's, which must be finite.
   void add(std::uint64_t number, const TriangleD& t, const Bounds3d& box) {
     if (!is_far_inside(box)) look_at(number, t);
     check_gap(mesh_, surface_, question_, number, t, report_);
   }
-  /// Counts polygons that are not flat. A quad is read as the fan from its first or its second corner. A program may
-  /// draw a quad over its other diagonal; of larger ones nothing is looked for.
+  /// Counts polygons that are not flat. A quad is read as the fan from its first or its second corner, and a program
+  /// may draw it over its other diagonal, so both are tested. The other triangulations of larger polygons are not
+  /// tested.
   void add_polygon(std::span<const TriangleD> polygon) {
     if (polygon.size() < 2 || is_flat(polygon)) return;
     ++report_.bent;
@@ -142,7 +144,7 @@ void check_batch(const WeldedMesh& mesh, const Surface& surface, const InsideCel
                  const EnclosureQuestion& question, const Vec3d& origin, EnclosureBatch& batch) {
   EnclosureReport& e = batch.result;
   EnclosureCheck check(mesh, surface, cells, question, e);
-  std::vector<TriangleD> polygon;  // of several triangles, not complete yet
+  std::vector<TriangleD> polygon;  // triangles of a polygon that is not complete yet
   batch.volume = SignedVolume(origin);
   batch.scene.for_each([&](std::uint64_t number, const TriangleD& t, std::uint8_t inner_edges) {
     if (inner_edges != 0 || !polygon.empty()) {

@@ -7,7 +7,7 @@
 #include "lib/check/detail/surface.h"
 #include "lib/core/triangle_source.h"
 
-/// Does a surface strictly enclose a scene?
+/// Checks whether a surface strictly encloses a scene.
 namespace bp {
 
 struct EnclosureReport {
@@ -27,9 +27,9 @@ struct EnclosureQuestion {
 };
 
 /// Tests every triangle of `scene` from its start, in parallel, in bounded memory. A triangle that touches nothing lies
-/// on one side as a whole, so one of its corners decides; sides are looked at only if the question asks for them.
-/// `cells`: those of the surface, if the question asks for sides, or null. The report does not depend on them. `memory`
-/// gets the scene.
+/// on one side as a whole, so one of its corners decides; sides are tested only if the question asks for them. `cells`:
+/// cells of the surface, if the question asks for sides, or null; the report does not depend on them. `memory` gets the
+/// scene's triangles.
 [[nodiscard]] EnclosureReport check_enclosure(const WeldedMesh& mesh, const Surface& surface, const InsideCells* cells,
                                               TriangleSource& scene, const EnclosureQuestion& question,
                                               SceneMemory& memory);

@@ -1,5 +1,6 @@
 // The nearest points of two triangles are found as usual, corner to face and edge to edge, and prove nothing. The
-// direction between them gives a proof: both triangles lie beyond planes across it, so many units apart.
+// direction between them gives a proof: planes across it have the triangles on their two sides, and the distance of the
+// planes is the margin or more.
 #include "lib/check/detail/gap.h"
 
 #include <algorithm>
@@ -13,7 +14,7 @@ namespace bp {
 
 namespace {
 
-// Relative to the triangles' size: rounding of values computed from some twenty products.
+// Relative to the triangles' size; bounds the rounding of values computed from about twenty products.
 constexpr double kRounding = 1e-14;
 
 struct Nearest {
@@ -34,7 +35,7 @@ double clamped(double x) {
 void offer_edges(const Vec3d& p, const Vec3d& u, const Vec3d& q, const Vec3d& v, Nearest& nearest) {
   const Vec3d w = p - q;
   const double uu = dot(u, u), vv = dot(v, v), uv = dot(u, v), uw = dot(u, w), vw = dot(v, w);
-  if (!(uu > 0 && vv > 0)) return;  // corners are offered anyway
+  if (!(uu > 0 && vv > 0)) return;  // corners are offered elsewhere
   const double area = uu * vv - uv * uv;
   double s = area > 0 ? clamped((uv * vw - vv * uw) / area) : 0;
   const double t = clamped((uv * s + vw) / vv);
@@ -95,7 +96,7 @@ Answer keeps_gap(const TriangleD& a, const TriangleD& b, double margin) {
   for (const Vec3d& c : a) before = std::max(before, dot(n, c - p));
   for (const Vec3d& c : b) behind = std::min(behind, dot(n, c - p));
   const double between = (behind - before) / length(n);
-  // The planes are measured from p; wherever p is, they are this far apart.
+  // The planes are measured from p. Any p is right, since only their distance counts.
   return between >= margin + kRounding * (size_around(p, a, b) + nearest.distance) ? Answer::proven : Answer::undecided;
 }
 
@@ -122,7 +123,7 @@ double gap_within(const TriangleD& t, const TriangleBvh& surface, double most) {
 
 namespace {
 
-constexpr double kGapRounding = 0x1p-40;  // of sizes and coordinates; keeps_gap() errs by some 1e-14 of these
+constexpr double kGapRounding = 0x1p-40;  // share of sizes and coordinates; keeps_gap() errs by about 1e-14 of these
 
 struct ClearanceBatch {
   std::uint64_t first = 0;
@@ -130,8 +131,8 @@ struct ClearanceBatch {
   ClearanceReport result;
 };
 
-/// Whether cells that lie inside hold all points nearer to the triangle than the distance. keeps_gap() decides nothing
-/// within its own rounding beyond the distance, and the cells must not decide there, either.
+/// Returns whether cells inside the surface hold all points nearer to the triangle than the distance. Within its own
+/// rounding beyond the distance keeps_gap() decides nothing, and the cells must decide nothing there, either.
 bool is_deep_inside(const Surface& surface, const InsideCells& cells, const TriangleD& t, double distance) {
   const Bounds3d near = box_around(t, distance);
   double far = surface.bounds().diagonal() + near.diagonal();
@@ -147,7 +148,7 @@ void look_at(const WeldedMesh& mesh, const Surface& surface, const InsideCells* 
   if (gap.answer != Answer::proven) found.add({number, mesh.number[surface.triangle(gap.item)], t[0]}, max_examples);
 }
 
-/// Corners beyond the domain of exact predicates are a finding of their own.
+/// Tests a triangle of the scene. Corners outside the domain of exact predicates are a finding of their own.
 void check_clearance_of(const WeldedMesh& mesh, const Surface& surface, const InsideCells* cells,
                         const ClearanceQuestion& question, ClearanceBatch& batch) {
   for (std::size_t i = 0; i < batch.triangles.size(); ++i) {

@@ -12,10 +12,10 @@ namespace bp {
 
 namespace {
 
-/// A point of each component of the proxy, and how often the scene winds around it.
+/// A point of a component of the proxy, and the winding number of the scene around it.
 struct Probe {
   Vec3d point;
-  std::uint64_t triangle;  // its first one
+  std::uint64_t triangle;  // the component's first triangle
   std::int64_t winding = 0;
 };
 
@@ -27,12 +27,12 @@ std::vector<Probe> probes_of(const WeldedMesh& mesh) {
   return probes;
 }
 
-/// Edges of the triangles that have an area, and of the others.
+/// The sums of the edges of triangles with an area, and of the others.
 struct SceneEdges {
   explicit SceneEdges(const EdgeKey& key) : plain(key), degenerate(key) {}
   EdgeSum plain, degenerate;
   void add(const SceneEdges& e) { plain.add(e.plain), degenerate.add(e.degenerate); }
-  /// Either sum tells that the surface is closed as a set of points.
+  /// Returns whether either sum shows that the surface is closed as a set of points.
   [[nodiscard]] bool closed() const {
     EdgeSum all = plain;
     all.add(degenerate);
@@ -47,7 +47,7 @@ struct InsideBatch {
   std::optional<SceneEdges> edges;
 };
 
-/// Numbers of triangles count from 0 in each batch.
+/// Checks a batch, in which triangles are numbered from 0.
 void check_batch(const WeldedMesh& mesh, const Surface& surface, const std::vector<Probe>& probes, const EdgeKey& key,
                  std::size_t max_examples, InsideBatch& batch) {
   batch.edges.emplace(key);
@@ -74,7 +74,8 @@ void check_batch(const WeldedMesh& mesh, const Surface& surface, const std::vect
   }
 }
 
-/// Parts that the scene as a whole does not wind around may lie in a hollow of it, or between parts that overlap.
+/// Tests the parts that the scene as a whole does not wind around: they may lie in a hollow of the scene, or between
+/// parts that overlap.
 void look_at(const std::vector<Probe>& probes, TriangleSource& scene, std::size_t max_examples,
              std::uint64_t memory_bytes, InsideReport& report) {
   std::vector<Vec3d> points;

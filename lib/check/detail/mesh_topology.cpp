@@ -48,7 +48,7 @@ struct EdgeUse {
   int direction;   // +1 from the lower to the higher end
 };
 
-/// All edges, grouped by their lower end, then by the higher end, then by triangle.
+/// A table of all edges, sorted by lower end, then higher end, then triangle.
 struct EdgeTable {
   std::vector<std::size_t> begin;  // per vertex
   std::vector<EdgeUse> uses;

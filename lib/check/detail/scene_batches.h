@@ -16,7 +16,8 @@ struct SceneChunk {
   std::vector<std::uint8_t> inner_edges;  ///< TriangleSource::read_faces()
 };
 
-/// Some triangles of a scene. They stay in the chunks that they were read in, since copies of all would be serial work.
+/// Some triangles of a scene. They stay in the chunks that they were read into, since copying all triangles would be
+/// serial work.
 struct SceneBatch {
   struct Part {
     std::shared_ptr<const SceneChunk> chunk;

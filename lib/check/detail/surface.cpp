@@ -40,7 +40,7 @@ void add_sorted(Finding& f, const Example& e, std::size_t n) {
   f.examples.insert(std::upper_bound(f.examples.begin(), f.examples.end(), e, before), e);
 }
 
-/// Sign of the signed volume under triangles of one closed component.
+/// The sign of the signed volume of one closed component.
 class VolumeSign {
  public:
   explicit VolumeSign(const Vec3d& origin) : origin_(origin) {}

@@ -1,11 +1,11 @@
 // A cell that no triangle of the surface meets lies on one side of it as a whole, and so do all such cells that share
 // sides. So one point tells the side of many cells.
 //
-// Which cells a triangle meets: those that none of 13 directions separates from it (the sides of the cell, the plane of
-// the triangle, and the planes through its edges along the axes). The products of a direction with points are computed
-// in doubles, relative to a corner of the block. Each is off by at most 8 roundings of its terms' absolute values,
-// 2^-53 each; the comparison leaves room for twice as many on both sides. So a cell is never missed, and one that is
-// met needlessly costs time only.
+// A triangle meets a cell if none of 13 directions separates them: across the sides of the cell, across the plane of
+// the triangle, and across each axis and each edge. The products of a direction with points are computed in doubles,
+// relative to a corner of the block. Each is off by at most 8 roundings of its terms' absolute values, 2^-53 each; the
+// comparison leaves room for twice as many on both sides. So a cell that is met is never missed, and one that is listed
+// without need costs time only.
 #include "lib/check/detail/cells/inside_cells.h"
 
 #include <algorithm>
@@ -20,16 +20,16 @@ namespace bp {
 namespace {
 
 constexpr std::uint32_t kSide = 8;    // cells along a side of a block
-constexpr std::uint32_t kVisits = 3;  // boxes that meet a block before it is worth a look
-// States of a block. Below kVisits: the number of boxes that met it. kVisits: a thread is looking at it.
-constexpr std::uint32_t kNowhere = kVisits + 1;  // no cell is inside, or that is not known
+constexpr std::uint32_t kVisits = 3;  // number of boxes that must meet a block before its cells are computed
+// The states of a block. Below kVisits: the number of boxes that met it. kVisits: a thread is computing it.
+constexpr std::uint32_t kNowhere = kVisits + 1;  // no cell is inside, or none is known to be
 constexpr std::uint32_t kWholeSpace = kNowhere + 1;
-constexpr std::uint32_t kFirstKept = kWholeSpace + 1;  // and its number
+constexpr std::uint32_t kFirstKept = kWholeSpace + 1;  // this and higher states: the number of the block's kept cells
 
 constexpr std::uint64_t kLeastBlocks = 1 << 12, kMostBlocks = 1 << 21, kBlocksPerFace = 64;
-constexpr std::uint64_t kBlocksPerKept = 8;    // a surface meets few of them
-constexpr std::uint64_t kMostInBox = 1 << 12;  // cells; a larger box is not looked at
-constexpr std::size_t kMostFaces = 1 << 9;     // near a block; with more, its cells are not looked at
+constexpr std::uint64_t kBlocksPerKept = 8;    // a surface meets few of the blocks
+constexpr std::uint64_t kMostInBox = 1 << 12;  // cells; the answer for a larger box is "not known"
+constexpr std::size_t kMostFaces = 1 << 9;     // faces near a block; with more, its cells are not computed
 
 using Layers = std::array<std::uint64_t, kSide>;
 constexpr std::uint64_t kFirstX = 0x0101010101010101u,
@@ -37,7 +37,7 @@ constexpr std::uint64_t kFirstX = 0x0101010101010101u,
 constexpr std::uint64_t kAll = ~std::uint64_t(0);
 constexpr Layers kFull{kAll, kAll, kAll, kAll, kAll, kAll, kAll, kAll};
 
-typedef double Row __attribute__((vector_size(64)));            // of a row of cells
+typedef double Row __attribute__((vector_size(64)));            // one double for each cell of a row
 typedef std::int64_t RowMask __attribute__((vector_size(64)));  // -1 or 0 for each cell
 
 /// The centres of cells that a direction does not separate from a triangle: those whose product with it is between
@@ -46,7 +46,7 @@ struct Slab {
   Vec3d direction;
   double low, high;
 
-  /// `size`: bounds of the absolute values that the components of the direction were computed from.
+  /// `size`: bounds of the absolute values from which the components of the direction were computed.
   Slab(const Vec3d& d, const Vec3d& size, const TriangleD& t, double edge) : direction(d) {
     constexpr double kRounding = 32 * 0x1p-53, kUnderflow = 1e-290;
     double off = kUnderflow, radius = 0;
@@ -202,7 +202,7 @@ bool InsideCells::hold(const Bounds3d& box) const {
     const double from = box.min[i] * per_edge_ - first_[i], to = box.max[i] * per_edge_ - first_[i];
     if (!(from >= 0 && from <= to && to < double(cells_[i]))) return false;
     low[i] = std::uint32_t(from), high[i] = std::uint32_t(to);
-    // Whatever was rounded: these cells hold the box.
+    // This holds for any rounding: the cells hold the box.
     if (!(plane(i, low[i]) <= box.min[i] && box.max[i] <= plane(i, high[i] + 1))) return false;
   }
   if (std::uint64_t(high[0] - low[0] + 1) * (high[1] - low[1] + 1) * (high[2] - low[2] + 1) > kMostInBox) return false;
@@ -236,7 +236,7 @@ std::uint32_t InsideCells::state_of(const Place& block) const {
   std::atomic<std::uint32_t>& state = states_[number_of(block)];
   std::uint32_t known = state.load(std::memory_order_acquire);
   if (known >= kVisits) return known;
-  // Another thread may count the same visit, or look at the block: this box does without.
+  // Another thread may count the same visit or compute the block at this moment; then this box gets no answer.
   if (!state.compare_exchange_strong(known, known + 1) || known + 1 < kVisits) return kNowhere;
   known = look_at(block);
   state.store(known, std::memory_order_release);

@@ -8,9 +8,10 @@
 
 namespace bp {
 
-/// Cells of space that lie strictly inside a closed surface, for the many triangles of a scene that lie nowhere near
-/// it: their boxes decide. Cells have sides of a power of two, so that their planes are exact doubles. There are blocks
-/// of 8^3 cells. A block is looked at when the third box meets it; then its cells are known for all boxes that follow.
+/// Cells of space that lie strictly inside a closed surface. They settle most triangles of a scene by their boxes,
+/// since most lie far from the surface. The cells' edge is a power of two, so that their planes are exact doubles. They
+/// form blocks of 8^3 cells. The cells of a block are computed when the third box meets it, and are then known for all
+/// further boxes.
 class InsideCells {
  public:
   /// The surface must be closed and oriented, and all its corners in the domain of the predicates. Keeps a reference to
@@ -39,12 +40,12 @@ class InsideCells {
   [[nodiscard]] bool winds_around(const Place& cell) const;
 
   const Surface& surface_;
-  double edge_ = 0, per_edge_ = 0;  ///< of a cell, scene units; and 1 / edge_
+  double edge_ = 0, per_edge_ = 0;  ///< edge of a cell, scene units; and 1 / edge_
   Vec3d first_{};                   ///< the first cell begins at first_ * edge_; whole numbers
-  Place cells_{}, blocks_{};        ///< along each axis; none: nothing is ever known
+  Place cells_{}, blocks_{};        ///< numbers along each axis; 0: nothing is ever known
   std::uint32_t most_kept_ = 0;
-  std::unique_ptr<std::atomic<std::uint32_t>[]> states_;  ///< of blocks
-  std::unique_ptr<Layers[]> kept_;                        ///< cells inside, of blocks where others are not
+  std::unique_ptr<std::atomic<std::uint32_t>[]> states_;  ///< of each block
+  std::unique_ptr<Layers[]> kept_;                        ///< inside cells of the blocks in which other cells are not
   mutable std::atomic<std::uint32_t> kept_count_{0};
 };
 
