@@ -395,7 +395,7 @@ __global__ void __launch_bounds__(kPassThreads)
   }
 }
 
-constexpr std::size_t kSharedLimit = 48 * 1024;  ///< every device gives so much without being asked
+constexpr std::size_t kSharedLimit = 48 * 1024;  ///< bytes of shared memory that every device gives without a request
 
 }  // namespace
 

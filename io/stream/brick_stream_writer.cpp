@@ -113,7 +113,7 @@ BrickWriter::~BrickWriter() = default;
 void BrickWriter::write(const Brick& brick) {
   State& s = *state_;
   Record record{brick.coord, brick.layer, brick.fill};
-  // Stored as what it is, if it is mixed in name only.
+  // A brick that is passed as mixed, but is empty or full, is stored as empty or full.
   if (brick.fill == BrickFill::mixed) record.fill = classify(brick.bits);
   if (record.fill == BrickFill::empty) return;
   s.check(record);

@@ -42,8 +42,8 @@ constexpr double kBeyondWholeVox = 1.0 / kScaleOne;
 /// of any voxel whose erosion ball can reach the tile. s2 is the largest scale in the region that then decides about
 /// the contour (docs/pipeline.md, "Halo").
 struct Halo {
-  std::int32_t erosion_vox = 0;   ///< D and Dc must be exact so far from the tile
-  std::int32_t dilation_vox = 0;  ///< G must be known so much further
+  std::int32_t erosion_vox = 0;   ///< D and Dc must be exact up to this distance from the tile
+  std::int32_t dilation_vox = 0;  ///< G must be known this much farther from the tile
   [[nodiscard]] std::int32_t total_vox() const { return erosion_vox + dilation_vox; }
 };
 [[nodiscard]] Halo halo_of(const VoxelBox& tile, const ScaleField& scale, const GridFrame& frame,

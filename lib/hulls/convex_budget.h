@@ -14,8 +14,9 @@ namespace bp {
 /// of threads. Cost: a millisecond or two for each corner taken.
 void keep_to_faces(std::vector<ConvexHull>& hulls, std::uint64_t faces, double share);
 
-/// Returns a tight hull around `hull` with at most `faces` faces, 4 at least. Corners that hold next to nothing go even
-/// if faces are left. Cost: as above; 0.1 s for a hull of 500 faces.
+/// Returns a tight hull around `hull` with at most `faces` faces, 4 at least. Corners that hold almost no volume are
+/// taken even if there are few enough faces. Cost: a millisecond or two for each corner taken; 0.1 s for a hull of 500
+/// faces.
 [[nodiscard]] ConvexHull with_fewer_faces(const ConvexHull& hull, std::uint64_t faces);
 
 [[nodiscard]] std::uint64_t face_count(const std::vector<ConvexHull>& hulls);

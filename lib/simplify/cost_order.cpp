@@ -9,7 +9,7 @@ namespace bp {
 
 namespace {
 
-constexpr std::size_t kFirst = 16;  // the first bound exceeds one in so many costs
+constexpr std::size_t kFirst = 16;  // one in so many costs lies below the first bound
 constexpr double kStep = 1.25;      // ratio of a bound to the one before
 constexpr int kSteps = 200;
 

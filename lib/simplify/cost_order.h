@@ -14,8 +14,8 @@ class CostOrder {
   [[nodiscard]] virtual std::uint64_t face_count() const = 0;
   /// Appends the costs of waiting collapses, or lower bounds of these.
   virtual void add_costs(std::vector<double>& costs) const = 0;
-  /// Takes the cheapest collapses until `enough` faces are left; returns false if no collapse for `most` or less is
-  /// left before.
+  /// Takes the cheapest collapses until `enough` faces are left. Returns false if the collapses for `most` or less run
+  /// out before.
   virtual bool run(double most, std::uint64_t enough) = 0;
 };
 

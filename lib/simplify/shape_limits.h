@@ -15,7 +15,7 @@ struct ShapeLimits {
   /// end of its edge farther than this from the new faces.
   double reach = 0;
   static constexpr double kLoosened = 1.25;   ///< factor of each loosening
-  static constexpr double kMostLoosened = 8;  ///< after so many times the first reach there is no bound
+  static constexpr double kMostLoosened = 8;  ///< beyond this many times the first reach there is no bound
   LatticeBox room = kEverywhere;              ///< vertices may only be moved to places strictly inside this box
 };
 

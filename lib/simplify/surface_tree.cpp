@@ -209,10 +209,10 @@ class SurfaceTree {
   const SimplifyParams& params_;
   const BulkEnd end_;
   PieceStore store_;
-  SurfaceWork work_;                                    // to come
+  SurfaceWork work_;                                    // the work that is foreseen
   BrickCoord origin_{INT32_MAX, INT32_MAX, INT32_MAX};  // lowest brick in each coordinate: all weld into one cell
-  std::int64_t edge_ = kBrickLattice;                   // of a cell
-  std::vector<Node> nodes_;                             // by cell: z, y, x
+  std::int64_t edge_ = kBrickLattice;                   // edge of a cell, lattice units
+  std::vector<Node> nodes_;                             // sorted by cell: z, y, x
   std::mutex mutex_;                                    // for params_.limits
 };
 

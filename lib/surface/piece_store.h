@@ -15,9 +15,9 @@ constexpr std::uint64_t kWorkPerFace = 256;
 
 /// Memory that simplifying a surface takes.
 struct SurfaceWork {
-  std::uint64_t whole_bytes = 0;  ///< in all
-  std::uint64_t cell_bytes = 0;   ///< of these in hand, while pieces wait
-  std::uint64_t flat_faces = 0;   ///< triangles, with flat regions merged
+  std::uint64_t whole_bytes = 0;  ///< bytes that the whole surface takes
+  std::uint64_t cell_bytes = 0;   ///< bytes of the cells at work, while pieces wait
+  std::uint64_t flat_faces = 0;   ///< triangles that are left when flat regions are merged
 };
 
 /// Memory that a surface which is simplified by cells may take.

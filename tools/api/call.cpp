@@ -22,7 +22,7 @@ thread_local std::string last_message;
 void remember(const std::string& text) noexcept {
   try {
     last_message = text;
-  } catch (...) {  // what is left of the one before is no message
+  } catch (...) {  // a part of the message before must not stay
     last_message.clear();
   }
 }

@@ -13,7 +13,8 @@ namespace bp {
 
 namespace {
 
-// A scene farther from the origin than so many of its sides gets another: floats would lose 3 bits of 24.
+// A scene that is farther from its origin than this many of its sides gets another origin, since floats would lose 3 of
+// their 24 bits.
 constexpr double kNear = 8;
 
 /// Returns the largest size of a coordinate after `origin` is subtracted.

@@ -15,7 +15,7 @@ namespace bp {
 
 namespace {
 
-constexpr double kMostOverLeast = 3;  // what a cell takes that is full, over one where little is occupied
+constexpr double kMostOverLeast = 3;  // memory of a full cell over that of a nearly empty one
 
 constexpr const char* kJob = "closing of a cell";
 

@@ -17,7 +17,7 @@ struct CellClosing {
 };
 
 struct CellClosingCounts {
-  std::uint64_t cells = 0, kept = 0;  ///< cells with something in reach; those of them that the store had
+  std::uint64_t cells = 0, kept = 0;  ///< cells with solid voxels in reach; number of these that the store had
 };
 
 /// Returns the bytes that one cell takes, where little of it is occupied. halo_vox: Halo::total_vox() of the closing.

@@ -36,7 +36,7 @@ struct CloseCounts {
   std::uint64_t solid_bricks = 0, closing_bricks = 0;  ///< written
   std::uint64_t cavity_voxels = 0;                     ///< voxels that the closing encloses, and that were filled
   CloseTimes seconds;
-  /// Bricks of a closing layer in the input, which is made anew from the solid layer.
+  /// Number of closing bricks in the input that were ignored, since the closing is made anew from the solid layer.
   std::uint64_t ignored_bricks = 0;
 };
 
