@@ -3,7 +3,7 @@
 #include <string>
 
 #include "io/gltf/glb_file.h"
-#include "io/mesh/lod_writer.h"
+#include "io/mesh/tile_compression.h"
 #include "lib/core/up_axis.h"
 #include "lib/pass/leaf/scene_leaf.h"
 
@@ -15,8 +15,8 @@ using LeafImageName = std::function<std::string(std::uint32_t image)>;
 /// Images and colours of a leaf.
 struct LeafLooks {
   const TextureSet* images = nullptr;  ///< null: no images
-  LeafImageName name_of;
-  bool colors = true;  ///< false: the leaf is grey
+  LeafImageName name_of;               ///< null: images are part of the file
+  bool colors = true;                  ///< false: the leaf is grey
   TileCompression compression = TileCompression::meshopt;
 };
 

@@ -6,12 +6,12 @@
 #include <limits>
 #include <optional>
 
-#include "io/gltf/gltf_sampler.h"
-#include "io/mesh/detail/glb_data.h"
+#include "io/mesh/detail/glb_leaf.h"
 #include "io/mesh/detail/gltf_place.h"
 #include "io/mesh/detail/mesh_writers.h"
 #include "lib/atlas/tangents.h"
 #include "lib/core/error.h"
+#include "lib/core/vec3.h"
 #include "lib/mesh/shaded_mesh.h"
 
 namespace bp {
@@ -103,7 +103,7 @@ class GlbBuilder {
 
   /// `origin`: is subtracted from all coordinates, and noted in the file. Throws if the subtraction rounds.
   explicit GlbBuilder(const std::string& file, Data data, const Vec3d& origin = {})
-      : file_(file), data_(data == Data::compressed), origin_(origin) {}
+      : file_(file), data_(data == Data::compressed), looks_(data_), origin_(origin) {}
 
   /// Adds mesh and node; returns the node's number. `offset`: gltf_offset() of all meshes of the file.
   std::size_t add(const NamedMesh& named, const std::optional<Vec3d>& offset) {
@@ -138,6 +138,25 @@ class GlbBuilder {
   Json& node(std::size_t i) { return json()["nodes"][i]; }
   void use(const char* extension) { data_.use(extension, false); }
 
+  /// Adds triangles of the scene, less the origin and a point near them, which is the node's translation. Where floats
+  /// hold the coordinates to a unit of the leaf, that point is zero.
+  std::size_t add_scene(const NamedMesh& named, const LeafLooks& looks, UpAxis up) {
+    const SceneLeaf& leaf = *named.scene;
+    const Vec3d offset = offset_of(leaf);
+    const auto place = [&](const std::array<std::int32_t, 3>& at) {
+      GlbLeaves::Position p;
+      for (std::size_t i = 0; i < 3; ++i) p[i] = float(leaf.origin[i] + leaf.unit * at[i] - origin_[i] - offset[i]);
+      return p;
+    };
+    if (!leaves_) leaves_.emplace(data_, looks_, looks, up);  // levels share their images
+    Json primitives = leaves_->primitives(leaf, place);
+    json()["meshes"].push_back({{"name", named.name}, {"primitives", std::move(primitives)}});
+    Json node = node_of(named);
+    if (offset != Vec3d{}) node["translation"] = to_y_up(up)(offset);
+    json()["nodes"].push_back(std::move(node));
+    return json()["nodes"].size() - 1;
+  }
+
   void write(const LatticeMesh& first, const std::vector<std::size_t>& roots, const std::string& contract,
              OutputFile& out) {
     write_glb(document(gltf_asset("bplod", first.provenance, first.frame.up, origin_, contract), roots), data_.bytes(),
@@ -154,7 +173,7 @@ class GlbBuilder {
  private:
   Json& json() { return data_.json(); }
   std::string document(Json asset, const std::vector<std::size_t>& roots) {
-    json()["materials"] = materials_;
+    looks_.write();
     return data_.document(std::move(asset), roots);
   }
 
@@ -230,40 +249,43 @@ class GlbBuilder {
   /// Adds a material; returns its number.
   std::size_t add_material(const LatticeMesh& mesh) {
     if (!mesh.texture) {
-      if (!plain_material_) {
-        plain_material_ = materials_.size();
-        materials_.push_back(gltf_material(!mesh.colors.empty()));
-      }
+      if (!plain_material_) plain_material_ = looks_.add_material(gltf_material(!mesh.colors.empty()));
       return *plain_material_;
     }
     const MeshTexture& own = *mesh.texture;
-    json()["samplers"] = Json::array();
-    json()["samplers"].push_back(gltf_sampler({TextureWrap::clamp, TextureWrap::clamp}));
     const GltfTextures textures{add_texture(own.image, own.type),
                                 add_texture(own.normal.bytes, own.normal.type),
                                 add_texture(own.roughness.bytes, own.roughness.type),
                                 add_texture(own.emission.bytes, own.emission.type),
                                 own.roughness_factor,
                                 own.metal_factor};
-    materials_.push_back(gltf_textured_material(textures, own.has_holes));
-    return materials_.size() - 1;
+    return looks_.add_material(gltf_textured_material(textures, own.has_holes));
   }
 
   /// Adds a texture; returns its number; none without an image.
   std::optional<std::size_t> add_texture(const std::string& image, const std::string& type) {
     if (image.empty()) return {};
-    const std::size_t number = json()["textures"].size();
-    json()["images"].push_back({{"bufferView", data_.add_image_bytes(image)}, {"mimeType", type}});
-    json()["textures"].push_back({{"sampler", 0}, {"source", number}});
-    return number;
+    return looks_.add_texture(looks_.add_image(image, type), {TextureWrap::clamp, TextureWrap::clamp});
+  }
+
+  [[nodiscard]] Vec3d offset_of(const SceneLeaf& leaf) const {
+    constexpr double kFloatBits = 0x1p24;
+    const Vec3d low = leaf.bounds.min - origin_, high = leaf.bounds.max - origin_;
+    double farthest = 0;
+    for (std::size_t i = 0; i < 3; ++i) farthest = std::max({farthest, std::abs(low[i]), std::abs(high[i])});
+    if (farthest <= kFloatBits * leaf.unit) return {};
+    Vec3d offset;
+    for (std::size_t i = 0; i < 3; ++i) offset[i] = std::nearbyint((low[i] + high[i]) / 2);
+    return offset;
   }
 
   Json node_of(const NamedMesh& named) { return {{"name", named.name}, {"mesh", json()["meshes"].size() - 1}}; }
 
   const std::string file_;
   GlbData data_;
+  GlbLooks looks_;
+  std::optional<GlbLeaves> leaves_;
   const Vec3d origin_;
-  Json materials_ = Json::array();
   std::optional<std::size_t> plain_material_;
 };
 
@@ -271,7 +293,7 @@ class GlbBuilder {
 std::optional<Vec3d> offset_of(std::span<const NamedMesh> all, const Vec3d& origin) {
   std::vector<const LatticeMesh*> meshes;
   for (const NamedMesh& named : all) {
-    if (!named.mesh->vertices.empty()) meshes.push_back(named.mesh);
+    if (named.scene == nullptr && !named.mesh->vertices.empty()) meshes.push_back(named.mesh);
   }
   return gltf_offset(meshes, origin);
 }
@@ -279,12 +301,15 @@ std::optional<Vec3d> offset_of(std::span<const NamedMesh> all, const Vec3d& orig
 }  // namespace
 
 void write_lod_glb(std::span<const NamedMesh> levels, std::span<const double> coverage, OutputFile& out,
-                   const MeshWriteOptions& options) {
+                   const MeshWriteOptions& options, const LeafLooks& looks) {
   GlbBuilder builder(out.name(), GlbBuilder::Data::plain, options.origin);
   const std::optional<Vec3d> offset = offset_of(levels, options.origin);
-  builder.add(levels.front(), offset);
+  const auto add = [&](const NamedMesh& level) {
+    return level.scene != nullptr ? builder.add_scene(level, looks, level.mesh->frame.up) : builder.add(level, offset);
+  };
+  (void)add(levels.front());
   std::vector<std::size_t> coarser;
-  for (const NamedMesh& level : levels.subspan(1)) coarser.push_back(builder.add(level, offset));
+  for (const NamedMesh& level : levels.subspan(1)) coarser.push_back(add(level));
   if (!coarser.empty()) {
     builder.use("MSFT_lod");
     builder.node(0)["extensions"] = {{"MSFT_lod", {{"ids", coarser}}}};

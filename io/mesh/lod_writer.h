@@ -3,7 +3,9 @@
 #include <string>
 
 #include "io/files/file.h"
+#include "io/mesh/leaf_writer.h"
 #include "io/mesh/mesh_writer.h"
+#include "io/mesh/tile_compression.h"
 #include "lib/mesh/lattice_mesh.h"
 
 /// Levels of detail as GLB, without loss: a reader that works in double finds frame.world(v) exactly, in scene units,
@@ -18,6 +20,7 @@ namespace bp {
 struct NamedMesh {
   std::string name;  ///< name of its node and mesh
   const LatticeMesh* mesh = nullptr;
+  const SceneLeaf* scene = nullptr;  ///< shown in place of the mesh: triangles of the scene, rounded to float32
 };
 
 /// Writes all levels, finest first, to one file. The node of the finest level is the only one of the scene; it has
@@ -25,15 +28,12 @@ struct NamedMesh {
 /// extension show the finest level, if they read only the nodes of the scene (Blender imports every node).
 ///   coverage  one for each level: the least share of the screen's area, covered by the level's bounding sphere, at
 ///             which it is drawn; falling
+///   looks     images of the levels that are triangles of the scene
 void write_lod_glb(std::span<const NamedMesh> levels, std::span<const double> coverage, OutputFile& out,
-                   const MeshWriteOptions& options = {});
+                   const MeshWriteOptions& options = {}, const LeafLooks& looks = {});
 
 /// Writes all meshes as nodes of one scene.
 void write_parts_glb(std::span<const NamedMesh> parts, OutputFile& out, const MeshWriteOptions& options = {});
-
-/// The storage of tiles' contents: with EXT_meshopt_compression and KHR_mesh_quantization, or as plain float32, which
-/// every viewer reads without a decoder.
-enum class TileCompression { meshopt, none };
 
 /// Returns the content of a tile, as the bytes of a GLB. Compressed, positions are 16-bit integers if these hold the
 /// mesh, else float32, and normals are octahedral, 8 bits. The node has a scale and no offset: vertices are relative to

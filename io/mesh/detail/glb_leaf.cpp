@@ -1,0 +1,160 @@
+#include "io/mesh/detail/glb_leaf.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bp {
+
+namespace {
+
+using Json = GltfOutJson;
+
+template <class Number>
+void append(std::string& bytes, const Number& x) {
+  bytes.append(reinterpret_cast<const char*>(&x), sizeof x);
+}
+
+/// The arrays of one primitive: vertices in the order of the file.
+class LeafPrimitive {
+ public:
+  LeafPrimitive(const LeafPart& part, UpAxis up, GlbData& data)
+      : part_(part), turn_(to_y_up(up)), data_(data), triangles_(part.triangles) {
+    order_ = optimize_order(triangles_, part.vertices.size());
+  }
+
+  [[nodiscard]] Json json(const GlbLeaves::Place& place, bool textured, bool colored) {
+    Json attributes{{"POSITION", add_positions(place)}, {"NORMAL", add_normals()}};
+    if (textured) attributes["TEXCOORD_0"] = add_uv();
+    if (colored) attributes["COLOR_0"] = add_colors();
+    const std::size_t indices = data_.add_indices(triangles_, order_.size());
+    return {{"attributes", std::move(attributes)}, {"indices", indices}};
+  }
+
+ private:
+  std::size_t add_positions(const GlbLeaves::Place& place) {
+    std::array<float, 3> min, max;
+    min.fill(HUGE_VALF);
+    max.fill(-HUGE_VALF);
+    std::string bytes;
+    for (const std::uint32_t i : order_) {
+      const std::array<float, 3> p = turn_(place(part_.vertices[i].at));
+      for (std::size_t k = 0; k < 3; ++k) {
+        min[k] = std::min(min[k], p[k]);
+        max[k] = std::max(max[k], p[k]);
+      }
+      append(bytes, p);
+    }
+    return data_.add_attributes(
+        bytes, 12,
+        {{"componentType", kGltfFloat}, {"count", order_.size()}, {"type", "VEC3"}, {"min", min}, {"max", max}});
+  }
+  std::size_t add_normals() {
+    std::vector<std::array<float, 3>> normals;
+    normals.reserve(order_.size());
+    for (const std::uint32_t i : order_) normals.push_back(turn_(part_.vertices[i].normal));
+    return data_.add_normals(normals);
+  }
+  std::size_t add_uv() {
+    std::string bytes;
+    for (const std::uint32_t i : order_) append(bytes, part_.vertices[i].uv);
+    return data_.add_attributes(bytes, 8, {{"componentType", kGltfFloat}, {"count", order_.size()}, {"type", "VEC2"}});
+  }
+  std::size_t add_colors() {
+    std::string bytes;
+    for (const std::uint32_t i : order_) {
+      const LinearColor& c = part_.vertices[i].color;
+      append(bytes, std::array<std::uint16_t, 4>{c.r, c.g, c.b, 65535});
+    }
+    return data_.add_attributes(
+        bytes, 8, {{"componentType", kGltfUint16}, {"normalized", true}, {"count", order_.size()}, {"type", "VEC4"}});
+  }
+
+  const LeafPart& part_;
+  const AxisTurn turn_;
+  GlbData& data_;
+  TriangleIndices triangles_;
+  std::vector<std::uint32_t> order_;
+};
+
+/// Returns the type of an image file by its first bytes.
+std::string type_of(std::span<const std::byte> file) {
+  const int first = std::to_integer<int>(file[0]);
+  return first == 0xFF ? "image/jpeg" : first == 'R' ? "image/webp" : "image/png";
+}
+
+bool have_one_color(const LeafPart& part) {
+  return std::all_of(part.vertices.begin(), part.vertices.end(),
+                     [&](const LeafVertex& v) { return v.color == part.vertices.front().color; });
+}
+
+}  // namespace
+
+Json GlbLeaves::primitives(const SceneLeaf& leaf, const Place& place) {
+  Json all = Json::array();
+  for (const LeafPart& part : leaf.parts) all.push_back(primitive(part, place));
+  return all;
+}
+
+Json GlbLeaves::primitive(const LeafPart& part, const Place& place) {
+  const bool is_known = looks_.images != nullptr && part.material != TriangleTexture::kNoMaterial;
+  const TextureMaterial material = is_known ? looks_.images->material(part.material) : TextureMaterial{};
+  const bool is_replaced = material.replaces_color && image_of(material.image).has_value();
+  const bool has_one = is_replaced || !looks_.colors || have_one_color(part);
+  std::array<double, 4> factor{1, 1, 1, 1};
+  constexpr double kGrey = 0.6;
+  if (!looks_.colors) {
+    factor = {kGrey, kGrey, kGrey, 1};
+  } else if (has_one && !is_replaced) {
+    const LinearColor c = part.vertices.front().color;
+    factor = {c.r / 65535.0, c.g / 65535.0, c.b / 65535.0, 1};
+  }
+  const Mapped mapped = add_material(material, factor);
+  Json json = LeafPrimitive(part, up_, data_).json(place, mapped.has_image, !has_one);
+  json["material"] = mapped.material;
+  return json;
+}
+
+GlbLeaves::Mapped GlbLeaves::add_material(const TextureMaterial& material, std::array<double, 4> factor) {
+  const TextureSurface& surface = material.surface;
+  Json pbr{{"metallicFactor", surface.metal_factor}, {"roughnessFactor", surface.roughness_factor}};
+  const auto image = image_of(material.image);
+  if (image) pbr["baseColorTexture"] = {{"index", all_.add_texture(*image, material.wrap)}};
+  if (material.alpha_mode != AlphaMode::opaque) factor[3] = std::clamp(double(material.alpha), 0.0, 1.0);
+  if (factor != std::array<double, 4>{1, 1, 1, 1}) pbr["baseColorFactor"] = factor;
+  const auto rough = add_map(surface.roughness), normal = add_map(surface.normal), light = add_map(surface.emission);
+  if (rough) pbr["metallicRoughnessTexture"] = {{"index", *rough}};
+  Json json{{"name", image ? "the scene's texture" : "the scene's colors"},
+            {"pbrMetallicRoughness", std::move(pbr)},
+            {"doubleSided", true}};
+  if (material.alpha_mode == AlphaMode::mask) {
+    json["alphaMode"] = "MASK";
+    json["alphaCutoff"] = material.cutoff;
+  } else if (material.alpha_mode == AlphaMode::blend) {
+    json["alphaMode"] = "BLEND";
+  }
+  if (normal) json["normalTexture"] = {{"index", *normal}, {"scale", surface.normal_scale}};
+  if (light) json["emissiveTexture"] = {{"index", *light}};
+  if (surface.emission_factor != std::array<float, 3>{}) json["emissiveFactor"] = surface.emission_factor;
+  return {all_.add_material(std::move(json)), image || rough || normal || light};
+}
+
+std::optional<std::size_t> GlbLeaves::add_map(const TextureMap& map) {
+  const auto image = looks_.colors ? image_of(map.image) : std::nullopt;
+  if (!image) return {};
+  return all_.add_texture(*image, map.wrap);
+}
+
+std::optional<std::size_t> GlbLeaves::image_of(std::uint32_t image) {
+  if (image == kNoTextureImage || looks_.images == nullptr) return {};
+  const auto [found, is_new] = images_.try_emplace(image);
+  if (!is_new) return found->second;
+  if (looks_.name_of) {
+    const std::string name = looks_.name_of(image);
+    if (!name.empty()) found->second = all_.add_image(name);
+  } else if (const std::vector<std::byte> file = looks_.images->file(image); !file.empty()) {
+    found->second = all_.add_image(std::string(reinterpret_cast<const char*>(file.data()), file.size()), type_of(file));
+  }
+  return found->second;
+}
+
+}  // namespace bp
