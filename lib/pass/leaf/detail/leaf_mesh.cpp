@@ -1,0 +1,180 @@
+#include "lib/pass/leaf/detail/leaf_mesh.h"
+
+#include <algorithm>
+#include <map>
+
+namespace bp {
+
+namespace {
+
+/// Returns a number for each vertex of the parts, one after the other: the same where they lie at the same place.
+std::vector<LeafMesh::Index> place_numbers(const SceneLeaf& leaf, LeafMesh::Index& count) {
+  using Place = std::pair<std::array<std::int32_t, 3>, std::size_t>;
+  std::vector<Place> places;
+  for (const LeafPart& part : leaf.parts) {
+    for (const LeafVertex& v : part.vertices) places.emplace_back(v.at, places.size());
+  }
+  std::sort(places.begin(), places.end());
+  std::vector<LeafMesh::Index> numbers(places.size());
+  count = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    count += i == 0 || places[i].first != places[i - 1].first;
+    numbers[places[i].second] = count - 1;
+  }
+  return numbers;
+}
+
+}  // namespace
+
+LeafMesh::LeafMesh(const SceneLeaf& leaf) {
+  Index points = 0;
+  const std::vector<Index> numbers = place_numbers(leaf, points);
+  points_.resize(points);
+  for (Index part = 0; part < leaf.parts.size(); ++part) {
+    const auto first = Index(corners_.size());
+    for (const LeafVertex& v : leaf.parts[part].vertices) {
+      const Index point = numbers[corners_.size()];
+      points_[point].at = {double(v.at[0]), double(v.at[1]), double(v.at[2])};
+      corners_.push_back({point, {part, v.normal, v.uv, v.color}});
+    }
+    for (const auto& t : leaf.parts[part].triangles) faces_.push_back({first + t[0], first + t[1], first + t[2]});
+  }
+  for (Index f = 0; f < faces_.size(); ++f) {
+    for (std::size_t k = 0; k < 3; ++k) points_[point_of(f, k)].faces.push_back(f);
+  }
+  is_alive_.assign(faces_.size(), 1);
+  alive_ = faces_.size();
+  for (Index p = 0; p < points; ++p) part_fans(p);
+}
+
+/// Gives each fan of faces that are joined by edges, but the first one, a point of its own.
+void LeafMesh::part_fans(Index point) {
+  std::vector<Index> left = faces_of(point);
+  for (bool is_first = true; !left.empty(); is_first = false) {
+    std::vector<Index> fan{left.front()};
+    left.erase(left.begin());
+    for (std::size_t i = 0; i < fan.size(); ++i) {
+      const auto joins = [&](Index f) {
+        for (std::size_t k = 0; k < 3; ++k) {
+          if (point_of(f, k) != point && place_in(fan[i], point_of(f, k)) < 3) return true;
+        }
+        return false;
+      };
+      for (const Index f : left) {
+        if (joins(f)) fan.push_back(f);
+      }
+      std::erase_if(left, [&](Index f) { return std::find(fan.begin(), fan.end(), f) != fan.end(); });
+    }
+    if (is_first) {
+      points_[point].faces = fan;
+      std::sort(points_[point].faces.begin(), points_[point].faces.end());
+    } else {
+      give_point(point, fan);
+    }
+  }
+}
+
+/// Moves the fan's corners from a point to a new one at the same place. A corner that other faces have, too, is copied.
+void LeafMesh::give_point(Index point, const std::vector<Index>& fan) {
+  const auto fresh = Index(points_.size());
+  points_.push_back({at(point), fan});
+  std::map<Index, Index> copies;
+  for (const Index f : fan) {
+    Index& c = faces_[f][place_in(f, point)];
+    const auto [found, is_new] = copies.try_emplace(c, Index(corners_.size()));
+    if (is_new) corners_.push_back({fresh, corner(c).look});
+    c = found->second;
+  }
+}
+
+std::size_t LeafMesh::place_in(Index f, Index point) const {
+  std::size_t k = 0;
+  while (k < 3 && point_of(f, k) != point) ++k;
+  return k;
+}
+
+std::vector<LeafMesh::Index> LeafMesh::neighbours(Index point) const {
+  std::vector<Index> all;
+  for (const Index f : faces_of(point)) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (point_of(f, k) != point) all.push_back(point_of(f, k));
+    }
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+std::vector<LeafMesh::Index> LeafMesh::corners_of(Index point) const {
+  std::vector<Index> all;
+  for (const Index f : faces_of(point)) all.push_back(faces_[f][place_in(f, point)]);
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+void LeafMesh::erase(Index f) {
+  is_alive_[f] = 0;
+  --alive_;
+  for (std::size_t k = 0; k < 3; ++k) std::erase(points_[point_of(f, k)].faces, f);
+}
+
+void LeafMesh::erase_doubles(Index point) {
+  std::map<std::array<Index, 4>, Index> seen;  // part and points
+  for (const Index f : std::vector<Index>(faces_of(point))) {
+    std::array<Index, 4> key{point_of(f, 0), point_of(f, 1), point_of(f, 2), corner(faces_[f][0]).look.part};
+    std::sort(key.begin(), key.begin() + 3);
+    if (!seen.emplace(key, f).second) erase(f);
+  }
+}
+
+void LeafMesh::collapse(Index u, Index v, const Vec3d& to, const std::vector<Change>& changes) {
+  for (const Index f : std::vector<Index>(faces_of(u))) {
+    if (place_in(f, v) < 3) erase(f);
+  }
+  std::vector<Index> left = faces_of(u);
+  left.insert(left.end(), faces_of(v).begin(), faces_of(v).end());
+  for (const Change& change : changes) {
+    corners_[change.into] = {u, change.look};
+    if (change.into == change.corner) continue;
+    for (const Index f : left) std::replace(faces_[f].begin(), faces_[f].end(), change.corner, change.into);
+  }
+  points_[u] = {to, std::move(left)};
+  points_[v].faces.clear();
+  erase_doubles(u);
+}
+
+SceneLeaf LeafMesh::leaf(const SceneLeaf& whole) const {
+  SceneLeaf out;
+  out.origin = whole.origin;
+  out.unit = whole.unit;
+  std::vector<LeafPart> parts(whole.parts.size());
+  std::map<Index, Index> numbers;  // of corners, in their parts
+  for (Index f = 0; f < faces_.size(); ++f) {
+    if (!is_alive_[f]) continue;
+    LeafPart& part = parts[corners_[faces_[f][0]].look.part];
+    std::array<Index, 3> triangle{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [found, is_new] = numbers.try_emplace(faces_[f][k], Index(part.vertices.size()));
+      triangle[k] = found->second;
+      if (!is_new) continue;
+      const Corner& c = corners_[faces_[f][k]];
+      const Vec3d& p = points_[c.point].at;
+      LeafVertex vertex{{}, c.look.normal, c.look.uv, c.look.color};
+      Vec3d world;
+      for (std::size_t i = 0; i < 3; ++i) {
+        vertex.at[i] = std::int32_t(std::nearbyint(p[i]));
+        world[i] = out.origin[i] + out.unit * vertex.at[i];
+      }
+      part.vertices.push_back(vertex);
+      out.bounds.add(world);
+    }
+    part.triangles.push_back(triangle);
+  }
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    parts[i].material = whole.parts[i].material;
+    if (!parts[i].triangles.empty()) out.parts.push_back(std::move(parts[i]));
+  }
+  return out;
+}
+
+}  // namespace bp
