@@ -45,7 +45,8 @@ std::vector<bp::WrittenFile> write_files(bp::Build& build, const bp::MadeChain& 
   }
   build.report.begin("write");
   if (o.obj) return bp::write_obj_levels(o, levels, origin, out);
-  return bp::write_profile(o, levels, chain.scene.voxels.header.bounds.diagonal(), origin, out);
+  const bp::LeafLooks looks{chain.scene.textures.get(), {}, o.colors()};
+  return bp::write_profile(o, chain.made, chain.scene.voxels.header.bounds.diagonal(), origin, looks, out);
 }
 
 /// Builds levels of one mesh each.
@@ -65,13 +66,17 @@ void build_chain(const bp::BuildOptions& o) {
   const bp::LevelFacts& finest = made.facts.front();
   const bool asked = asks_for_faces(request_of(o));
   build.note(bp::heavier_note(finest, asked, scene.size.triangles));
-  const std::string joined = bp::joined_note(finest, made.levels.front().counts.levels.front().measures.shells, parts);
-  build.note(joined.empty() && !asked ? bp::closed_note(finest) : joined);
+  if (made.scenes.empty() || made.scenes.front() == nullptr) {
+    const std::string joined =
+        bp::joined_note(finest, made.levels.front().counts.levels.front().measures.shells, parts);
+    build.note(joined.empty() && !asked ? bp::closed_note(finest) : joined);
+  }
   const std::vector<bp::WrittenFile> files = write_files(build, chain, origin, out);
   out.commit();
   std::vector<bp::LevelRow> rows;
   for (const bp::WrittenFile& file : files) {
     rows.push_back(row_of(file, made.facts, out));
+    if (o.proxy.visual) rows.back().more["from"] = made.scenes[file.level] ? "scene" : "fit";
     build.note(file.note);
   }
   if (origin != bp::Vec3d{}) build.report.counts["origin"] = origin;

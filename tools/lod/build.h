@@ -1,10 +1,12 @@
 #pragma once
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "io/scene/scene_reader.h"
 #include "lib/levels/level_chain.h"
+#include "lib/pass/leaf/scene_leaf.h"
 #include "tools/lod/level_list.h"
 #include "tools/lod/level_notes.h"
 #include "tools/run/make_backend.h"
@@ -39,6 +41,7 @@ struct CompleteLevels {
   std::vector<LodLevel> levels;   ///< finest first
   std::vector<LevelFacts> facts;  ///< of each level
   std::vector<LeftOut> left_out;
+  std::vector<std::shared_ptr<const SceneLeaf>> scenes;  ///< shown in place of a level; null, or no element: the level
 };
 
 /// Tells the notes of levels that are one mesh each; `first` is the number of the first one.

@@ -138,6 +138,11 @@ void check_profile(const Args& args, const BuildOptions& o) {
   if (o.is_cage()) refuse({"--mode", "--appearance", "--enclose", "--error", "--scale", "--field"});
   if (o.profile == LodProfile::collision && o.proxy.mode != MeshMode::bounding)
     fail(ErrorCode::bad_argument, "--profile collision needs --mode bounding");
+  if (o.proxy.visual && (o.profile != LodProfile::gltf || !can_read_again(o)))
+    fail(ErrorCode::bad_argument, "--mode visual needs --profile gltf, and scenes that are files");
+  if (o.proxy.visual && (args.given("--error") || args.given("--enclose")))
+    fail(ErrorCode::bad_argument, "--mode visual takes a number of faces, and encloses nothing; leave {} out",
+         args.given("--error") ? "--error" : "--enclose");
   if (o.proxy.mode == MeshMode::fit && args.given("--enclose"))
     fail(ErrorCode::bad_argument, "a fit encloses nothing and is not tightened; --enclose has no meaning");
   if (o.leaves && !can_read_again(o))
@@ -309,11 +314,16 @@ const char* name_of(LodProfile profile) {
   return kNames[std::size_t(profile)];
 }
 
+const char* BuildOptions::mode_name() const {
+  return proxy.visual ? "visual" : name_of(proxy.mode);
+}
+
 BuildOptions parse_build_options(Args& args) {
   BuildOptions o;
   declare(args, o);
   args.parse();
   o.voxels.check();
+  o.proxy.check();
   if (!o.field.empty()) keep_inputs({o.field});
   check_profile(args, o);
   // A fit searches for the scene from the closing's surface. At slanted sides the closing by a cube lies about as far
@@ -322,6 +332,7 @@ BuildOptions parse_build_options(Args& args) {
   set_one_level(o);
   check_levels(o);
   take_obj_name(args, o);
+  if (o.proxy.visual && o.obj) fail(ErrorCode::bad_argument, "--mode visual writes GLB; give -o a folder");
   check_output(o);
   check_jobs(o);
   check_name(o);
@@ -332,7 +343,7 @@ Json options_json(const BuildOptions& o) {
   Json errors = Json::array();
   for (const Length& error : o.levels.errors) errors.push_back(error.text());
   return {{"profile", name_of(o.profile)},
-          {"mode", name_of(o.proxy.mode)},
+          {"mode", o.mode_name()},
           {"name", o.name},
           {"levels", optional_json(o.levels.levels)},
           {"faces", faces_json(o.levels)},

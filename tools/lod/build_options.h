@@ -65,6 +65,7 @@ struct BuildOptions {
   [[nodiscard]] bool colors() const { return appearance != Appearance::off; }
   [[nodiscard]] bool full() const { return appearance == Appearance::full; }
   [[nodiscard]] bool may_have_textures() const { return appearance >= Appearance::texture; }
+  [[nodiscard]] const char* mode_name() const;  ///< the word of --mode
   [[nodiscard]] bool is_cage() const { return profile == LodProfile::cage; }
   [[nodiscard]] bool is_tileset() const { return profile == LodProfile::tiles; }
 };

@@ -27,6 +27,7 @@ LevelRequest request_for(const BuildOptions& o, std::uint64_t triangles, double 
   if (o.is_tileset() || o.profile == LodProfile::occluder) return request;
   LevelDefaults defaults;
   if (o.profile == LodProfile::collision) defaults = {kPerCollisionFace, kMostCollisionFaces};
+  if (o.proxy.visual) defaults.triangles_per_face = 1;  // a small scene is its own finest level
   if (o.profile == LodProfile::cage) defaults = {kPerCageFace, kMostCageFaces};
   defaults.by_voxels = o.profile != LodProfile::cage && (o.voxels.voxel || o.voxels.resolution);
   return with_defaults(request, triangles, defaults);
@@ -79,7 +80,7 @@ Enclose enclosed_by(const BuildOptions& o, std::uint64_t triangles) {
 OptionText option_text(const BuildOptions& o, Enclose enclosed, const LodTarget& target, std::size_t i,
                        double scale_world, const GridFrame& frame) {
   OptionText text;
-  text.add("level", i).add("mode", name_of(o.proxy.mode));
+  text.add("level", i).add("mode", o.mode_name());
   if (target.faces > 0) text.add("faces", target.faces);
   if (target.error_world > 0) text.add("error", target.error_world);
   text.add("scale", scale_world)

@@ -14,25 +14,33 @@ namespace bp {
 
 namespace {
 
-std::vector<NamedMesh> named(const std::string& name, const std::vector<LodLevel>& levels) {
+std::vector<NamedMesh> named(const std::string& name, const CompleteLevels& made) {
   std::vector<NamedMesh> meshes;
-  for (std::size_t i = 0; i < levels.size(); ++i) meshes.push_back({level_name(name, i), &levels[i].mesh});
+  for (std::size_t i = 0; i < made.levels.size(); ++i) {
+    const SceneLeaf* const scene = i < made.scenes.size() ? made.scenes[i].get() : nullptr;
+    meshes.push_back({level_name(name, i), &made.levels[i].mesh, scene});
+  }
   return meshes;
 }
 
-std::vector<WrittenFile> write_gltf_profile(const std::string& name, const std::vector<LodLevel>& levels,
-                                            double diameter, const MeshWriteOptions& facts, OutputFolder& out) {
+std::vector<WrittenFile> write_gltf_profile(const std::string& name, const CompleteLevels& made, double diameter,
+                                            MeshWriteOptions facts, const LeafLooks& looks, OutputFolder& out) {
   std::vector<WrittenFile> files;
-  const std::vector<NamedMesh> meshes = named(name, levels);
+  const std::vector<NamedMesh> meshes = named(name, made);
+  const std::optional<Contract> claimed = facts.contract;
+  bool claims_all = true;
   for (const NamedMesh& level : meshes) {
-    write_lod_glb({&level, 1}, {}, out.file(level.name + ".glb"), facts);
-    files.push_back({level.name + ".glb", files.size(), level.mesh->triangles.size()});
+    facts.contract = level.scene == nullptr ? claimed : std::nullopt;
+    claims_all = claims_all && facts.contract;
+    write_lod_glb({&level, 1}, {}, out.file(level.name + ".glb"), facts, looks);
+    files.push_back({level.name + ".glb", files.size(), made.facts[files.size()].faces});
   }
-  std::vector<double> coverage;  // a level is drawn until the next one's error is a pixel; the last one is always drawn
-  for (std::size_t i = 1; i < levels.size(); ++i)
-    coverage.push_back(coverage_at_one_pixel(diameter, levels[i].error_world));
+  std::vector<double> coverage;  // a level is drawn until the next one's error is a pixel; the last one always
+  for (std::size_t i = 1; i < meshes.size(); ++i)
+    coverage.push_back(coverage_at_one_pixel(diameter, made.facts[i].error_world));
   coverage.push_back(0);
-  write_lod_glb(meshes, coverage, out.file(name + ".glb"), facts);
+  facts.contract = claims_all ? claimed : std::nullopt;
+  write_lod_glb(meshes, coverage, out.file(name + ".glb"), facts, looks);
   return files;
 }
 
@@ -121,18 +129,18 @@ std::vector<std::string> profile_files(LodProfile profile, const std::string& na
   return files;
 }
 
-std::vector<WrittenFile> write_profile(const BuildOptions& options, const std::vector<LodLevel>& levels,
-                                       double diameter, const Vec3d& origin, OutputFolder& out) {
+std::vector<WrittenFile> write_profile(const BuildOptions& options, const CompleteLevels& made, double diameter,
+                                       const Vec3d& origin, const LeafLooks& looks, OutputFolder& out) {
   switch (options.profile) {
     case LodProfile::gltf:
-      return write_gltf_profile(options.name, levels, diameter, {origin, false, contract_of_levels(options)}, out);
+      return write_gltf_profile(options.name, made, diameter, {origin, false, contract_of_levels(options)}, looks, out);
     case LodProfile::tiles:      // tile_build.h
     case LodProfile::collision:  // collision/collision_files.h
       break;
     case LodProfile::occluder:
-      return write_occluder_profile(options.name, levels.front().mesh, origin, out);
+      return write_occluder_profile(options.name, made.levels.front().mesh, origin, out);
     case LodProfile::cage:
-      return write_cage_profile(options.name, levels.front().mesh, origin, out);
+      return write_cage_profile(options.name, made.levels.front().mesh, origin, out);
   }
   return {};
 }

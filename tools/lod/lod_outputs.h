@@ -57,11 +57,11 @@ struct WrittenFile {
   std::string note = "";                 ///< a note for the user
   std::vector<std::string> beside = {};  ///< further files of the level: materials and images of OBJ, files of hulls
 };
-/// Writes the files, and returns those that hold one level. `levels`: finest first; their errors must not fall from
-/// level to level. For collision meshes: collision/collision_files.h. diameter: the scene's; origin: subtracted from
-/// all vertices; both in scene units. The options that matter are profile, name and mode.
-std::vector<WrittenFile> write_profile(const BuildOptions& options, const std::vector<LodLevel>& levels,
-                                       double diameter, const Vec3d& origin, OutputFolder& out);
+/// Writes them; returns those that hold one level. Levels: finest first; errors must not fall towards coarser ones;
+/// collision: collision/collision_files.h. diameter: of the scene; origin: subtracted from all vertices; scene units.
+/// looks: images of levels that are triangles of the scene. The options that decide are profile, name and mode.
+std::vector<WrittenFile> write_profile(const BuildOptions& options, const CompleteLevels& made, double diameter,
+                                       const Vec3d& origin, const LeafLooks& looks, OutputFolder& out);
 
 /// Encodes the levels of a tileset that are one mesh each. `first`: the number of the first one.
 [[nodiscard]] WholeLevels encoded(const BuildOptions& options, const CompleteLevels& made, std::size_t first);

@@ -124,11 +124,11 @@ void build_occluder(const BuildOptions& o) {
   build.progress.end();
   build.report.begin("write");
   const Json more = json_of(built);
-  std::vector<LodLevel> levels;
-  levels.push_back(std::move(level));
+  CompleteLevels made;
+  made.levels.push_back(std::move(level));
   const StreamHeader& header = built.scene.voxels.header;
   const Vec3d origin = origin_of(o.proxy.origin, header.frame, header.bounds);
-  const WrittenFile file = write_profile(o, levels, 0, origin, out).front();
+  const WrittenFile file = write_profile(o, made, 0, origin, {}, out).front();
   out.commit();
   LevelRow row = row_of(facts, file.name, out.bytes(file.name));
   row.more.update(more);

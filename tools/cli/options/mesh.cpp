@@ -88,7 +88,11 @@ void ProxyOptions::add_of_stream(Args& args) {
 
 void ProxyOptions::add_of_scene(Args& args) {
   args.group("Proxy");
-  args.option("--mode", {kBounding, kFit}, mode, kModeHelp);
+  args.option("--mode",
+              {{kBounding.word, LevelMode::bounding, kBounding.help},
+               {kFit.word, LevelMode::fit, kFit.help},
+               {"visual", LevelMode::visual, "the scene's own triangles, or fewer, or a fit: nothing is enclosed"}},
+              level_mode_, kModeHelp);
   std::vector<Word> words = enclose_words();
   args.option("--enclose",
               {{"auto", Kind::automatic, words[0].help.c_str()},
@@ -100,6 +104,8 @@ void ProxyOptions::add_of_scene(Args& args) {
 }
 
 void ProxyOptions::check() {
+  visual = level_mode_ == LevelMode::visual;
+  if (level_mode_ != LevelMode::bounding) mode = MeshMode::fit;
   enclose = parse_enclose(enclose_words_);
 }
 

@@ -27,18 +27,21 @@ struct EncloseOption {
 
 struct ProxyOptions {
   MeshMode mode = MeshMode::bounding;
+  bool visual = false;      ///< levels to be looked at: the scene's own triangles, or fewer, or a fit
   bool mode_given = false;  ///< --mode was given (streams only)
   EncloseOption enclose;
   OriginOption origin;
 
   /// Declares them for a stream: every mode, and --enclose may name files.
   void add_of_stream(Args& args);
-  /// Declares them for a scene: the modes bounding and fit, and --enclose takes no files.
+  /// Declares them for a scene: the modes bounding, fit and visual, and --enclose takes no files.
   void add_of_scene(Args& args);
-  /// Parses the words given to --enclose. For a stream, after args.parse().
+  /// Parses what was given. After args.parse().
   void check();
 
  private:
+  enum class LevelMode { bounding, fit, visual };
+  LevelMode level_mode_ = LevelMode::bounding;  // of a scene
   std::vector<std::string> enclose_words_;
 };
 

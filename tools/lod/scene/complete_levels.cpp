@@ -10,6 +10,7 @@
 #include "tools/cli/names.h"
 #include "tools/lod/bake_levels.h"
 #include "tools/lod/choices.h"
+#include "tools/lod/scene/scene_levels.h"
 #include "tools/run/scale_rules.h"
 
 namespace bp {
@@ -64,6 +65,16 @@ CompleteLevels make_levels(Build& build, LodChain& chain, const ChainRange& rang
   return out;
 }
 
+namespace {
+
+std::vector<LodTarget> targets_of(const LevelRequest& request) {
+  std::vector<LodTarget> targets;
+  for (std::size_t i = 0; i < level_count(request); ++i) targets.push_back(level_target(request, i, 0, 0));
+  return targets;
+}
+
+}  // namespace
+
 std::unique_ptr<SceneLooks> hold_looks(Build& build, const LodScene& scene) {
   if (!scene.textured && !build.options.leaves) return nullptr;
   build.report.begin("textures");
@@ -80,14 +91,23 @@ MadeChain make_chain(Build& build) {
   VoxelizedScene& voxels = chain.scene.voxels;
   chain.parts = parts_of(voxels, o, build.budget.work.bytes);
   if (o.is_cage()) chain.room = make_room(build, chain.scene);
-  build.report.begin("measure the scene");
   const StreamHeader& header = voxels.header;
   const double diagonal = header.bounds.diagonal();
-  LodOptions options = lod_options(build, chain.scene, chain.room);
-  LodChain levels(header, std::move(voxels.solid), build.backends, std::move(options));
-  const LevelRequest request = request_for(o, chain.scene.size.triangles, diagonal, header.frame.voxel);
-  const ChainRange range{request, 0, level_count(request), diagonal, is_named(voxel_request(o, diagonal))};
-  chain.made = make_levels(build, levels, range, {chain.scene, chain.room, nullptr, voxels.counts.input_hash});
+  LevelRequest request = request_for(o, chain.scene.size.triangles, diagonal, header.frame.voxel);
+  std::optional<SceneLevels> own;
+  if (o.proxy.visual) {
+    own.emplace(build, chain.scene, targets_of(request));
+    request.faces = own->open();
+    request.levels = request.faces.size();
+  }
+  if (level_count(request) > 0) {
+    build.report.begin("measure the scene");
+    LodOptions options = lod_options(build, chain.scene, chain.room);
+    LodChain levels(header, std::move(voxels.solid), build.backends, std::move(options));
+    const ChainRange range{request, 0, level_count(request), diagonal, is_named(voxel_request(o, diagonal))};
+    chain.made = make_levels(build, levels, range, {chain.scene, chain.room, nullptr, voxels.counts.input_hash});
+  }
+  if (own) chain.made = own->with(std::move(chain.made));
   return chain;
 }
 

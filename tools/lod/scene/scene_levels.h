@@ -1,0 +1,42 @@
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "lib/image/depth_views.h"
+#include "lib/pass/leaf/scene_leaf.h"
+#include "tools/lod/scene/lod_scene.h"
+
+namespace bp {
+
+/// Levels that are to be looked at (--mode visual): the scene's own triangles, or fewer of them, where these look more
+/// like the scene than a fit does.
+class SceneLevels {
+ public:
+  /// Makes a level of the scene's triangles for each target, finest first, that these can meet. Reads the scene once
+  /// more. A scene of more than kMostEnclosedTriangles has none, and a note says so. Throws NeedsMemory.
+  SceneLevels(Build& build, const LodScene& scene, const std::vector<LodTarget>& targets);
+
+  /// Returns the faces of the targets that a fit may look nearer for: there is no level yet, or it shows more than a
+  /// hundredth of the pixels otherwise than the scene.
+  [[nodiscard]] std::vector<std::uint64_t> open() const;
+  /// Returns a level for each target that is met: the fit where that looks nearer. Levels with no fewer faces than the
+  /// one before are left out. The error of a level from the scene is the largest distance between both, from each to
+  /// the other one; where it is less than that of the finer level, that stands for both.
+  [[nodiscard]] CompleteLevels with(CompleteLevels fits) const;
+
+ private:
+  struct Level {
+    LodTarget target;
+    std::shared_ptr<const SceneLeaf> leaf;  // null: the triangles cannot meet the target
+    double difference = 0;                  // DepthViews::difference()
+    double error_world = 0;
+  };
+  [[nodiscard]] LodLevel told(std::size_t number) const;
+
+  const Build& build_;
+  const LodScene& scene_;
+  std::vector<Level> levels_;
+  std::unique_ptr<DepthViews> views_;
+};
+
+}  // namespace bp
