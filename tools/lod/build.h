@@ -21,12 +21,15 @@ struct Build {
   const BuildBudget budget;
   const ShelfFactory make_shelf;
   const PassProgress show;  ///< progress of passes
+  PlacedScene placed;       ///< on the globe: set before the scene is read
 
   explicit Build(const BuildOptions& options);
   Build(const Build&) = delete;
   Build& operator=(const Build&) = delete;
 
   void note(const std::string& text);  ///< on stderr and in the report; nothing of an empty text
+  /// Finds the place that the options ask for, and notes it. Reads the scene once if it has a system.
+  void place();
   /// How scenes are read. `beside`: something else of them is in memory meanwhile.
   [[nodiscard]] SceneOptions scene_options(bool beside = false) const;
   /// Makes the context of all passes after reading: budget.work, or a share of it, and where the rest spills to.

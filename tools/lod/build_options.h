@@ -11,6 +11,7 @@
 #include "tools/cli/options/mesh.h"
 #include "tools/cli/options/voxel.h"
 #include "tools/cli/report.h"
+#include "tools/place/place.h"
 
 /// The command line of bplod.
 namespace bp {
@@ -57,6 +58,7 @@ struct BuildOptions {
   std::string cache;                                       ///< folder of results of earlier builds; empty: none
   TileCompression compression = TileCompression::meshopt;  ///< of a tileset's contents
   bool leaves = false;                                     ///< below the finest level are the scene's own triangles
+  PlaceOptions place;                                      ///< of a tileset, on the globe
   std::optional<JobRange> tiles;  ///< the jobs to do, without a tileset; empty: all, and the tileset
   bool explain = false;           ///< print the plan; do nothing
   Appearance appearance = Appearance::automatic;
