@@ -18,6 +18,15 @@ pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
 pkg_check_modules(webp REQUIRED IMPORTED_TARGET libwebp)
 pkg_check_modules(draco REQUIRED IMPORTED_TARGET draco)
 
+# bplod --crs needs it; without it that option is refused. 9.1 tells which operation it chose.
+pkg_check_modules(proj IMPORTED_TARGET proj>=9.1)
+set(BP_HAVE_PROJ ${proj_FOUND})
+if(BP_HAVE_PROJ)
+  message(STATUS "bplod --crs: PROJ ${proj_VERSION}")
+else()
+  message(STATUS "bplod --crs: skipped, for PROJ 9.1 was not found (libproj-dev)")
+endif()
+
 # bpview alone needs it. Debian's package has it as a library.
 pkg_check_modules(httplib IMPORTED_TARGET cpp-httplib)
 if(httplib_FOUND)

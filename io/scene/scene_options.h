@@ -9,6 +9,7 @@
 namespace bp {
 
 struct PartNames;
+class SceneMap;
 struct ScenePose;
 class TextureTable;
 
@@ -50,6 +51,7 @@ struct SceneOptions {
   /// nodes, with all below them, meshes, materials. Other formats are refused.
   std::string parts{};
   std::shared_ptr<PartNames> part_names{};  ///< gets the names that it asks for; null: none
+  std::shared_ptr<const SceneMap> map{};    ///< moves the scene while open_scene() reads it; null: nothing moves
 };
 
 }  // namespace bp

@@ -11,8 +11,10 @@
 #include "io/scene/scene_format.h"
 #include "io/scene/scene_pose.h"
 #include "lib/core/error.h"
+#include "lib/core/packed_normal.h"
 #include "lib/core/parallel.h"
 #include "lib/exact/predicates.h"
+#include "lib/place/scene_map.h"
 
 namespace bp {
 
@@ -86,6 +88,7 @@ class FilteredScene final : public TriangleSource {
         keep_degenerate_(options.keep_degenerate),
         keep_extremes_(options.keep_extremes),
         some_parts_(!options.parts.empty()),
+        map_(options.map),
         batches_(batches_in(options.memory_bytes)) {}
 
   bool read(std::vector<TriangleD>& out) override {
@@ -121,16 +124,18 @@ class FilteredScene final : public TriangleSource {
     counts_ = {};
     next_ = ready_ = 0;
     bad_faces_ = 0;
+    largest_ = 0;
   }
   [[nodiscard]] const SceneCounts& counts() const override { return counts_; }
   [[nodiscard]] std::string name() const override { return name_; }
-  [[nodiscard]] std::optional<Bounds3d> bounds() override { return raw_->bounds(); }
-  [[nodiscard]] std::optional<UpAxis> up() const override { return raw_->up(); }
+  [[nodiscard]] std::optional<Bounds3d> bounds() override { return map_ ? std::nullopt : raw_->bounds(); }
+  [[nodiscard]] std::optional<UpAxis> up() const override { return map_ ? map_->up() : raw_->up(); }
 
  private:
   struct Batch {
     RawBatch raw;
     SceneCounts counts;  // counts of its triangles
+    double largest = 0;  // coordinate before the map
   };
 
   static std::size_t batches_in(std::uint64_t memory_bytes) {
@@ -150,6 +155,7 @@ class FilteredScene final : public TriangleSource {
       Batch& batch = batches_[next_++];
       batch_ = &batch.raw;
       counts_.add(batch.counts);
+      largest_ = std::max(largest_, batch.largest);
     }
     counts_.bad_faces = raw_->bad_faces() + bad_faces_;
     counts_.instances = raw_->instances();
@@ -157,7 +163,7 @@ class FilteredScene final : public TriangleSource {
     counts_.posed = raw_->posed();
     counts_.differing = raw_->differing();
     counts_.unfollowed = raw_->unfollowed();
-    counts_.rounding = raw_->rounding();
+    counts_.rounding = map_ ? mapped(raw_->rounding()) : raw_->rounding();
     const SceneCounts& c = counts_;  // at the end; somebody who names a file of points wants them enclosed
     if (!some_parts_ && batch_->triangles.empty() && c.triangles + c.degenerate + c.non_finite + c.bad_faces == 0 &&
         raw_->points() + raw_->lines() > 0)
@@ -180,6 +186,7 @@ class FilteredScene final : public TriangleSource {
     parallel_for(std::int64_t(ready_), [&](std::int64_t i) {
       Batch& batch = batches_[std::size_t(i)];
       raw_->complete(batch.raw);
+      if (map_) batch.largest = move(batch.raw);
       batch.counts = keep_good(batch.raw);
     });
     for (std::size_t i = 0; i < ready_; ++i) bad_faces_ += batches_[i].raw.bad_faces;
@@ -193,6 +200,30 @@ class FilteredScene final : public TriangleSource {
       for (const double c : p) plain &= std::abs(c) >= 1e-90 && std::abs(c) <= 1e90;
     }
     return plain;
+  }
+
+  /// Moves a batch. Returns its largest coordinate before.
+  [[nodiscard]] double move(RawBatch& batch) const {
+    double largest = 0;
+    for (const TriangleD& t : batch.triangles) {
+      for (const Vec3d& p : t) {
+        for (const double c : p) largest = std::isfinite(c) ? std::max(largest, std::abs(c)) : largest;
+      }
+    }
+    const std::optional<UpAxis> up = raw_->up();
+    map_->move(batch.triangles, up);
+    for (TriangleTexture& texture : batch.textures) {
+      for (PackedNormal& n : texture.normals) n = n == 0 ? n : pack_normal(map_->normal(unpack_normal(n), up));
+    }
+    return largest;
+  }
+
+  /// Returns what a bound on the coordinates of the file means for those after the map. They are smaller, so a share of
+  /// them would be too little.
+  [[nodiscard]] Rounding mapped(const Rounding& of_file) const {
+    if (!of_file.any()) return of_file;
+    const double bound = map_->stretch() * of_file.of(largest_);
+    return {0, bound, bound};
   }
 
   [[nodiscard]] SceneCounts keep_good(RawBatch& batch) const {
@@ -232,12 +263,14 @@ class FilteredScene final : public TriangleSource {
   std::string name_;
   RawSourcePtr raw_;
   bool keep_degenerate_, keep_extremes_, some_parts_;
+  std::shared_ptr<const SceneMap> map_;  // null: nothing moves
   SceneCounts counts_;
   std::vector<Batch> batches_;
   RawBatch end_;  // an empty batch
   RawBatch* batch_ = &end_;
   std::size_t next_ = 0, ready_ = 0;  // range in batches_
   std::uint64_t bad_faces_ = 0;       // found by complete()
+  double largest_ = 0;                // coordinate before the map
 };
 
 }  // namespace

@@ -44,14 +44,16 @@ class TileWalk {
       : folder_(folder_of(path)), has_leaves_(has_leaves(root, 0)), f_(f) {}
 
   /// adds: the tile above is refined by adding, so this tile is drawn in addition to those below it.
-  void walk(const GltfObject& tile, const Affine& parent, bool adds = false) const {
-    const Affine place = parent * affine_of_transform(tile_transform(tile));
+  void walk(const GltfObject& tile, const Affine& place, bool adds = false) const {
     if (tile.has("refine")) adds = bp::adds(tile.text("refine"));
     const std::size_t below = tile.array("children").size();
     const bool drawn = has_leaves_ ? is_leaf(tile) : adds || below == 0;
     if (tile.has("content")) find(tile.object("content"), place, drawn);
     for (std::size_t i = 0; i < tile.array("contents").size(); ++i) find(tile.item("contents", i), place, drawn);
-    for (std::size_t i = 0; i < below; ++i) walk(tile.item("children", i), place, adds);
+    for (std::size_t i = 0; i < below; ++i) {
+      const GltfObject child = tile.item("children", i);
+      walk(child, place * affine_of_transform(tile_transform(child)), adds);
+    }
   }
 
  private:
@@ -68,10 +70,10 @@ class TileWalk {
   const F& f_;
 };
 
+/// `place`: that of the root tile.
 template <class F>
 void for_each_content(const GltfObject& tileset, const std::string& path, const Affine& place, const F& f) {
-  const GltfObject root = tileset.object("root");
-  TileWalk<F>(root, path, f).walk(root, place);
+  TileWalk<F>(tileset.object("root"), path, f).walk(tileset.object("root"), place);
 }
 
 std::string real_path(const std::string& path) {
@@ -167,7 +169,7 @@ class ContentFinder {
     held_ = tileset.bytes;
     out_.up = gltf_up(root).value_or(UpAxis::z);
     content_up_ = bp::content_up(root);
-    add_tileset(root, path, scene_place(kNoTransform, out_.up));
+    add_tileset(root, path, scene_place(root_transform(root), out_.up));
     if (missing_ > 0)
       fail(ErrorCode::bad_input,
            "{}: {} of {} contents are missing, and the scene is not whole without them; the first is {}", path,
@@ -197,7 +199,8 @@ class ContentFinder {
       const CountedJson tileset =
           read_json(open_scene_file(found.path, temp_dir_of(options_), NamedBy::file), options_, held_);
       held_ += tileset.bytes;
-      add_tileset(GltfObject(tileset.json, found.path, ""), found.path, found.place);
+      const GltfObject root(tileset.json, found.path, "");
+      add_tileset(root, found.path, found.place * affine_of_transform(tile_transform(root.object("root"))));
       held_ -= tileset.bytes;
     } else {
       keep_file(found.path);

@@ -45,6 +45,8 @@ class Reader {
     tileset.images = images(root_.object("asset"));
     const GltfObject top = root_.object("root");  // throws if there is none
     tileset.root = tile(top, json_["root"], 0);
+    tileset.placement = placement_of(root_);
+    tileset.root.transform = root_transform(root_);
     tileset.not_understood = unread_.lines();
     return tileset;
   }
@@ -117,6 +119,18 @@ Json json_of(const TileBox& box) {
   return numbers;
 }
 
+/// `root`: a translation.
+Json json_of(const Placement& placement, const Transform& root) {
+  const GlobePlace& place = placement.place;
+  Json json{{"place", {place.lon, place.lat, place.height}}, {"origin", {root[12], root[13], root[14]}}};
+  if (placement.at != Vec3d{}) json["at"] = placement.at;
+  if (placement.crs.empty()) return json;
+  json["crs"] = placement.crs;
+  json["operation"] = placement.operation;
+  if (placement.scene_up) json["scene_up"] = name_of(*placement.scene_up);
+  return json;
+}
+
 Json json_of(const Tile& tile) {
   Json json;
   if (tile.transform != kNoTransform) json["transform"] = tile.transform;
@@ -155,7 +169,12 @@ std::string tileset_text(const Tileset& tileset, const std::vector<Provenance>& 
   asset["version"] = tileset.version;
   asset.erase("generator");
   if (!tileset.images.empty()) asset["extras"]["images"] = tileset.images;
-  const Json doc{{"asset", asset}, {"geometricError", tileset.geometric_error}, {"root", json_of(tileset.root)}};
+  Json root = json_of(tileset.root);
+  if (tileset.placement) {
+    asset["extras"]["placement"] = json_of(*tileset.placement, tileset.root.transform);
+    root["transform"] = product(to_ecef(*tileset.placement), tileset.root.transform);
+  }
+  const Json doc{{"asset", asset}, {"geometricError", tileset.geometric_error}, {"root", root}};
   return doc.dump(1) + "\n";
 }
 

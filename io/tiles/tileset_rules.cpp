@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "io/files/file.h"
 #include "io/files/lower.h"
 #include "io/files/uri.h"
+#include "lib/core/vec3.h"
 
 namespace bp {
 
@@ -22,6 +24,63 @@ Transform tile_transform(const GltfObject& tile) {
   if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1)
     tile.broken("has a 'transform' whose last row is not 0 0 0 1");
   return m;
+}
+
+namespace {
+
+/// Returns asset.extras.placement, if a tileset has one of the form that this suite writes.
+std::optional<GltfObject> told_placement(const GltfObject& root) {
+  if (!root.has("asset") || !root.object("asset").has("extras")) return {};
+  const GltfObject extras = root.object("asset").object("extras");
+  if (!extras.has("placement") || !extras.json()["placement"].is_object()) return {};
+  const GltfObject told = extras.object("placement");
+  return told.has("place") && told.has("origin") ? std::optional(told) : std::nullopt;
+}
+
+Transform moved_by(const Vec3d& v) {
+  Transform m = kNoTransform;
+  std::copy(v.begin(), v.end(), m.begin() + 12);
+  return m;
+}
+
+/// Returns how far apart two transforms take a point of the volume, at most.
+double difference(const Transform& a, const Transform& b, const GltfObject& volume) {
+  if (!volume.has("box")) return HUGE_VAL;  // all tilesets of this suite have boxes
+  const auto n = volume.numbers<12>("box", {});
+  double most = 0;
+  for (std::size_t corner = 0; corner < 8; ++corner) {
+    Vec3d p{n[0], n[1], n[2]};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      for (std::size_t k = 0; k < 3; ++k)
+        p[k] += (corner >> axis & 1) != 0 ? n[3 + 3 * axis + k] : -n[3 + 3 * axis + k];
+    }
+    const double off = length(transformed(a, p) - transformed(b, p));
+    most = off <= most ? most : off;  // NaN counts
+  }
+  return most;
+}
+
+}  // namespace
+
+std::optional<Placement> placement_of(const GltfObject& root) {
+  const std::optional<GltfObject> told = told_placement(root);
+  if (!told) return {};
+  const auto [lon, lat, height] = told->numbers<3>("place", {});
+  Placement placement;
+  placement.place = {lon, lat, height};
+  placement.at = told->numbers<3>("at", {});
+  if (told->has("crs")) placement.crs = told->text("crs");
+  if (told->has("operation")) placement.operation = told->text("operation");
+  if (told->has("scene_up")) placement.scene_up = up_axis_named(told->text("scene_up"));
+  const GltfObject tile = root.object("root");
+  placement.off = difference(tile_transform(tile), product(to_ecef(placement), root_transform(root)),
+                             tile.object("boundingVolume"));
+  return placement;
+}
+
+Transform root_transform(const GltfObject& root) {
+  const std::optional<GltfObject> told = told_placement(root);
+  return told ? moved_by(told->numbers<3>("origin", {})) : tile_transform(root.object("root"));
 }
 
 UpAxis content_up(const GltfObject& root) {

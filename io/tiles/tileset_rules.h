@@ -28,6 +28,11 @@ void check_tile(const GltfObject& tile, int depth);
 [[nodiscard]] bool names_tileset(const std::string& uri);
 /// Returns whether `refine` means that a tile's content is drawn in addition to those below.
 [[nodiscard]] bool adds(const std::string& refine);
+/// Returns where a tileset of this suite stands, if it says so; `root` is its document. Placement::off compares the
+/// transform of the root tile with that.
+[[nodiscard]] std::optional<Placement> placement_of(const GltfObject& root);
+/// Returns the transform of the root tile, without the placement if the tileset has one.
+[[nodiscard]] Transform root_transform(const GltfObject& root);
 /// Returns whether a tile's content is a piece of the scene itself; only in tilesets of this suite (extras.leaf).
 [[nodiscard]] bool is_leaf(const GltfObject& tile);
 

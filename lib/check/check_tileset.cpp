@@ -37,6 +37,8 @@ class Checker {
     if (!usable(tileset_.geometric_error)) say("tileset: geometricError {} is no length", tileset_.geometric_error);
     if (tileset_.root.refine.empty()) say("root: has no 'refine', and nothing to inherit it from");
     if (!has_content(tileset_.root)) say("tileset: has no content, so nothing is drawn");
+    if (const auto& placement = tileset_.placement; placement && !(placement->off <= kPlacedToWithin))
+      say("root: its transform is {:.3g} m off the place where the tileset says that it stands", placement->off);
     const TilePlace root{"root", tileset_.root.transform};
     if (tileset_.geometric_error < root.error_of(tileset_.root))
       say("tileset: geometricError {} is below the root's {}", tileset_.geometric_error, root.error_of(tileset_.root));

@@ -35,6 +35,7 @@ using TileContents = std::function<TileContent(const Tile&)>;
 ///   - a child's volumes lie in its parent's, and the content's vertices in its tile's volumes and its own, exactly
 ///     (tile_volumes.h). A sphere whose tile is sheared or scaled unevenly is not decided: viewers differ;
 ///   - leaves have no leaf_fault();
+///   - if the tileset says where it stands, the root's transform takes it there, to within a millimetre;
 ///   - every content exists;
 ///   - keys that are not understood are not decided.
 [[nodiscard]] std::vector<TileFinding> check_tileset(const Tileset& tileset, const TileContents& content_of);

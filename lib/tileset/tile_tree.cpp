@@ -115,7 +115,7 @@ void TileTree::add_whole(TreeTile tile) {
   root_ = std::move(node);
 }
 
-Tileset TileTree::finish(double diameter) {
+Tileset TileTree::finish(double diameter, const std::optional<Placement>& placement) {
   while (!root_) {  // without a level in one mesh, nodes without content are on top
     if (level_.size() == 1) {
       root_ = std::move(level_.begin()->second);
@@ -125,6 +125,8 @@ Tileset TileTree::finish(double diameter) {
   }
   Tileset tileset;
   tileset.up = up_;
+  tileset.placement = placement;
+  if (placement) tileset.placement->at = z_up(placement->at);
   tileset.root = tile_of(*root_, Vec3d{}, diameter);
   tileset.root.refine = "REPLACE";
   tileset.geometric_error = std::max(diameter, tileset.root.geometric_error);

@@ -42,8 +42,9 @@ class TileTree {
   void add_whole(TreeTile tile);
 
   /// Finishes the tree. `diameter` of the scene is the error of drawing nothing. Errors rise towards the root, whatever
-  /// was measured.
-  [[nodiscard]] Tileset finish(double diameter);
+  /// was measured. `placement`: that of the tileset, with `at` in
+  /// the scene's axes.
+  [[nodiscard]] Tileset finish(double diameter, const std::optional<Placement>& placement = {});
   /// Returns the largest error of the tiles of a level, including those below them. Call it after finish().
   [[nodiscard]] double error_of(std::size_t level) const { return errors_.at(level); }
 

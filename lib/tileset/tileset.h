@@ -8,6 +8,7 @@
 
 #include "lib/core/box.h"
 #include "lib/core/up_axis.h"
+#include "lib/place/placement.h"
 
 /// A 3D Tiles 1.1 tileset (OGC 22-025r4), as it is written, read and checked.
 namespace bp {
@@ -57,6 +58,9 @@ struct Tileset {
   double geometric_error = 0;
   std::vector<std::string> images;          ///< files that contents share; only in our tilesets (asset.extras.images)
   std::vector<std::string> not_understood;  ///< statements that may move, hide or cull and are not read; one a line
+  /// Where it stands; only in our tilesets (asset.extras.placement). The root's transform is without it: proofs and
+  /// scenes are about the tileset's own coordinates. Files have the product of both.
+  std::optional<Placement> placement;
   Tile root;
 };
 

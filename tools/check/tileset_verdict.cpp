@@ -2,14 +2,15 @@
 
 #include <fmt/format.h>
 
-#include "io/tiles/tileset_file.h"
 #include "lib/check/check_proxy.h"
 #include "lib/check/counted.h"
 #include "lib/check/scene_words.h"
 #include "lib/check/tile_drawn.h"
+#include "lib/core/error.h"
 #include "lib/geometry/triangle_totals.h"
 #include "lib/pass/voxelize/empty_scene.h"
 #include "tools/check/cover_tiles.h"
+#include "tools/place/place.h"
 
 namespace bp {
 
@@ -65,6 +66,36 @@ CoverReport check_scene(const CoverTiles& cover, const Tileset& tileset, Triangl
   return report;
 }
 
+/// Sets options.map as the tileset's placement asks. Returns false, with a finding, if that cannot be done here.
+bool can_be_placed(const Tileset& tileset, const std::vector<std::string>& scenes, SceneOptions& options,
+                   TilesetVerdict& verdict) {
+  if (!tileset.placement) return true;
+  try {
+    options.map = map_of(*tileset.placement, scenes, options);
+    return true;
+  } catch (const Error& e) {
+    if (e.code() != ErrorCode::failed && e.code() != ErrorCode::bad_argument) throw;
+    verdict.add({{std::string("placement: the scene was not compared: ") + e.what(), Answer::undecided}});
+    return false;
+  }
+}
+
+Json json_of(const Placement& placement) {
+  const GlobePlace& place = placement.place;
+  return {{"place", {place.lon, place.lat, place.height}},
+          {"crs", placement.crs.empty() ? Json(nullptr) : Json(placement.crs)},
+          {"off", placement.off}};
+}
+
+/// Returns where a tileset stands.
+std::string placement_line(const Placement& placement) {
+  const Vec3d& p = placement.at;
+  return fmt::format("its {} stands at {}{}{}",
+                     p == Vec3d{} ? "origin" : fmt::format("point {},{},{}", p[0], p[1], p[2]),
+                     place_text(placement.place), placement.off <= kPlacedToWithin ? ", to a millimetre" : "",
+                     placement.crs.empty() ? "" : "; its scene is in " + placement.crs);
+}
+
 }  // namespace
 
 bool is_tileset(const std::string& path) {
@@ -101,6 +132,7 @@ std::string TilesetVerdict::text(const std::string& name) const {
   if (holes > 0)
     lines += fmt::format("{}: images of {} may cut holes, which are not looked at\n", name, counted(holes, "content"));
   if (flat > 0) lines += fmt::format("{}: {} parts of the scene that rounding flattens may be missing\n", name, flat);
+  if (placement) lines += fmt::format("{}: {}\n", name, placement_line(*placement));
   const std::string which = part.of == 1 ? "" : fmt::format("part {} of {}: ", part.number + 1, part.of);
   return lines + fmt::format("{}: {}{}, {}, {}{}: {}\n", name, which, counted(tiles, "tile"),
                              counted(contents, "content"), counted(triangles, "triangle"),
@@ -127,17 +159,18 @@ std::string TilesetVerdict::json(const std::string& name) const {
       {"thin", thin},
       {"flat", flat},
       {"holes", holes},
+      {"placement", placement ? json_of(*placement) : Json(nullptr)},
       {"findings", findings}};
   return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-TilesetVerdict check_tileset_file(const std::string& path, const std::vector<std::string>& scenes,
-                                  const SceneOptions& of_tileset, const SceneOptions& options,
+TilesetVerdict check_tileset_file(const Tileset& tileset, const std::string& path,
+                                  const std::vector<std::string>& scenes, SceneOptions& options,
                                   std::uint64_t memory_bytes, TilePart part) {
-  const Tileset tileset = read_tileset(path, of_tileset);
   const std::string folder = path.find('/') == std::string::npos ? "" : path.substr(0, path.rfind('/'));
   TilesetVerdict verdict;
-  verdict.scene = !scenes.empty();
+  verdict.placement = tileset.placement;
+  verdict.scene = !scenes.empty() && can_be_placed(tileset, scenes, options, verdict);
   std::unique_ptr<TriangleSource> scene;
   if (verdict.scene) scene = open_scenes(scenes, options);
   CoverTiles cover(tileset, folder, options, part);

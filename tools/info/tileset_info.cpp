@@ -8,6 +8,7 @@
 #include "io/files/file.h"
 #include "lib/check/counted.h"
 #include "tools/info/mesh_info.h"
+#include "tools/place/place.h"
 
 namespace bp {
 
@@ -56,6 +57,7 @@ TilesetInfo tileset_info(const Tileset& tileset, const std::string& path) {
     for (const Vec3d& corner : tileset.root.volume.box->corners())
       info.bounds->add(transformed(tileset.root.transform, corner));
   }
+  info.placement = tileset.placement;
   info.provenance = mesh_extras(path).provenance;
   return info;
 }
@@ -79,6 +81,10 @@ std::string tileset_text(const TilesetInfo& info, const std::string& name) {
     s += fmt::format("bounds      {} {} {} to {} {} {}, diagonal {:.6g}, z up (the scene's up is {})\n", lo[0], lo[1],
                      lo[2], hi[0], hi[1], hi[2], info.bounds->diagonal(), info.up);
   }
+  if (info.placement) {
+    const std::string& crs = info.placement->crs;
+    s += fmt::format("place       {}{}\n", place_text(info.placement->place), crs.empty() ? "" : ", of " + crs);
+  }
   for (const std::string& step : info.provenance) s += fmt::format("made by     {}\n", step);
   return s;
 }
@@ -100,6 +106,11 @@ Json tileset_json(const TilesetInfo& info) {
                               {"geometric_error", {{"min", d.error_min}, {"max", d.error_max}}}});
   json["bounds"] = info.bounds ? Json{{"min", info.bounds->min}, {"max", info.bounds->max}} : Json(nullptr);
   json["up"] = info.up;
+  json["placement"] = nullptr;
+  if (info.placement) {
+    const GlobePlace& place = info.placement->place;
+    json["placement"] = {{"place", {place.lon, place.lat, place.height}}, {"crs", info.placement->crs}};
+  }
   json["provenance"] = info.provenance;
   return json;
 }

@@ -24,6 +24,7 @@ struct TilesetInfo {
   std::vector<std::string> missing;  ///< uris of contents that are no files in the tileset's folder
   /// Bounds of the root's box in the tileset's space, z up; none if the root has a sphere or region.
   std::optional<Bounds3d> bounds;
+  std::optional<Placement> placement;   ///< on the globe
   std::vector<std::string> provenance;  ///< one line for each step
 };
 

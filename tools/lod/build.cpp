@@ -71,8 +71,15 @@ Build::Build(const BuildOptions& o)
       make_shelf(make_shelf_factory(budget.shelf, o.common.temp)),
       show(progress.for_pass()) {}
 
+void Build::place() {
+  if (!options.place.crs.empty()) report.begin("place");
+  placed = place_scene(options.place, options.voxels.scenes, scene_options());
+  for (const std::string& text : placed.notes) note(text);
+}
+
 SceneOptions Build::scene_options(bool beside) const {
   SceneOptions scene{options.voxels.format, budget.reader, options.common.temp};
+  scene.map = placed.map;
   scene.surface = options.full() || options.leaves || options.proxy.visual;
   scene.walls_only = options.profile == LodProfile::occluder, scene.keep_degenerate = true;
   scene.document = document_budget(unpinned(options.common.memory_bytes, pinned_bytes(backends)), kVoxelProgram,

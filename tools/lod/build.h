@@ -23,12 +23,15 @@ struct Build {
   const BuildBudget budget;
   const ShelfFactory make_shelf;
   const PassProgress show;  ///< progress of passes
+  PlacedScene placed;       ///< on the globe: set before the scene is read
 
   explicit Build(const BuildOptions& options);
   Build(const Build&) = delete;
   Build& operator=(const Build&) = delete;
 
   void note(const std::string& text);  ///< tells the user on stderr and in the report; an empty text is ignored
+  /// Finds the place that the options ask for, and notes it. Reads the scene once if it has a system.
+  void place();
   /// Returns how scenes are read. `beside`: another copy of the scene's data is in memory at that time.
   [[nodiscard]] SceneOptions scene_options(bool beside = false) const;
   /// Returns the context of all passes after reading: budget.work, or a share of it, and the scratch for data that does

@@ -123,13 +123,13 @@ void check_profile(const Args& args, const BuildOptions& o) {
       if (args.given(name) && o.profile != profile)
         fail(ErrorCode::bad_argument, "{} needs --profile {}", name, name_of(profile));
   };
-  needs({"--tile", "--tiles", "--cache", "--leaves", "--tile-compression"}, LodProfile::tiles);
+  needs({"--tile", "--tiles", "--cache", "--leaves", "--tile-compression", "--place", "--crs"}, LodProfile::tiles);
   needs({"--hulls", "--hull-corners", "--hull-files"}, LodProfile::collision);
   needs({"--margin", "--symmetry"}, LodProfile::cage);
-  if (o.is_tileset() && args.given("--origin"))
+  if (o.is_tileset() && args.given("--origin") && !(o.place.place && o.proxy.origin.kind == OriginOption::Kind::point))
     fail(ErrorCode::bad_argument,
-         "--origin: a tileset holds its place in double, in the transforms of its tiles; leave it out, and move the "
-         "tileset by the transform of its root");
+         "--origin: a tileset holds its place in double, in the transforms of its tiles; leave it out, or name with "
+         "--origin X,Y,Z the point that stands at --place");
   if (o.profile == LodProfile::collision && args.given("--appearance") && o.colors())
     fail(ErrorCode::bad_argument, "--profile collision has no colours; leave --appearance out");
   if (o.profile == LodProfile::occluder)
@@ -232,7 +232,7 @@ void declare_profile(Args& args, BuildOptions& o) {
 
 void declare_tileset(Args& args, BuildOptions& o) {
   args.group("Tileset");
-  args.option("--tile", "N", o.tile_vox, "voxels along the side of a tile; a level that is larger is cut into tiles");
+  args.option("--tile", "N", o.tile_vox, "voxels along the side of a tile; larger levels are cut into tiles");
   args.option("--leaves",
               {{"none", false, "the finest level ends the tileset"},
                {"scene", true, "the scene's own triangles and images, for close views"}},
@@ -241,13 +241,11 @@ void declare_tileset(Args& args, BuildOptions& o) {
               {{"meshopt", TileCompression::meshopt, "small, with EXT_meshopt_compression"},
                {"none", TileCompression::none, "plain glTF, for viewers without a decoder"}},
               o.compression, "how contents are stored");
-  args.option(
-      "--cache", "DIR", o.cache,
-      "keep the results of all jobs in DIR, and take from there what has not changed; a run that was killed goes "
-      "on from there");
+  o.place.add_to(args);
+  args.option("--cache", "DIR", o.cache, "keep the results of all jobs in DIR, and reuse what has not changed");
   args.option(
       "--tiles", "A..B", [&o](const std::string& text) { o.tiles = parse_job_range(text); },
-      "fill --cache with the jobs from number A to before B, and write no tileset");
+      "fill --cache with jobs A to before B, and write no tileset");
 }
 
 void declare(Args& args, BuildOptions& o) {
@@ -326,6 +324,8 @@ BuildOptions parse_build_options(Args& args) {
   o.proxy.check();
   if (!o.field.empty()) keep_inputs({o.field});
   check_profile(args, o);
+  o.place.check(o.voxels.up, can_read_again(o));
+  o.place.at = o.proxy.origin.point;
   // A fit searches for the scene from the closing's surface. At slanted sides the closing by a cube lies about as far
   // from the scene as that search reaches, and the fit would get thorns there; balls follow such sides.
   if (o.proxy.mode == MeshMode::fit) o.closing.element = StructuringElement::ball;
@@ -357,6 +357,8 @@ Json options_json(const BuildOptions& o) {
           {"hull_corners", o.hull_corners},
           {"hull_files", o.hull_files == HullFiles::none ? Json(nullptr) : Json(name_of(o.hull_files))},
           {"cache", !o.cache.empty()},
+          {"place", o.place.place ? Json(*o.place.place) : Json(nullptr)},
+          {"crs", o.place.crs.empty() ? Json(nullptr) : Json(o.place.crs)},
           {"leaves", o.leaves ? "scene" : "none"},
           {"tile_compression", o.compression == TileCompression::none ? "none" : "meshopt"},
           {"tiles", o.tiles ? Json{o.tiles->begin, o.tiles->end} : Json(nullptr)},

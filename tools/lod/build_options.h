@@ -11,6 +11,7 @@
 #include "tools/cli/options/mesh.h"
 #include "tools/cli/options/voxel.h"
 #include "tools/cli/report.h"
+#include "tools/place/place.h"
 
 /// The command line of bplod.
 namespace bp {
@@ -58,6 +59,7 @@ struct BuildOptions {
   TileCompression compression = TileCompression::meshopt;  ///< of a tileset's contents
   /// Below the finest level are tiles with the scene's own triangles.
   bool leaves = false;
+  PlaceOptions place;             ///< where on the globe a tileset stands
   std::optional<JobRange> tiles;  ///< the jobs to do without writing a tileset; empty: all jobs, and the tileset
   bool explain = false;           ///< print the plan only
   Appearance appearance = Appearance::automatic;

@@ -157,7 +157,7 @@ Plan plan_of(const Build& build, const Scene& scene) {
   counts.area = scene.area;
   counts.extent = scene.extent;
   plan.work = estimate_build(o, plan.header.bounds, counts, plan.header.frame.voxel);
-  plan.origin = origin_of(o.proxy.origin, plan.header.frame, plan.header.bounds);
+  if (!tileset) plan.origin = origin_of(o.proxy.origin, plan.header.frame, plan.header.bounds);
   const double triangles = double(scene.counts.triangles);
   if (o.leaves)
     plan.leaf_bytes = kBytesPerLeafTriangle * triangles + kBytesPerTile * double(plan.levels.front().tiles) +
@@ -272,6 +272,7 @@ std::string text_of(const Build& build, const Scene& scene, const Plan& plan) {
 
 void explain(const BuildOptions& options) {
   Build build(options);
+  build.place();
   build.report.begin("read");
   const Scene scene = read_scene(build);
   build.note(up_note(scene.bounds, options.voxels.tell_up() || scene.up_told));

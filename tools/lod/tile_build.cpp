@@ -333,7 +333,7 @@ OptionText tileset_options(const MadeTileset& made, std::int32_t tile_vox) {
 
 void write_tileset(const Shop& shop, MadeTileset& made, TilesetFolder& folder) {
   shop.build.report.begin("write");
-  Tileset tileset = made.tree->finish(made.scene.voxels.header.bounds.diagonal());
+  Tileset tileset = made.tree->finish(made.scene.voxels.header.bounds.diagonal(), shop.build.placed.placement);
   for (std::size_t i = 0; i < made.rows.size(); ++i) made.rows[i].error_world = made.tree->error_of(i);
   if (made.provenance.empty())
     made.provenance = {

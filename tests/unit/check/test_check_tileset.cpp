@@ -114,6 +114,13 @@ TEST_CASE("each thing that may be wrong with a tileset is found where it is", "[
   c[1].not_understood = {"wobble"};
   CHECK(finding(good(), c) == "? root.children[0]: a.glb: wobble");
   t = good();
+  t.placement.emplace().off = 0.0009;
+  CHECK(findings(t, contents()).empty());
+  t.placement->off = 0.0011;
+  CHECK(says(finding(t), "root: its transform is 0.0011 m off the place"));
+  t.placement->off = NAN;
+  CHECK(says(finding(t), "root: its transform is nan m off the place"));
+  t = good();
   t.root.uri.clear();
   t.root.children.resize(1);
   t.root.children[0].uri.clear();

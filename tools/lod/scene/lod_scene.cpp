@@ -51,6 +51,7 @@ void note_scene(Build& build, const LodScene& scene, std::optional<UpAxis> up_to
   const SceneAgain again{o.voxels.scenes, build.scene_options(true)};
   for (const std::string& text : scene_notes(scene.voxels.counts, scene.voxels.header, again)) build.note(text);
   build.note(up_note(scene.size.bounds, o.voxels.tell_up() || up_told));
+  if (o.is_tileset()) build.note(place_note(scene.size.bounds, scene.voxels.header.frame.up, build.placed.placement));
   const bool is_occluder = o.profile == LodProfile::occluder;
   const char* const missing =
       is_occluder ? "so nobody knows what is glass: all of the scene is taken for walls" : "and its colours are lost";
@@ -139,6 +140,7 @@ LodTarget first_target(const BuildOptions& o, const LodScene& scene) {
 
 LodScene read_scene(Build& build, const ReadOptions& read) {
   const BuildOptions& o = build.options;
+  build.place();
   build.report.begin("voxelize");
   LodScene scene;
   SceneOptions how = build.scene_options();

@@ -1,3 +1,6 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+
 #include "io/tiles/tileset_file.h"
 #include "tests/catch.h"
 #include "tests/unit/io/scene/scene_files.h"
@@ -52,6 +55,43 @@ TEST_CASE("a tileset that is written is read back the same", "[quick][io][lod]")
   CHECK(back.root.children[1].cell == t.root.children[1].cell);
   CHECK(!back.root.cell);
   CHECK(back.root.children[0].children.empty());
+}
+
+TEST_CASE("a placement moves the root of the file alone", "[quick][io][lod][place]") {
+  Tileset t;
+  t.root.volume.box = TileBox{{0, 0, 0}, {Vec3d{100, 0, 0}, Vec3d{0, 50, 0}, Vec3d{0, 0, 10}}};
+  t.root.transform[12] = 84900 + 1.0 / 7, t.root.transform[14] = 5;
+  t.root.refine = "REPLACE";
+  t.root.uri = "a.glb";
+  Placement& placement = t.placement.emplace();
+  placement.place = {4.36, 52.01, 43};
+  placement.at = {84900, 0, 0};
+  placement.crs = "EPSG:28992", placement.operation = "some way", placement.scene_up = UpAxis::x;
+  const TempDir dir;
+  const std::string text = tileset_text(t, {});
+  const Tileset back = read_tileset(dir.file("tileset.json", text));
+  REQUIRE(back.placement);
+  CHECK(back.root.transform == t.root.transform);
+  CHECK(back.placement->place.lat == 52.01);
+  CHECK(back.placement->at == placement.at);
+  CHECK(back.placement->crs == placement.crs);
+  CHECK(back.placement->operation == placement.operation);
+  CHECK(back.placement->scene_up == placement.scene_up);
+  CHECK(back.placement->off == 0);
+
+  auto json = nlohmann::json::parse(text);
+  const Vec3d ecef = transformed(json["root"]["transform"].get<Transform>(), {0, 0, 0});
+  CHECK(std::abs(globe_place(ecef).height - 48) < 1e-3);
+  const auto off = [&] { return read_tileset(dir.file("tileset.json", json.dump())).placement->off; };
+  json["root"]["transform"][13] = json["root"]["transform"][13].get<double>() + 0.5;
+  CHECK(off() == Approx(0.5));
+  json["root"]["transform"][13] = json["root"]["transform"][13].get<double>() - 0.5;
+  json["root"]["transform"][0] = json["root"]["transform"][0].get<double>() + 0.001;  // 100 m away
+  CHECK(off() == Approx(0.1));
+  json["root"].erase("transform");
+  CHECK(off() > 6e6);
+  json["asset"]["extras"]["placement"] = "on my desk";  // somebody else's
+  CHECK_FALSE(read_tileset(dir.file("tileset.json", json.dump())).placement);
 }
 
 TEST_CASE("names of contents are written percent-encoded and read decoded", "[quick][io][lod]") {

@@ -2,6 +2,7 @@
 
 #include "io/tiles/tile_content.h"
 #include "lib/core/error.h"
+#include "lib/place/globe.h"
 #include "tests/catch.h"
 #include "tests/unit/io/scene/gltf_document.h"
 
@@ -74,6 +75,23 @@ TEST_CASE("a tileset is a scene of its leaves, and of all tiles that are added t
   root = tile("");
   root["contents"] = {{{"uri", "a.glb"}}, {{"url", "b.glb?v=1"}}};
   CHECK(drawn(dir.file("t.json", tileset(root))) == "0 0 ");
+}
+
+TEST_CASE("a tileset on the globe is a scene in its own coordinates", "[quick][io][place]") {
+  const TempDir dir;
+  for (const char* name : {"a.glb", "b.glb"}) (void)dir.file(name, content());
+  Json root = tile("", 0, {tile("a.glb", 1), tile("b.glb", 20)});
+  root["transform"] = east_north_up({4.36, 52.01, 43});
+  const Json placement{{"place", {4.36, 52.01, 43}}, {"origin", {1000, 0, 0}}};
+  const std::string placed = tileset(root, {{"version", "1.1"}, {"extras", {{"placement", placement}}}});
+  CHECK(drawn(dir.file("t.json", placed)) == "1001 1020 ");
+  // Below another tileset it stands where that has it.
+  const Json outer = tile("t.json", 500);
+  CHECK(drawn(dir.file("outer.json", tileset(outer))) == drawn(dir.file("plain.json", [&] {
+          Json moved = root;
+          moved["transform"][12] = moved["transform"][12].get<double>() + 500;
+          return tileset(moved);
+        }())));
 }
 
 TEST_CASE("a content with a skin stands where its joints are, in its tile", "[quick][io]") {
