@@ -51,9 +51,18 @@ def safe_name(name: str) -> str:
     return re.sub(r"[^\w-]", "_", name).strip("_") or "scene"
 
 
+def has_looks(kind: str) -> bool:
+    """True for what needs materials: levels show them, and glass is no wall of an occluder. They are written as OBJ, other scenes as PLY."""
+    return kind in ("LEVELS", "OCCLUDER")
+
+
+def scene_file(kind: str, name: str) -> str:
+    return name + (".obj" if has_looks(kind) else ".ply")
+
+
 def make_command(choices: Choices, name: str) -> list[str]:
-    """Returns bplod's arguments. The scene is `name`.glb, and results go to the folder `made`."""
-    words = ["bplod", f"{name}.glb", "--profile", PROFILES[choices.kind]]
+    """Returns bplod and its arguments. Results go to the folder `made`."""
+    words = ["bplod", scene_file(choices.kind, name), "--up", "z", "--profile", PROFILES[choices.kind]]
     for option, value in (("--faces", choices.faces), ("--scale", choices.scale)):
         if value and not (choices.kind == "CAGE" and option == "--scale"):
             words += [option, value]
@@ -73,14 +82,11 @@ def make_command(choices: Choices, name: str) -> list[str]:
 
 
 def check_command(kind: str, mode: str, margin: str) -> list[str]:
-    """Returns bpcheck's arguments for a proxy of this kind, in the order that bpcheck wants."""
-    if kind == "HULLS":
-        return ["bpcheck", "--convex", "scene.glb", "proxy.glb"]
-    if kind == "OCCLUDER":
-        return ["bpcheck", "--inside", "scene.glb", "proxy.glb"]
+    """Returns bpcheck and its arguments for a proxy of this kind."""
     if kind == "LEVELS" and mode == "fit":
-        return ["bpcheck", "proxy.glb"]
-    return ["bpcheck"] + (["--margin", margin] if margin else []) + ["scene.glb", "proxy.glb"]
+        return ["bpcheck", "proxy.ply"]
+    question = {"HULLS": ["--convex"], "OCCLUDER": ["--inside"]}.get(kind, ["--margin", margin] if margin else [])
+    return ["bpcheck"] + question + [scene_file(kind, "scene"), "proxy.ply"]
 
 
 def resources(choices: Choices) -> list[str]:

@@ -34,12 +34,12 @@ class Made:
 
     meshes: list[Mesh]
     origin: tuple[float, float, float] = (0.0, 0.0, 0.0)  # to be added to all vertices
-    extras: dict = field(default_factory=dict)  # of the asset: contract and provenance
+    comments: list[str] = field(default_factory=list)  # "contract: ..." and "provenance: ...", as PLY and OBJ have them
     images: list[tuple[str, bytes]] = field(default_factory=list)  # type and contents
 
 
 def z_up(values: np.ndarray) -> np.ndarray:
-    """Turns vectors from y up to z up. Nothing is rounded."""
+    """Turns vectors of glTF, which has y up, to z up. Nothing is rounded."""
     return np.stack([values[:, 0], -values[:, 2], values[:, 1]], axis=1)
 
 
@@ -61,7 +61,7 @@ def read_glb(path: Path) -> Made:
         return values.reshape(-1, width) if width > 1 else values
 
     extras = text["asset"].get("extras", {})
-    made = Made([], tuple(z_up(np.array([extras.get("origin", [0, 0, 0])], float))[0]), extras)
+    made = Made([], tuple(map(float, extras.get("origin", [0, 0, 0]))), comments_of(extras))
     for node in text["nodes"]:
         for primitive in text["meshes"][node["mesh"]]["primitives"]:
             made.meshes.append(_mesh(node["name"], primitive, array, text))
@@ -97,8 +97,8 @@ def _unique(positions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def read_obj(path: Path) -> Made:
-    """Reads vertices and faces. The axes of the file are those of the scene that the tool has read: y up."""
-    vertices, faces, extras, origin = [], [], {}, [0.0, 0.0, 0.0]
+    """Reads vertices and faces, and what the comments tell. The axes are those of the scene."""
+    vertices, faces, comments, origin = [], [], [], [0.0, 0.0, 0.0]
     for line in path.read_text(encoding="utf-8").splitlines():
         words = line.split()
         if words[:1] == ["v"]:
@@ -107,18 +107,16 @@ def read_obj(path: Path) -> Made:
             faces.append([int(word.split("/")[0]) - 1 for word in words[1:]])
         elif line.startswith("# origin: "):
             origin = [float(word) for word in words[2:5]]
-        elif line.startswith("# contract: "):
-            extras["contract"] = line[len("# contract: "):]
-        elif line.startswith("# provenance: "):
-            extras["provenance"] = [provenance(line[len("# provenance: "):])]
+        elif line.startswith(("# contract: ", "# provenance: ")):
+            comments.append(line[2:])
     sizes = np.array([len(face) for face in faces])
     corners = np.array([corner for face in faces for corner in face])
-    mesh = Mesh(path.stem, z_up(np.array(vertices)), corners, sizes)
-    return Made([mesh], tuple(z_up(np.array([origin]))[0]), extras)
+    mesh = Mesh(path.stem, np.array(vertices), corners, sizes)
+    return Made([mesh], tuple(origin), comments)
 
 
-def provenance(line: str) -> dict[str, str]:
-    """Reads the record of an OBJ: "bplod 0.1.0 faces=1000 ... input 7fe3..."."""
-    head, _, digest = line.partition(" input ")
-    tool, version, options = (head.split(" ", 2) + ["", ""])[:3]
-    return {"tool": tool, "version": version, "options": options, "input": digest.strip()}
+def comments_of(extras: dict) -> list[str]:
+    """Returns what the extras of a GLB tell, as PLY and OBJ tell it in comments."""
+    lines = ["provenance: {tool} {version} {options}".format(**record) + (f" input {record['input']}" if "input" in record else "")
+             for record in extras.get("provenance", [])]
+    return lines + ([f"contract: {extras['contract']}"] if "contract" in extras else [])

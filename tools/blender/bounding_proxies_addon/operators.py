@@ -1,18 +1,18 @@
 """The buttons of the panel. Each is a chain of steps: Blender's data is read and written here, and what takes time is a job beside."""
 from __future__ import annotations
 
-import json
 import re
 import shlex
+from pathlib import Path
 from typing import Generator
 
 import bpy
 
 from . import commands, results
 from .gather import at_rest, gather, shown
-from .glb_write import Scene, write_glb
 from .jobs import Job, ToolError
 from .mesh_read import read_glb, read_obj
+from .mesh_write import Scene, write_obj, write_ply
 from .settings import preferences
 
 POLL_SECONDS = 0.1
@@ -132,7 +132,7 @@ class Making(Running):
         choices = settings.choices(self.kind, tools)
         path = commands.tool_path("bplod", tools.folder)
         with at_rest(context, sources if self.kind == "CAGE" else [], results.is_cage):
-            scene = gather(context, sources)
+            scene = gather(context, sources, commands.has_looks(self.kind), choices.appearance == "full")
         if not scene.triangles:
             raise ToolError(f"{name} has no faces")
         job = yield Job(lambda job: make(job, choices, path, commands.safe_name(name), scene))
@@ -181,11 +181,11 @@ def prove(operator: Running, context: bpy.types.Context, proxies: list[bpy.types
         group = [bpy.data.objects[name] for name in names]
         sources = results.sources_of(group[0])
         command = commands.check_command(group[0][results.KIND], group[0].get("bp_mode", ""), results.margin_of(group[0]))
-        if not sources and "scene.glb" in command:
+        if not sources and len(command) > 2:
             raise ToolError(f"{title}: the objects that it was made of are gone")
         with shown(context, sources + group):
-            scene, proxy = gather(context, sources), gather(context, group, materials=False)
-        proxy.extras = {"up": "y", **json.loads(group[0].get("bp_extras", "{}"))}
+            scene, proxy = gather(context, sources, commands.has_looks(group[0][results.KIND])), gather(context, group)
+        proxy.comments = group[0].get(results.COMMENTS, "").splitlines()
         job = yield Job(lambda job, c=[path] + command[1:], s=scene, p=proxy: check(job, c + commands.resources(choices), s, p))
         answer, words = job.result
         for thing in map(bpy.data.objects.get, names):
@@ -201,7 +201,7 @@ def _group_title(group: list[bpy.types.Object]) -> str:
 
 def make(job: Job, choices: commands.Choices, path: str, name: str, scene: Scene) -> results.Result:
     """The job of an operator that makes a proxy: writes the scene, runs bplod, and reads what it made."""
-    write_glb(job.folder / f"{name}.glb", scene)
+    write(job.folder / commands.scene_file(choices.kind, name), scene)
     scene.meshes.clear()  # it may be large, and the tool needs the memory
     command = commands.make_command(choices, name)
     rows = commands.table(job.run([path] + command[1:] + commands.resources(choices)))
@@ -216,6 +216,10 @@ def make(job: Job, choices: commands.Choices, path: str, name: str, scene: Scene
     return results.Result(choices.kind, files, shlex.join(command), version, choices.mode, notes)
 
 
+def write(path: Path, scene: Scene) -> None:
+    (write_obj if path.suffix == ".obj" else write_ply)(path, scene)
+
+
 def _concerns(note: str, files: set[str]) -> bool:
     """True for a note that is not about a file which the operator does not take, or about the origin, which it takes care of."""
     named = re.match(r"(\S+\.(?:glb|obj))\b", note)
@@ -224,8 +228,9 @@ def _concerns(note: str, files: set[str]) -> bool:
 
 def check(job: Job, command: list[str], scene: Scene, proxy: Scene) -> tuple[int, str]:
     """The job of a proof. Returns 0 for proven, and what bpcheck says in its last line; of an occluder, also on which condition."""
-    write_glb(job.folder / "scene.glb", scene)
-    write_glb(job.folder / "proxy.glb", proxy)
+    for name in command[1:]:
+        if name.startswith(("scene.", "proxy.")):
+            write(job.folder / name, scene if name.startswith("scene.") else proxy)
     lines = job.run(command, answers=(0, 1, 5)).splitlines()
     words = lines[-1] if lines else "bpcheck says nothing"
     condition = next((line.split("yes, if ", 1)[1] for line in lines if "yes, if " in line), "")

@@ -2,18 +2,18 @@
 place of the one before."""
 from __future__ import annotations
 
-import json
+import re
 from dataclasses import dataclass, field
 
 import bpy
 import numpy as np
 
-from .materials import make_material
+from .level_material import make_material
 from .mesh_read import Made, Mesh
 
 MODIFIER = "Proxy cage"
 # What a proxy tells of itself, as custom properties.
-KIND, SOURCES, PROOF = "bp_kind", "bp_sources", "bp_proof"
+KIND, SOURCES, PROOF, COMMENTS = "bp_kind", "bp_sources", "bp_proof", "bp_comments"
 TITLES = {"COLLISION": "Collision body", "HULLS": "Convex hulls", "OCCLUDER": "Occluder", "LEVELS": "Levels", "CAGE": "Cage"}
 BODY_NAMES = {"PLAIN": "{}_collision", "GODOT": "{}-colonly", "UNITY": "{}_Collider"}
 OCCLUDER_NAMES = {"PLAIN": "{}_occluder", "GODOT": "{}-occonly", "UNITY": "{}_occluder"}
@@ -156,9 +156,9 @@ def _describe(thing: bpy.types.Object, result: Result, file: Made, mesh: Mesh, r
         if row.get(name, "-") != "-":
             thing[f"bp_{name}"] = float(row[name])
     thing["bp_command"], thing["bp_version"] = result.command, result.version
-    thing["bp_contract"] = str(file.extras.get("contract", ""))
-    # bpcheck's answers about occluders and its hints rest on this record of the file.
-    thing["bp_extras"] = json.dumps({key: file.extras[key] for key in ("contract", "provenance") if key in file.extras})
+    # bpcheck's answers about occluders, and its hints, rest on what the file tells of itself.
+    thing[COMMENTS] = "\n".join(file.comments)
+    thing["bp_contract"] = next((line[len("contract: "):] for line in file.comments if line.startswith("contract: ")), "")
 
 
 def _show(thing: bpy.types.Object, kind: str) -> None:
@@ -169,9 +169,8 @@ def _show(thing: bpy.types.Object, kind: str) -> None:
 
 def margin_of(proxy: bpy.types.Object) -> str:
     """Returns the margin that a cage was made with, in scene units; empty if it has none."""
-    records = json.loads(proxy.get("bp_extras", "{}")).get("provenance", [])
-    words = dict(word.partition("=")[::2] for word in str(records[-1].get("options", "") if records else "").split())
-    return words.get("margin", "")
+    found = re.search(r"\bmargin=(\S+)", proxy.get(COMMENTS, ""))
+    return found.group(1) if found else ""
 
 
 def bind(context: bpy.types.Context, cage: bpy.types.Object, sources: list[bpy.types.Object], precision: int) -> list[str]:

@@ -9,9 +9,6 @@ from .commands import Choices
 AXES = [("auto", "Automatic", "The axis across which the object is its own mirror image, if it has one"),
         ("x", "X", "Both halves across x mirror each other"), ("y", "Y", "Both halves across y mirror each other"),
         ("z", "Z", "Both halves across z mirror each other"), ("off", "Off", "The halves may differ")]
-# The tools see Blender's z as their y, and its y as their -z.
-TOOL_AXES = {"auto": "auto", "x": "x", "y": "z", "z": "y", "off": "off"}
-
 
 class BoundingProxiesSettings(bpy.types.PropertyGroup):
     """The settings of a scene. They are saved with the file."""
@@ -47,7 +44,7 @@ class BoundingProxiesSettings(bpy.types.PropertyGroup):
                                                   ("VOXEL", "Length", "The length of a voxel")], description="How fine the grid is")
     resolution: IntProperty(name="Resolution", default=256, min=8, max=16384, description="Voxels along the longest side of the objects")
     voxel: FloatProperty(name="Voxel", default=0.05, min=1e-6, precision=4, subtype="DISTANCE", unit="LENGTH", description="The length of a voxel")
-    check_after: BoolProperty(name="Prove it afterwards", default=True, description="Run bpcheck on what lies in the scene when the result is there")
+    check_after: BoolProperty(name="Prove results", default=True, description="Run bpcheck on what lies in the scene when the result is there")
 
     def choices(self, kind: str, preferences: Preferences) -> Choices:
         """Returns the settings as the tools want them."""
@@ -56,7 +53,7 @@ class BoundingProxiesSettings(bpy.types.PropertyGroup):
         grid = {"AUTO": [], "RESOLUTION": ["--resolution", str(self.resolution)], "VOXEL": ["--voxel", f"{self.voxel:.9g}"]}[self.grid_kind]
         return Choices(kind=kind, faces=self.level_faces.replace(" ", "") if faces is None else str(faces or ""), scale=scale, grid=grid,
                        hulls=self.hulls, hull_corners=self.hull_corners if self.hull_corners != 64 else 0, margin=f"{self.margin:.6g}%",
-                       symmetry=TOOL_AXES[self.symmetry], mode=self.level_mode, appearance=self.appearance, threads=preferences.threads,
+                       symmetry=self.symmetry, mode=self.level_mode, appearance=self.appearance, threads=preferences.threads,
                        memory=preferences.memory.strip())
 
 
