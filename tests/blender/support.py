@@ -18,6 +18,9 @@ class AddonTest(unittest.TestCase):
     def setUp(self):
         bpy.ops.wm.read_factory_settings(use_empty=True)
         bpy.ops.preferences.addon_enable(module=ADDON)
+        collection = bpy.data.collections.new("models")
+        bpy.context.scene.collection.children.link(collection)
+        bpy.context.view_layer.active_layer_collection = bpy.context.view_layer.layer_collection.children[0]
         self.settings = bpy.context.scene.bounding_proxies
         self.settings.check_after, self.settings.precision = False, 4
         self.settings.grid_kind, self.settings.resolution = "RESOLUTION", 64

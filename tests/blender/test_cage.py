@@ -55,6 +55,12 @@ class Cages(AddonTest):
         self.settings.bind, self.settings.cage_faces = False, 400
         self.assertTrue(self.run_operator("cage"))
         self.assertEqual(len(figure.modifiers), 0)
+        self.settings.bind = True
+        self.assertTrue(self.run_operator("cage"))
+        self.assertEqual(len(figure.modifiers), 1)
+        self.settings.bind = False
+        self.assertTrue(self.run_operator("cage"))
+        self.assertEqual(len(figure.modifiers), 0)
 
     def test_a_larger_margin_holds_and_symmetry_is_that_of_blender(self):
         self.load("figure")

@@ -53,7 +53,7 @@ class Collision(AddonTest):
         self.assertLessEqual(self.kind("COLLISION")[0]["bp_faces"], 200)
         self.assertTrue(self.kind("HULLS"))
         self.assertEqual([m.name for m in bpy.data.meshes if m.users == 0], [])
-        self.assertEqual([c.name for c in bpy.data.collections], ["truck proxies"])
+        self.assertEqual([c.name for c in bpy.data.collections], ["models", "truck proxies"])
 
     def test_modifiers_and_instances_count(self):
         bpy.ops.mesh.primitive_cube_add(size=1)

@@ -84,6 +84,19 @@ class Errors(AddonTest):
         self.assertTrue(self.run_operator("levels"))
         bpy.data.collections.remove(bpy.data.collections["figure proxies"])
 
+    def test_nothing_is_proven_of_what_blender_does_not_show(self):
+        thing = self.load("truck")
+        self.assertTrue(self.run_operator("collision"))
+        [body] = self.kind("COLLISION")
+        thing.hide_set(True)
+        body.select_set(True)
+        self.assertTrue(self.run_operator("check"))  # the eye is opened for the proof, and closed again
+        self.assertTrue(thing.hide_get())
+        self.assertEqual(body["bp_proof"], "holds")
+        bpy.context.view_layer.layer_collection.children[thing.users_collection[0].name].exclude = True
+        self.assertIn("hidden by its collection, or not in this view layer", self.refused("check"))
+        bpy.data.collections.remove(bpy.data.collections["truck proxies"])
+
     def test_an_object_that_is_deleted_meanwhile(self):
         thing = self.load("truck")
         operators = sys.modules[f"{ADDON}.operators"]

@@ -24,7 +24,6 @@ class Choices:
     symmetry: str = "auto"
     mode: str = "bounding"
     appearance: str = "auto"
-    levels: int = 0
     threads: int = 0
     memory: str = ""
 
@@ -75,8 +74,6 @@ def make_command(choices: Choices, name: str) -> list[str]:
         words += ["--symmetry", choices.symmetry] + (["--margin", choices.margin] if choices.margin else [])
     if choices.kind == "LEVELS":
         words += ["--mode", choices.mode, "--appearance", choices.appearance]
-        if choices.levels:
-            words += ["--levels", str(choices.levels)]
     # Blender has 32-bit floats, as engines have. Far from the origin the result becomes an object with a location.
     return words + ["--origin", "auto", "-o", "made"]
 

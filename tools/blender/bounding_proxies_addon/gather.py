@@ -99,7 +99,8 @@ def _read(collection, name: str, width: int, kind=np.float32) -> np.ndarray:
 @contextmanager
 def shown(context: bpy.types.Context, objects: list[bpy.types.Object]) -> Iterator[None]:
     """Shows hidden objects while their evaluated meshes are read: Blender evaluates only what is visible."""
-    hidden = [(thing, thing.hide_viewport, thing.hide_get()) for thing in objects if not thing.visible_get()]
+    there = set(context.view_layer.objects)
+    hidden = [(thing, thing.hide_viewport, thing.hide_get()) for thing in objects if thing in there and not thing.visible_get()]
     for thing, _, _ in hidden:
         thing.hide_viewport = False
         thing.hide_set(False)

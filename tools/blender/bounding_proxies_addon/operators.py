@@ -67,11 +67,13 @@ class Running:
         context.workspace.status_text_set(f"{self.bl_label}: {name}{share}    Esc: cancel")
         if not self._job.done:
             return {"PASS_THROUGH"}
-        answer = self._advance(context)
-        if answer == {"RUNNING_MODAL"}:
-            return answer
-        context.window_manager.event_timer_remove(self._timer)
-        context.workspace.status_text_set(None)
+        answer = {"CANCELLED"}
+        try:
+            answer = self._advance(context)
+        finally:
+            if answer != {"RUNNING_MODAL"}:
+                context.window_manager.event_timer_remove(self._timer)
+                context.workspace.status_text_set(None)
         return answer
 
     def cancel(self, context: bpy.types.Context) -> None:
@@ -143,7 +145,9 @@ class Making(Running):
             raise ToolError("An object was deleted or renamed meanwhile; nothing was changed")
         self.changed = True
         made = results.place(context, result, name, sources, settings.engine)
-        if self.kind == "CAGE" and settings.bind:
+        if self.kind == "CAGE" and not settings.bind:
+            results.unbind(sources)
+        elif self.kind == "CAGE":
             failed = results.bind(context, made[0], sources, settings.precision)
             if failed:
                 self.report({"WARNING"}, f"Not bound to the cage: {', '.join(failed)}; only meshes of this file can be")
@@ -184,6 +188,9 @@ def prove(operator: Running, context: bpy.types.Context, proxies: list[bpy.types
         if not sources and len(command) > 2:
             raise ToolError(f"{title}: the objects that it was made of are gone")
         with shown(context, sources + group):
+            unseen = [thing.name for thing in sources + group if not thing.visible_get()]
+            if unseen:  # Blender does not evaluate it, and a proof without it would claim too much
+                raise ToolError(f"{unseen[0]} is hidden by its collection, or not in this view layer; show it first")
             scene, proxy = gather(context, sources, commands.has_looks(group[0][results.KIND])), gather(context, group)
         proxy.comments = group[0].get(results.COMMENTS, "").splitlines()
         job = yield Job(lambda job, c=[path] + command[1:], s=scene, p=proxy: check(job, c + commands.resources(choices), s, p))

@@ -40,9 +40,9 @@ def is_cage(thing: bpy.types.Object) -> bool:
 
 
 def sources_of(proxy: bpy.types.Object) -> list[bpy.types.Object]:
-    """Returns the objects that a proxy was made of, as far as they are still there. Names may have changed."""
+    """Returns the objects that a proxy was made of, as far as they are still in a scene. Names may have changed."""
     group = proxy.get(SOURCES)
-    return [thing for thing in group.values() if thing is not None] if group is not None else []
+    return [thing for thing in group.values() if thing is not None and thing.users_scene] if group is not None else []
 
 
 def proxies_of(things: list[bpy.types.Object]) -> list[bpy.types.Object]:
@@ -194,6 +194,14 @@ def bind(context: bpy.types.Context, cage: bpy.types.Object, sources: list[bpy.t
             thing.modifiers.remove(modifier)
             failed.append(thing.name)
     return failed
+
+
+def unbind(sources: list[bpy.types.Object]) -> None:
+    """Removes modifiers whose cage is gone."""
+    for thing in sources:
+        modifier = thing.modifiers.get(MODIFIER)
+        if modifier is not None and modifier.object is None:
+            thing.modifiers.remove(modifier)
 
 
 def _toggle(context: bpy.types.Context, thing: bpy.types.Object, modifier: bpy.types.Modifier) -> None:
