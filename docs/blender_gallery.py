@@ -104,7 +104,7 @@ def collision():
     body.color = (0.55, 0.65, 0.8, 1)
     bars = wires(body, 0.025, (0.1, 0.2, 0.35, 1))
     size = (320, 215)
-    save("guide-blender-collision", [draw([truck], size, "MATERIAL", 1.08), draw([body, bars], size, "OBJECT", 1.08, around=[truck]),
+    save("collision", [draw([truck], size, "MATERIAL", 1.08), draw([body, bars], size, "OBJECT", 1.08, around=[truck]),
                                      draw(hulls, size, "RANDOM", 1.08, around=[truck])])
 
 
@@ -125,7 +125,7 @@ def cage():
     bars = wires(cage, 0.012, (0.1, 0.2, 0.35, 1))
     bpy.context.view_layer.update()
     pictures += [draw([figure, bars], size, "OBJECT", zoom, view, [cage]), draw([figure], size, "OBJECT", zoom, view, [cage])]
-    save("guide-blender-cage", pictures)
+    save("cage", pictures)
 
 
 def levels():
@@ -135,7 +135,7 @@ def levels():
     size, view = (300, 210), Vector((0.6, -1, 0.7)).normalized()
     for level in kind("LEVELS"):
         level.hide_set(False)
-    save("guide-blender-levels", [draw([thing], size, "TEXTURE", 1.35, view, [town]) for thing in [town] + kind("LEVELS")])
+    save("levels", [draw([thing], size, "TEXTURE", 1.35, view, [town]) for thing in [town] + kind("LEVELS")])
 
 
 def panel():
@@ -161,7 +161,7 @@ def panel():
     yield 0.7
     path = OUT / "window.png"
     bpy.ops.screen.screenshot(filepath=str(path))
-    save("guide-blender-panel", [read(path)[area.y:area.y + area.height, area.x:area.x + area.width]])
+    save("panel", [read(path)[area.y:area.y + area.height, area.x:area.x + area.width]])
 
 
 def tick():

@@ -154,8 +154,8 @@ if command -v blender > /dev/null; then
   export BLENDER_USER_SCRIPTS=$PWD/blender-user
   "$root/samples/town.py" town-16/town 16 > /dev/null
   cp truck.* figure.* town-16
-  blender -b --factory-startup --python-exit-code 1 -P "$root/docs/blender_gallery.py" -- town-16 . > blender.log
-  xvfb-run -a -s '-screen 0 1120x720x24' blender --factory-startup --enable-event-simulate -p 0 0 1120 720 -P "$root/docs/blender_gallery.py" -- town-16 . > blender.log
+  blender -b --factory-startup --python-exit-code 1 -P "$root/docs/blender_gallery.py" -- town-16 blender > blender.log
+  xvfb-run -a -s '-screen 0 1120x720x24' blender --factory-startup --enable-event-simulate -p 0 0 1120 720 -P "$root/docs/blender_gallery.py" -- town-16 blender > blender.log
 fi
 mkdir night && cp house.obj house.mtl truck.obj truck.mtl night
 "$root/samples/nightly" night levels --faces 1000,200

@@ -32,6 +32,12 @@ class AddonTest(unittest.TestCase):
         bpy.context.view_layer.objects.active = thing
         return thing
 
+    def ball(self, name):
+        """Adds a ball, where the shape does not matter: it takes little time."""
+        bpy.ops.mesh.primitive_uv_sphere_add(radius=2)
+        bpy.context.active_object.name = name
+        return bpy.context.active_object
+
     def place(self, thing):
         """Moves, turns and mirrors an object, and makes its axes unequal."""
         thing.location, thing.scale = (0.31, -2.7, 1.3), (1.1, -0.9, 1.3)

@@ -43,10 +43,10 @@ class Collision(AddonTest):
         self.assertTrue(hulls[0]["bp_proof"].startswith("does not hold"), hulls[0]["bp_proof"])
 
     def test_a_second_run_takes_the_place_of_the_first(self):
-        truck = self.load("truck")
+        ball = self.ball("truck")
         self.settings.engine = "GODOT"
         self.assertTrue(self.run_operator("collision") and self.run_operator("hulls"))
-        truck.name = "lorry"
+        ball.name = "lorry"
         self.settings.collision_faces = 200
         self.assertTrue(self.run_operator("collision"))
         self.assertEqual([o.name for o in self.kind("COLLISION")], ["lorry-colonly"])
@@ -78,7 +78,7 @@ class Collision(AddonTest):
         return collection
 
     def test_undo_is_one_step(self):
-        self.load("truck")
+        self.ball("truck")
         bpy.ops.ed.undo_push(message="imported")
         self.assertTrue(self.run_operator("collision"))
         self.assertTrue(self.kind("COLLISION"))
@@ -89,10 +89,10 @@ class Collision(AddonTest):
         self.assertEqual([o.name for o in self.kind("COLLISION")], ["truck_collision"])
 
     def test_a_saved_file_keeps_what_is_known(self):
-        truck = self.load("truck")
+        ball = self.ball("truck")
         self.settings.collision_faces = 300
         self.assertTrue(self.run_operator("collision"))
-        truck.name = "lorry"
+        ball.name = "lorry"
         with tempfile.TemporaryDirectory() as folder:
             reopen(folder)
         body = bpy.data.objects["truck_collision"]
