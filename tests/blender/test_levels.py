@@ -82,6 +82,39 @@ class Levels(AddonTest):
                 self.assertGreater(entry.color[2 if x > 0 else 1], 0.9, (x, tuple(entry.color)))
 
 
+    def test_a_mapping_and_an_image_that_is_no_file_reach_the_level(self):
+        """An image of four colours, of which the mapping shows the third only; its green channel is the roughness."""
+        ball = self.ball("ball")
+        image = bpy.data.images.new("stripes", 4, 1)
+        image.pixels = [1, 0, 0, 1, 0, 1, 0, 1, 0, 0.2, 1, 1, 1, 1, 1, 1]
+        ball.data.materials.append(bpy.data.materials.new("mapped"))
+        material = ball.data.materials[0]
+        material.use_nodes = True
+        nodes, links = material.node_tree.nodes, material.node_tree.links
+        texture, mapping, places, split = map(nodes.new, ("ShaderNodeTexImage", "ShaderNodeMapping", "ShaderNodeTexCoord", "ShaderNodeSeparateColor"))
+        texture.image = image
+        mapping.inputs["Location"].default_value = (0.625, 0.5, 0)
+        mapping.inputs["Scale"].default_value = (0.001, 0.001, 1)
+        links.new(places.outputs["UV"], mapping.inputs["Vector"])
+        links.new(mapping.outputs["Vector"], texture.inputs["Vector"])
+        links.new(texture.outputs["Color"], nodes["Principled BSDF"].inputs["Base Color"])
+        links.new(texture.outputs["Color"], split.inputs[0])
+        links.new(split.outputs["Green"], nodes["Principled BSDF"].inputs["Roughness"])
+        self.settings.level_faces, self.settings.appearance = "200", "full"
+        self.assertTrue(self.run_operator("levels"))
+        level = self.kind("LEVELS")[0]
+        made = {image.name.rsplit("_", 1)[1].split(".")[0]: image for image in images_of(level)}
+        pixels = list(made["color"].pixels)
+        shown = [pixels[i:i + 3] for i in range(0, len(pixels), 4)]
+        blue = [c for c in shown if c[2] > 0.85 and c[0] < 0.1 and abs(c[1] - 0.2) < 0.1]
+        self.assertGreater(len(blue), 0.5 * len(shown))
+        self.assertFalse([c for c in shown if c[0] > 0.5])
+        shader = next(n for n in level.data.materials[0].node_tree.nodes if n.type == "BSDF_PRINCIPLED")
+        rough = shader.inputs["Roughness"]
+        value = list(made["rough"].pixels)[1] if rough.is_linked else rough.default_value
+        self.assertAlmostEqual(value, 0.2, delta=0.05)
+
+
 class Occluders(AddonTest):
     def test_an_occluder_lies_within_what_the_house_hides(self):
         house = self.load("house")
