@@ -88,6 +88,14 @@ class Collision(AddonTest):
         bpy.ops.ed.redo()
         self.assertEqual([o.name for o in self.kind("COLLISION")], ["truck_collision"])
 
+    def test_a_preset_keeps_all_settings(self):
+        self.settings.margin, self.settings.level_faces, self.settings.scale_kind = 2.5, "10%", "LENGTH"
+        self.assertEqual(bpy.ops.bounding_proxies.preset_add(name="mine"), {"FINISHED"})
+        self.settings.margin, self.settings.level_faces, self.settings.scale_kind = 1, "", "AUTO"
+        [path] = Path(bpy.utils.user_resource("SCRIPTS", path="presets/bounding_proxies")).glob("*.py")
+        bpy.ops.script.execute_preset(filepath=str(path), menu_idname="BOUNDING_PROXIES_PT_presets")
+        self.assertEqual((self.settings.margin, self.settings.level_faces, self.settings.scale_kind), (2.5, "10%", "LENGTH"))
+
     def test_a_saved_file_keeps_what_is_known(self):
         ball = self.ball("truck")
         self.settings.collision_faces = 300

@@ -1,6 +1,6 @@
 """Bounding proxies in Blender: collision bodies, convex hulls, occluders, levels of detail and cages of the selected objects, made and proven
 by the installed tools. The guide is docs/guides/blender.md."""
-from . import operators, panel, settings
+from . import operators, panel, presets, settings
 
 # Blender 4.2 and later read blender_manifest.toml, earlier ones this.
 bl_info = {
@@ -15,10 +15,10 @@ bl_info = {
 
 
 def register() -> None:
-    for module in (settings, operators, panel):
+    for module in (settings, operators, presets, panel):
         module.register()
 
 
 def unregister() -> None:
-    for module in (panel, operators, settings):
+    for module in (panel, presets, operators, settings):
         module.unregister()

@@ -4,6 +4,7 @@ from __future__ import annotations
 import bpy
 
 from . import results
+from .presets import BOUNDING_PROXIES_PT_presets
 from .settings import BoundingProxiesSettings
 
 
@@ -37,6 +38,9 @@ class BOUNDING_PROXIES_PT_collision(_Purpose, bpy.types.Panel):
     bl_label = "Collision"
     settings = ("collision_faces", "engine", "hulls", "hull_corners")
     operator, icon = "collision", "MESH_ICOSPHERE"
+
+    def draw_header_preset(self, context: bpy.types.Context) -> None:
+        BOUNDING_PROXIES_PT_presets.draw_panel_header(self.layout)
 
     def draw(self, context: bpy.types.Context) -> None:
         super().draw(context)
