@@ -1,5 +1,5 @@
-"""Takes from Blender what it shows of objects: evaluated meshes with modifiers applied, instances, matrices, and materials. Coordinates are copied, not
-computed."""
+"""Takes from Blender what it shows of objects: evaluated meshes with modifiers applied, instances, matrices and materials. Coordinates
+are copied, not computed."""
 from __future__ import annotations
 
 from contextlib import contextmanager
