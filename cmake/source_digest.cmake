@@ -2,6 +2,7 @@
 # bytes does. Run by the build whenever one changed: cmake -DROOT=... -DOUTPUT=... -P source_digest.cmake
 file(GLOB_RECURSE sources LIST_DIRECTORIES false RELATIVE "${ROOT}" "${ROOT}/lib/*" "${ROOT}/io/*" "${ROOT}/gpu/*"
      "${ROOT}/tools/*")
+list(FILTER sources EXCLUDE REGEX "^tools/(python|blender)/")  # they call what is made of the others
 list(SORT sources)
 set(all "")
 foreach(source IN LISTS sources)

@@ -147,6 +147,16 @@ if [ -n "${NODE_PATH:-}" ]; then
   bplod town/town.obj --faces 6000,1000,300 -q -o town-lod > /dev/null
   node "$root/tests/viewers/shot.cjs" three town-lod/town_LOD0.glb guide-textures.png 'width=420&radii=0.33' > /dev/null
 fi
+if command -v blender > /dev/null; then
+  rm -rf blender-user && mkdir -p blender-user/addons
+  "$root/tools/blender/pack.py" addon.zip > /dev/null
+  python3 -m zipfile -e addon.zip blender-user/addons
+  export BLENDER_USER_SCRIPTS=$PWD/blender-user
+  "$root/samples/town.py" town-16/town 16 > /dev/null
+  cp truck.* figure.* town-16
+  blender -b --factory-startup --python-exit-code 1 -P "$root/docs/blender_gallery.py" -- town-16 blender > blender.log
+  xvfb-run -a -s '-screen 0 1120x720x24' blender --factory-startup --enable-event-simulate -p 0 0 1120 720 -P "$root/docs/blender_gallery.py" -- town-16 blender > blender.log
+fi
 mkdir night && cp house.obj house.mtl truck.obj truck.mtl night
 "$root/samples/nightly" night levels --faces 1000,200
 draw guide-nightly.png 300 levels/house.obj/house_LOD{0,1}.glb levels/truck.obj/truck_LOD{0,1}.glb
