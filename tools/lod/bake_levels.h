@@ -20,6 +20,8 @@ namespace bp {
 
 /// So far from a level lies what decides its texture; `error_world` as below.
 [[nodiscard]] double texture_reach(double error_world, double scale_world, double voxel);
+/// Returns the part of the scene that decides the texture of a tile with these voxels.
+[[nodiscard]] Bounds3d texture_bounds(const VoxelBox& box, const GridFrame& frame, double scale_world);
 
 /// Lengths of a level, scene units.
 struct LevelLengths {

@@ -36,4 +36,7 @@ struct MadeLeaves {
 /// In parallel; each leaf is a job of its own, whose result is kept. Held looks are in memory meanwhile.
 [[nodiscard]] MadeLeaves make_leaves(const Build& build, const LeafTask& task);
 
+/// Returns the limit on memory at which make_leaves() has enough. 0: not known.
+[[nodiscard]] std::uint64_t leaves_limit(const Build& build, const LeafTask& task);
+
 }  // namespace bp

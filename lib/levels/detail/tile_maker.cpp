@@ -90,6 +90,14 @@ LatticeMesh TileMaker::make(TileMeasures& measures) {
   return mesh;
 }
 
+std::uint64_t TileMaker::limit(std::uint64_t triangles) const {
+  TileMeasures ignored;
+  MeshParams mesh = mesh_params(ignored);
+  if (params_.scene == nullptr && triangles > 0) mesh.enclose = Enclose::scene;
+  ShelfSource source(header(), *solid_, closing_.get(), ShelfSource::Keep::solid);
+  return mesh_limit(source, context_, mesh, params_.scene == nullptr ? triangles : scene_.size());
+}
+
 /// What the closing has here only for voxels of the next cells: sheets along the walls, over which a tile would stand
 /// far off all that it encloses. That is what lies beyond the closing's reach from the solid, and is not shut in by
 /// the rest: what fills cavities stays.

@@ -54,9 +54,16 @@ struct CageRoom {
 /// Grows the voxels of a scene by the margin of a cage, after they were made symmetric where that is wanted.
 [[nodiscard]] CageRoom make_room(Build& build, LodScene& scene);
 
-/// For LodChain. Reads the scene once more where levels lie around its triangles, or follow them. `share`: of the
-/// memory for work. limit: tells a limit on memory at which other steps fit; a refusal asks it.
+/// The levels in one mesh as a part of a whole tileset.
+struct TilesetSteps {
+  double share = 1;     ///< of the memory for work
+  std::size_t cut = 0;  ///< levels before them that are cut
+  /// Returns a limit on memory at which all steps of the tileset fit, for these options. A refusal asks it.
+  std::function<std::uint64_t(const LodOptions&)> limit;
+};
+
+/// For LodChain. Reads the scene once more where levels lie around its triangles, or follow them.
 [[nodiscard]] LodOptions lod_options(const Build& build, const LodScene& scene, const CageRoom& room = {},
-                                     double share = 1, const std::function<std::uint64_t()>& limit = {});
+                                     const TilesetSteps& tileset = {});
 
 }  // namespace bp
