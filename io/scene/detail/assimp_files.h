@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "io/files/file.h"
-#include "io/scene/detail/ac3d_layers.h"
+#include "io/scene/detail/exact/ac3d_layers.h"
 #include "io/scene/scene_file.h"
 
 /// The file system that Assimp reads through.

@@ -1,4 +1,4 @@
-#include "io/scene/detail/ac3d_layers.h"
+#include "io/scene/detail/exact/ac3d_layers.h"
 
 #include <algorithm>
 #include <string_view>
