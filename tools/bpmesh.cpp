@@ -43,7 +43,8 @@ void note_stream(bp::Report& report, const bp::MeshOptions& o, const bp::StreamH
 void note_estimate(bp::Report& report, const bp::MeshOptions& o, const bp::StreamHeader& header, bp::Enclose enclosed) {
   const bool scene = enclosed == bp::Enclose::scene;
   const double effort = (o.error() ? bp::kErrorEffort : 1) * (scene ? bp::kSceneEffort : 1);
-  const bp::Estimate estimate = bp::estimate_mesh(header.bounds, header.frame.voxel, effort);
+  bp::Estimate estimate = bp::estimate_mesh(header.bounds, header.frame.voxel, effort);
+  if (scene) estimate.bytes += bp::kBytesOfEnclosed * double(header.scene.triangles);
   const std::string text = bp::estimate_note(estimate, o.common.memory_bytes);
   if (!text.empty()) report.note(text, o.common);
 }

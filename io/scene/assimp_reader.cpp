@@ -53,12 +53,16 @@ ChildLimits limits_for(std::uint64_t file_bytes, const MemoryShare& budget) {
   return limits;
 }
 
+bool is_ac3d(const std::string& extension) {
+  return extension == "ac" || extension == "acc" || extension == "ac3d";
+}
+
 /// Returns about how many bytes an importer takes for each byte of a file: the limit that a refusal names must suffice.
 /// Measured with files of loose triangles, 8 to 31 MB: 7 for AC3D, 11 for COLLADA, 8 for DXF. For others see
 /// limits_for().
 std::uint64_t bytes_per_byte(const std::string& extension) {
   if (extension == "dae") return 16;
-  return extension == "ac" || extension == "acc" || extension == "ac3d" ? 8 : 20;
+  return is_ac3d(extension) ? 8 : 20;
 }
 
 std::string importer_of(const std::string& extension) {
@@ -232,7 +236,7 @@ void SceneUnloader::follow_bones(const aiScene& scene, const BonePlaces& places)
 /// Reads a format that has an exact reader; none for others. Throws bad_alloc without room for it: memory must not
 /// decide what is read.
 std::optional<ExactScene> read_exactly(const SceneFile& file, const std::string& extension) {
-  const bool collada = extension == "dae", ac3d = extension == "ac" || extension == "acc" || extension == "ac3d";
+  const bool collada = extension == "dae", ac3d = is_ac3d(extension);
   if (!collada && !ac3d) return {};
   std::string text(file.size(), '\0');
   file.read_at(0, std::as_writable_bytes(std::span(text)));
@@ -252,7 +256,7 @@ std::string import(const SceneFilePtr& file, const std::string& extension, Scrat
   if (exact && exact->unread != nullptr)
     fail(ErrorCode::bad_input, "{}: {}; export it as glTF (GLB)", file->name(), exact->unread);
   Assimp::Importer importer;
-  importer.SetIOHandler(new SceneFileSystem(file, name, parts));
+  importer.SetIOHandler(new SceneFileSystem(file, name, parts, is_ac3d(extension)));
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);  // bones alone are no surface
   const aiScene* const scene = importer.ReadFile(name, 0);
   if (scene == nullptr) {

@@ -106,6 +106,20 @@ double texture_reach(double error_world, double scale_world, double voxel) {
   return kReach * std::max(error_or(error_world, scale_world, voxel), scale_world);
 }
 
+Bounds3d texture_bounds(const VoxelBox& box, const GridFrame& frame, double scale_world) {
+  const double reach = texture_reach(0, scale_world, frame.voxel) + scale_world + 2 * frame.voxel;
+  const auto corner = [&](VoxelCoord v, double by) {
+    Vec3d p = frame.world({v.x * std::int64_t(kLatticePerVoxel), v.y * std::int64_t(kLatticePerVoxel),
+                           v.z * std::int64_t(kLatticePerVoxel)});
+    for (double& x : p) x += by;
+    return p;
+  };
+  Bounds3d bounds;
+  bounds.add(corner(box.min, -reach));
+  bounds.add(corner(box.max, reach));
+  return bounds;
+}
+
 std::unique_ptr<SceneLooks> read_looks(const Build& build, const LodScene& scene, const MemoryShare& memory) {
   SceneOptions how = build.scene_options(true);
   how.colors = build.options.colors();

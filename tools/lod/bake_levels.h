@@ -22,6 +22,8 @@ namespace bp {
 
 /// Returns the distance from a level within which the scene decides its texture. `error_world`: 0 if it is not known.
 [[nodiscard]] double texture_reach(double error_world, double scale_world, double voxel);
+/// Returns the part of the scene that decides the texture of a tile with these voxels.
+[[nodiscard]] Bounds3d texture_bounds(const VoxelBox& box, const GridFrame& frame, double scale_world);
 
 /// Lengths of a level, scene units.
 struct LevelLengths {

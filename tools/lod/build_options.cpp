@@ -180,7 +180,9 @@ void check_levels(const BuildOptions& o) {
     fail(ErrorCode::bad_argument, "--levels {}: must be 1 to {}", *r.levels, kMostLevels);
   const std::size_t listed = std::max({r.faces.size(), r.shares.size(), r.errors_world.size()});
   if (r.levels && listed > 1 && listed != *r.levels)
-    fail(ErrorCode::bad_argument, "--levels {}, and a list of {}; leave one of them out", *r.levels, listed);
+    fail(ErrorCode::bad_argument,
+         "--levels {}: {} lists {} numbers, one for each level; list {}, or leave --levels out", *r.levels,
+         r.errors_world.empty() ? "--faces" : "--error", listed, *r.levels);
 }
 
 void check_jobs(const BuildOptions& o) {

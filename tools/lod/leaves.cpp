@@ -88,6 +88,11 @@ class LeafMaker {
     provenance_ = {make_provenance("bplod", text)};
   }
 
+  [[nodiscard]] std::uint64_t limit() {
+    find();
+    return memory().limit_for(bytes_of_largest());
+  }
+
   MadeLeaves run() {
     find();
     std::size_t next = 0;
@@ -130,14 +135,18 @@ class LeafMaker {
   /// Returns how many leaves are made at the same time. Even the largest leaves fit into the memory together. Throws
   /// NeedsMemory if one of them does not fit.
   [[nodiscard]] int at_once() const {
+    const std::uint64_t needed = bytes_of_largest(), left = memory().bytes;
+    if (needed > left)
+      throw NeedsMemory(fmt::format("cutting a leaf of {} triangles", needed / kLeafBytesPerTriangle), needed, left,
+                        memory().limit_for(needed));
+    return int(std::min(left / needed, std::uint64_t(thread_count())));
+  }
+
+  [[nodiscard]] MemoryShare memory() const { return build_.context(nullptr, kBesideLooks).memory; }
+  [[nodiscard]] std::uint64_t bytes_of_largest() const {
     std::uint64_t triangles = 1;
     for (const Leaf& leaf : leaves_) triangles = std::max(triangles, leaf.box.triangles);
-    const MemoryShare memory = build_.context(nullptr, kBesideLooks).memory;
-    const std::uint64_t needed = triangles * kLeafBytesPerTriangle;
-    if (needed > memory.bytes)
-      throw NeedsMemory(fmt::format("cutting a leaf of {} triangles", triangles), needed, memory.bytes,
-                        memory.limit_with(needed - memory.bytes));
-    return int(std::min(memory.bytes / needed, std::uint64_t(thread_count())));
+    return triangles * kLeafBytesPerTriangle;
   }
 
   [[nodiscard]] ResultKey key_of(const Leaf& leaf) const {
@@ -227,6 +236,10 @@ class LeafMaker {
 
 std::string leaf_folder(const BuildOptions& options) {
   return options.name + "_leaves";
+}
+
+std::uint64_t leaves_limit(const Build& build, const LeafTask& task) {
+  return LeafMaker(build, task).limit();
 }
 
 MadeLeaves make_leaves(const Build& build, const LeafTask& task) {

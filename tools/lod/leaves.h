@@ -38,4 +38,7 @@ struct MadeLeaves {
 /// in the meantime.
 [[nodiscard]] MadeLeaves make_leaves(const Build& build, const LeafTask& task);
 
+/// Returns the limit on memory at which make_leaves() has enough. 0: not known.
+[[nodiscard]] std::uint64_t leaves_limit(const Build& build, const LeafTask& task);
+
 }  // namespace bp

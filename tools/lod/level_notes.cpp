@@ -17,9 +17,16 @@ namespace bp {
 
 namespace {
 
+constexpr std::uint64_t kFacesOfTetrahedron = 4;
 constexpr double kMuchFuller = 2;  // times the volume of the scene's voxels
 // Errors below this, in voxels, are due to the rounding of vertices to the lattice.
 constexpr double kExactVox = 1.0 / 16;
+
+/// Returns "level 1 (250 faces)": the number that its file has, and what the user asked for in a list.
+std::string title_of(std::size_t number, const LevelFacts& level, bool is_listed) {
+  const std::uint64_t faces = is_listed ? level.target.faces : 0;
+  return fmt::format("level {}{}", number, faces > 0 ? fmt::format(" ({})", counted(faces, "face")) : "");
+}
 
 /// Returns whether a level is a box, a prism or a hull, for which no voxels were meshed.
 bool is_convex(const LevelFacts& level) {
@@ -39,6 +46,9 @@ std::string faces_note(const LevelFacts& level, bool asked, std::uint64_t triang
         advice.exact ? ""
                      : fmt::format(", and more faces would show steps of voxels; smaller voxels{} come nearer",
                                    advice.scale.empty() ? "" : ", or a smaller --scale,"));
+  if (!level.reached && budget < kFacesOfTetrahedron)
+    return fmt::format("{} faces instead of {}: a closed mesh has at least {}, as a tetrahedron", level.faces, budget,
+                       kFacesOfTetrahedron);
   if (!level.reached)
     return fmt::format("{} faces instead of {}, even closed at {:.4g}: no further edge can be merged", level.faces,
                        budget, level.scale_world);
@@ -82,15 +92,16 @@ std::vector<std::string> level_notes(const std::vector<LevelFacts>& levels, std:
   std::vector<std::string> notes;
   for (std::size_t i = 0; i < levels.size(); ++i) {
     const LevelFacts& level = levels[i];
+    const std::string title = title_of(first + i, level, asked && first + levels.size() > 1);
     if (const std::string missed = faces_note(level, asked, scene.triangles); !missed.empty())
-      notes.push_back(fmt::format("level {}: {}", first + i, missed));
+      notes.push_back(fmt::format("{}: {}", title, missed));
     if (const double error = level.target.error_world; error > 0 && level.error_world > error)
       notes.push_back(error_note(first + i, level.error_world, error));
     if (level.error_world > scene.bounds.diagonal() && level.target.faces > 0 && level.target.faces < kLeastFaces)
       notes.push_back(
-          fmt::format("level {}: its error is {:.4g}, more than the diagonal of the scene, {:.4g}; {} faces, "
+          fmt::format("{}: its error is {:.4g}, more than the diagonal of the scene, {:.4g}; {} faces, "
                       "as a box has, come nearer",
-                      first + i, level.error_world, scene.bounds.diagonal(), kLeastFaces));
+                      title, level.error_world, scene.bounds.diagonal(), kLeastFaces));
   }
   return notes;
 }

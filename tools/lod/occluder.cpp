@@ -35,11 +35,15 @@ double volume_of(const Bounds3d& b) {
   return (b.max[0] - b.min[0]) * (b.max[1] - b.min[1]) * (b.max[2] - b.min[2]);
 }
 
-OptionText option_text(const BuildOptions& o, const BuiltOccluder& built) {
+OccluderRecipe recipe_of(const BuildOptions& o, const BuiltOccluder& built) {
   const GridFrame& frame = built.scene.voxels.header.frame;
+  return {{frame, built.hidden.scale_world, o.closing.element}, true, built.ground, frame.up};
+}
+
+OptionText option_text(const BuildOptions& o, const BuiltOccluder& built) {
   OptionText text;
   text.add("mode", "inside").add("faces", built.made.faces_asked);
-  add_recipe({{frame, built.hidden.scale_world, o.closing.element}, true, built.ground, frame.up}, text);
+  add_recipe(recipe_of(o, built), text);
   return text.add("opening", built.made.opening_world).add("tighten", true);
 }
 
@@ -70,10 +74,10 @@ void note(Build& build, const BuiltOccluder& built, double volume) {
                            made.level.mesh.triangles.size(), 100 * volume / hidden));
   if (built.ground) build.note("the scene is open below: it is taken to stand on the ground, and eyes to be above it");
   if (built.hidden.scale_world > 0)
-    build.note(
-        fmt::format("openings narrower than {:.4g} are taken for closed, and the rooms behind them are filled, as are "
-                    "valleys as narrow; --scale 0 keeps free what one enters",
-                    2 * built.hidden.scale_world));
+    build.note(fmt::format(
+        "openings narrower than {:.4g} may count as closed, and then the rooms behind them are filled, as are "
+        "valleys as narrow; --scale 0 keeps free what one enters",
+        recipe_of(build.options, built).hiding.closed_gap()));  // as bpcheck says
   else if (!build.options.closing.scale)
     build.note("openings stay open: closing them would hide little more");
   if (!made.level.reached)

@@ -45,9 +45,14 @@ void question_proportions(const BuildOptions& o, const SceneSize& scene) {
 }
 
 Estimate estimate_build(const BuildOptions& o, const Bounds3d& scene, const VoxelizeCounts& counts, double voxel) {
-  const bool tiles_of_scene = o.is_tileset() && enclosed_by(o, counts.scene.triangles) == Enclose::scene;
-  return estimate_levels(scene, counts, voxel, level_count(request_of(o)), o.is_tileset(),
-                         (o.levels.errors.empty() ? 1 : kErrorEffort) * (tiles_of_scene ? kTilesOfSceneEffort : 1));
+  const bool follows = o.proxy.mode == MeshMode::fit,
+             encloses = enclosed_by(o, counts.scene.triangles) == Enclose::scene;
+  const bool tiles_of_scene = o.is_tileset() && encloses;
+  Estimate e =
+      estimate_levels(scene, counts, voxel, level_count(request_of(o)), o.is_tileset(),
+                      (o.levels.errors.empty() ? 1 : kErrorEffort) * (tiles_of_scene ? kTilesOfSceneEffort : 1));
+  e.bytes += (follows ? kBytesOfFollowed : encloses ? kBytesOfEnclosed : 0) * double(counts.scene.triangles);
+  return e;
 }
 
 }  // namespace bp

@@ -10,6 +10,7 @@
 #include "io/store/scratch.h"
 #include "io/tiles/tileset_file.h"
 #include "io/tiles/tileset_folder.h"
+#include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/levels/lod_chain.h"
 #include "lib/levels/tiles/cut_levels.h"
@@ -23,6 +24,7 @@
 #include "tools/lod/lod_outputs.h"
 #include "tools/lod/proportions.h"
 #include "tools/lod/scene/complete_levels.h"
+#include "tools/lod/scene/tileset_memory.h"
 #include "tools/notes/estimate.h"
 
 namespace bp {
@@ -81,21 +83,6 @@ std::string name_of(CellCoord c) {
   return fmt::format("{}_{}_{}", c.x, c.y, c.z);
 }
 
-/// Returns the box in which the scene decides a tile's texture.
-Bounds3d around(const VoxelBox& box, const GridFrame& frame, double scale_world) {
-  const double reach = texture_reach(0, scale_world, frame.voxel) + scale_world + 2 * frame.voxel;
-  const auto corner = [&](VoxelCoord v, double by) {
-    Vec3d p = frame.world({v.x * std::int64_t(kLatticePerVoxel), v.y * std::int64_t(kLatticePerVoxel),
-                           v.z * std::int64_t(kLatticePerVoxel)});
-    for (double& x : p) x += by;
-    return p;
-  };
-  Bounds3d bounds;
-  bounds.add(corner(box.min, -reach));
-  bounds.add(corner(box.max, reach));
-  return bounds;
-}
-
 /// Returns how the tiles of a level become files, with their names and provenance.
 CutFiles cut_files(const Build& build, const MadeTileset& made, const CutLevel& cut, std::size_t level) {
   const std::string folder = level_name(build.options.name, level);
@@ -116,7 +103,7 @@ CutFiles cut_files(const Build& build, const MadeTileset& made, const CutLevel& 
   if (looks != nullptr) {
     files.add_to_key = [looks, cells = Cells{build.options.tile_vox}, frame = cut.frame, scale = cut.scale_world](
                            CellCoord cell, KeyHash& hash) {
-      looks->add_to(hash, around(cells.box(cell), frame, scale));
+      looks->add_to(hash, texture_bounds(cells.box(cell), frame, scale));
     };
   }
   return files;
@@ -178,25 +165,28 @@ void tell_time(const Shop& shop, const VoxelizedScene& scene, double share) {
   note_estimate(work, shop.options().common, shop.build.progress, shop.build.report);
 }
 
-/// Makes the levels that have more than one cell.
-void make_cut(const Shop& shop, TilePyramid& pyramid, const std::vector<TriangleD>& scene, MadeTileset& made) {
+CutOptions cut_options(const Shop& shop, const MadeTileset& made, const TriangleBvh* tree = nullptr) {
   const BuildOptions& o = shop.options();
-  std::unique_ptr<TriangleBvh> tree;
-  if (!scene.empty() && !made.plan.cut.empty()) tree = std::make_unique<TriangleBvh>(scene);
-  std::vector<LevelAtWork> levels(made.plan.cut.size());
-  for (std::size_t i = 0; i < levels.size(); ++i) {
-    const CutLevel& cut = made.plan.cut[i];
-    levels[i].found.what = fmt::format("level {}", i);
-    levels[i].row = {level_name(o.name, i) + "/*.glb", 0, 0, 0, 0, cut.scale_world, cut.frame.voxel};
-  }
   CutOptions cut;
   cut.cells = shop.cells();
   cut.mode = o.proxy.mode;
   cut.enclose = made.scene.enclosed;
   cut.colors = made.scene.colors.get();
-  cut.scene = tree.get();
+  cut.scene = tree;
   if (shop.task == Task::some_jobs) cut.jobs = o.tiles;
   cut.make = shop.task != Task::look_up;
+  return cut;
+}
+
+/// The levels of more than one cell.
+void make_cut(const Shop& shop, TilePyramid& pyramid, const CutOptions& cut, MadeTileset& made) {
+  const BuildOptions& o = shop.options();
+  std::vector<LevelAtWork> levels(made.plan.cut.size());
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const CutLevel& level = made.plan.cut[i];
+    levels[i].found.what = fmt::format("level {}", i);
+    levels[i].row = {level_name(o.name, i) + "/*.glb", 0, 0, 0, 0, level.scale_world, level.frame.voxel};
+  }
   const CutSteps steps{
       [&](const std::string& name) { shop.build.report.begin(name); },
       [&](std::size_t i, const GridFrame&) { return cut_files(shop.build, made, made.plan.cut[i], i); },
@@ -279,17 +269,24 @@ void make_whole(const Shop& shop, TilePyramid& pyramid, LodOptions lod, const Le
   if (cut == 0) made.provenance = whole.levels.front().provenance;
 }
 
-/// Returns the bytes of the scene's triangles while tiles are made.
-std::uint64_t bytes_of(std::uint64_t triangles) {
-  return triangles * sizeof(TriangleD) + TriangleBvh::bytes_needed(triangles);
-}
-
 /// `held`: bytes that the scene takes at the same time. share: of the memory for work.
 PyramidOptions pyramid_options(const Shop& shop, std::uint64_t held, double share) {
   PassContext context = shop.build.context(shop.results, share);
   context.memory.bytes -= std::min(context.memory.bytes, held);
   context.pieces = context.pieces.without(held);
   return {shop.cells(), {shop.options().closing.element}, std::move(context)};
+}
+
+/// Everything that comes before the levels in one mesh.
+void make_tiles_and_leaves(const Shop& shop, TilePyramid& pyramid, const std::vector<TriangleD>& scene,
+                           MadeTileset& made) {
+  if (made.plan.cut.empty()) {
+    const StreamHeader& header = made.scene.voxels.header;
+    return add_leaves(shop, {cells_spanned(shop.cells(), header.bricks).first}, header.frame, made);
+  }
+  std::unique_ptr<TriangleBvh> tree;
+  if (!scene.empty()) tree = std::make_unique<TriangleBvh>(scene);
+  make_cut(shop, pyramid, cut_options(shop, made, tree.get()), made);
 }
 
 MadeTileset make_tileset(const Shop& shop) {
@@ -306,19 +303,18 @@ MadeTileset make_tileset(const Shop& shop) {
     shop.build.note(fmt::format("--tiles {}..{}: there are {} jobs, numbered from 0: nothing is done", o.tiles->begin,
                                 o.tiles->end, made.plan.jobs()));
   shop.build.report.begin("measure the scene");
-  LodOptions lod = lod_options(shop.build, made.scene, {}, share, [&] {
-    const MemoryShare memory = shop.build.context(nullptr, share).memory;
-    return pyramid_limit(made.plan, shop.cells(), memory, bytes_of(made.scene.size.triangles));
-  });
+  const TilesetMemory limit({shop.build, made.scene, made.plan, made.held_looks.get(), cut_options(shop, made), share});
+  LodOptions lod = lod_options(shop.build, made.scene, {}, {share, made.plan.cut.size(), [&](const LodOptions& whole) {
+                                                              return limit(whole, *made.scene.voxels.solid);
+                                                            }});
   TilePyramid pyramid(header, std::move(made.scene.voxels.solid), shop.build.backends,
-                      pyramid_options(shop, bytes_of(lod.scene.size()), share));
-  make_cut(shop, pyramid, lod.scene, made);
+                      pyramid_options(shop, bytes_beside_tiles(lod.scene.size()), share));
+  naming_limit([&] { make_tiles_and_leaves(shop, pyramid, lod.scene, made); }, [&] { return limit(lod, pyramid); });
   if (made.plan.whole == 0 && shop.task == Task::tileset)
     shop.build.note(
         fmt::format("the coarsest level has {} tiles, and nothing is drawn instead of them from afar: it takes {} "
                     "levels to come to one mesh, or larger tiles",
                     made.rows.back().tiles, levels_to_one_mesh(request, shop.cells(), header)));
-  if (made.plan.cut.empty()) add_leaves(shop, {cells_spanned(shop.cells(), header.bricks).first}, header.frame, made);
   if (made.plan.whole > 0 && shop.wants(made.plan.whole_number(), 1))
     make_whole(shop, pyramid, std::move(lod), request, made);
   return made;

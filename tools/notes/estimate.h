@@ -42,6 +42,9 @@ struct Estimate {
 constexpr double kErrorEffort = 5;         ///< --error: each new face is measured
 constexpr double kSceneEffort = 4;         ///< --enclose SCENE: the scene's own triangles stay inside
 constexpr double kTilesOfSceneEffort = 2;  ///< the same for tilesets
+/// Bytes of each triangle of the scene that a level encloses (530 of a motorbike, 770 of a plant), or follows (900 to
+/// 1,700).
+constexpr double kBytesOfEnclosed = 600, kBytesOfFollowed = 1200;
 
 /// Returns the time of a run with these devices (names_of(backends)): a GPU takes over work.
 [[nodiscard]] double wall_seconds(const Estimate& estimate, const std::vector<std::string>& backends);

@@ -58,8 +58,8 @@ std::string tileset_in(const std::string& path) {
   if (std::filesystem::is_regular_file(tileset, none)) return tileset.string();
   if (!std::filesystem::is_directory(path, none)) return path;
   const std::vector<std::string> meshes = meshes_in(path);
-  if (meshes.empty()) fail(ErrorCode::bad_argument, "{}: a folder with neither a tileset nor a mesh", path);
-  fail(ErrorCode::bad_argument, "{}: a folder without a tileset; name one of its meshes: {}{}", path,
+  if (meshes.empty()) fail(ErrorCode::bad_input, "{}: a folder with neither a tileset nor a mesh", path);
+  fail(ErrorCode::bad_input, "{}: a folder without a tileset; name one of its meshes: {}{}", path,
        fmt::join(std::span(meshes).first(std::min(kNamed, meshes.size())), " "), meshes.size() > kNamed ? " ..." : "");
 }
 

@@ -22,12 +22,24 @@ std::uint64_t heap_bytes(const std::string& text) {
   return text.capacity() > inside ? text.capacity() + 2 * sizeof(void*) : 0;
 }
 
+/// Returns the share, or as much of it as is `most` of the rest of its limit.
+MemoryShare at_most(MemoryShare memory, double most) {
+  const double part = memory.share > 0 ? std::min(1.0, most / memory.share) : most;
+  memory.bytes = std::uint64_t(double(memory.bytes) * part);
+  memory.share *= part;
+  memory.least_share = std::min(memory.least_share, most);
+  return memory;
+}
+
 /// Clamps to [0, 1]; NaN becomes 0.
 double part_of(double x) {
   return std::min(1.0, std::max(0.0, x));
 }
 
 }  // namespace
+
+MtlMaterials::MtlMaterials(const MemoryShare& document)
+    : is_limited_(document.bytes > 0), memory_(at_most(document, kMostShare)) {}
 
 void MtlMaterials::load(const std::string& beside, const std::string& name) {
   if (beside.empty() || name.empty()) return;
@@ -42,9 +54,8 @@ void MtlMaterials::load(const std::string& beside, const std::string& name) {
 }
 
 void MtlMaterials::refuse() const {
-  const std::uint64_t left = document_.bytes / kParts;
-  throw NeedsMemory(fmt::format("{}: the list of materials", too_many_), bytes_, left,
-                    document_.limit_for(bytes_ * kParts));
+  throw NeedsMemory(fmt::format("{}: the list of materials", too_many_), bytes_, memory_.bytes,
+                    memory_.limit_for(bytes_));
 }
 
 void MtlMaterials::clear() {
@@ -115,11 +126,14 @@ void MtlMaterials::read_line(TextScanner& text, const std::string& key, Material
   } else if (key == "map_d") {
     material.see_through = true;
   } else {
-    const std::map<std::string, Map*> maps{{"map_Kd", &material.color_map},  {"norm", &material.normal_map},
-                                           {"map_Bump", &material.bump_map}, {"map_bump", &material.bump_map},
-                                           {"bump", &material.bump_map},     {"map_Pr", &material.roughness_map},
-                                           {"map_Pm", &material.metal_map},  {"map_Ke", &material.emission_map}};
-    if (const auto found = maps.find(key); found != maps.end()) read_map(text, *found->second);
+    using Member = Map Maps::*;
+    static const std::map<std::string, Member> members{
+        {"map_Kd", &Maps::color}, {"norm", &Maps::normal},      {"map_Bump", &Maps::bump}, {"map_bump", &Maps::bump},
+        {"bump", &Maps::bump},    {"map_Pr", &Maps::roughness}, {"map_Pm", &Maps::metal},  {"map_Ke", &Maps::emission}};
+    const auto found = members.find(key);
+    if (found == members.end()) return;
+    if (material.own_maps == nullptr) material.own_maps = std::make_unique<Maps>();
+    read_map(text, (*material.own_maps).*(found->second));
   }
 }
 
@@ -157,16 +171,21 @@ std::string MtlMaterials::path_of(const Map& map, const Material& material) {
   return find_beside(folder_before(*material.file), map.image);
 }
 
+const MtlMaterials::Maps& MtlMaterials::Material::maps() const {
+  static const Maps none;
+  return own_maps ? *own_maps : none;
+}
+
 const MtlMaterials::Map& MtlMaterials::Material::first_map() const {
-  for (const Map* map : {&color_map, &normal_map, &bump_map, &roughness_map, &metal_map, &emission_map})
+  for (const Map* map : maps().all())
     if (!map->image.empty()) return *map;
-  return color_map;
+  return maps().color;
 }
 
 std::uint64_t MtlMaterials::Material::heap_bytes() const {
-  std::uint64_t sum = 0;
-  for (const Map* map : {&color_map, &normal_map, &bump_map, &roughness_map, &metal_map, &emission_map})
-    sum += bp::heap_bytes(map->image);
+  if (own_maps == nullptr) return 0;
+  std::uint64_t sum = sizeof(Maps) + 2 * sizeof(void*);
+  for (const Map* map : own_maps->all()) sum += bp::heap_bytes(map->image);
   return sum;
 }
 
@@ -199,7 +218,7 @@ TextureMap MtlMaterials::map_of(const Map& map, const Material& material, Textur
 void MtlMaterials::add_light(const Material& material, TextureTable& textures, TextureSurface& s) {
   s.emission_factor = {float(material.emission.r) / 65535, float(material.emission.g) / 65535,
                        float(material.emission.b) / 65535};
-  s.emission = map_of(material.emission_map, material, textures);
+  s.emission = map_of(material.maps().emission, material, textures);
   if (s.emission.is_there()) s.emission_factor = {1, 1, 1};
 }
 
@@ -210,19 +229,19 @@ TextureSurface MtlMaterials::surface_of(const Material& material, TextureTable& 
   s.roughness_factor = float(material.roughness);
   s.metal_factor = float(material.metal);
   add_light(material, textures, s);
-  const Map &directions = material.normal_map, &bump = material.bump_map;
+  const Map &directions = material.maps().normal, &bump = material.maps().bump;
   if (directions.image.empty()) {
     s.normal = map_of(bump, material, textures, Relief{bump.strength, !bump.clamp});
   } else {
     s.normal = map_of(directions, material, textures);
     if (s.normal.is_there()) s.normal_scale = float(directions.strength);
   }
-  const bool both = material.roughness_map == material.metal_map;
-  if (both || (material.metal_map.image.empty() && material.metal == 0)) {
-    s.roughness = map_of(material.roughness_map, material, textures);
+  const bool both = material.maps().roughness == material.maps().metal;
+  if (both || (material.maps().metal.image.empty() && material.metal == 0)) {
+    s.roughness = map_of(material.maps().roughness, material, textures);
     if (s.roughness.is_there()) s.roughness_factor = 1;
     if (s.roughness.is_there() && both) s.metal_factor = 1;
-  } else if (!material.roughness_map.image.empty() || !material.metal_map.image.empty()) {
+  } else if (!material.maps().roughness.image.empty() || !material.maps().metal.image.empty()) {
     textures.add_fault(fmt::format(
         "{}: roughness and metal come from one image for both, or from map_Pr where Pm is 0; numbers are used",
         *material.file));
@@ -238,11 +257,11 @@ std::uint32_t MtlMaterials::texture(const std::string& material, TextureTable& t
   TextureMaterial t;
   if (surface) t.surface = surface_of(m, textures);
   if (!surface && m.has_image()) add_light(m, textures, t.surface);
-  if (m.color_map.image.empty() && t.surface == TextureSurface{}) {
+  if (m.maps().color.image.empty() && t.surface == TextureSurface{}) {
     m.number = TriangleTexture::kNoMaterial;
     return *m.number;
   }
-  const Map& map = m.color_map;
+  const Map& map = m.maps().color;
   const std::string path = map.image.empty() ? "" : path_of(map, m);
   if (!path.empty()) t.image = textures.add_image(path, {path, nullptr, path});
   t.replaces_color = !path.empty();

@@ -1,5 +1,6 @@
 #pragma once
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -17,13 +18,14 @@ namespace bp {
 
 class MtlMaterials {
  public:
-  /// `document`: as SceneOptions::document. Materials take a quarter of it; 0 bytes: no limit.
-  explicit MtlMaterials(const MemoryShare& document) : document_(document) {}
+  /// `document`: as SceneOptions::document; 0 bytes: no limit. Materials stay while triangles are read. So they take at
+  /// most a quarter of what the program leaves, and that only if the document may take so much.
+  explicit MtlMaterials(const MemoryShare& document);
   /// Adds the materials of a file in the folder of the file `beside` (find_beside(), io/files/beside.h). One of the
   /// same name is replaced. A file that is missing or cannot be understood adds none: a scene without colours is still
   /// a scene. An OBJ without a path has none. Once the materials do not fit, those of further files are only counted.
   void load(const std::string& beside, const std::string& name);
-  [[nodiscard]] bool fit() const { return document_.bytes == 0 || bytes_ <= document_.bytes / kParts; }
+  [[nodiscard]] bool fit() const { return !is_limited_ || bytes_ <= memory_.bytes; }
   /// Throws out_of_resource, with the limit on memory at which all materials counted so far fit.
   [[noreturn]] void refuse() const;
   /// Forgets all materials and files.
@@ -43,7 +45,7 @@ class MtlMaterials {
 
  private:
   static constexpr std::size_t kMost = std::size_t(1) << 20;
-  static constexpr std::uint64_t kParts = 4;  // materials take at most 1 / kParts of the document's memory
+  static constexpr double kMostShare = 0.25;  // of the memory that the program leaves
   struct Map {
     std::string image;  // as the file names it; empty: none
     bool clamp = false;
@@ -51,18 +53,25 @@ class MtlMaterials {
     double strength = 1;                   // -bm
     friend bool operator==(const Map&, const Map&) = default;
   };
+  struct Maps {
+    Map color, normal, bump, roughness, metal, emission;
+    [[nodiscard]] std::array<const Map*, 6> all() const {
+      return {&color, &normal, &bump, &roughness, &metal, &emission};
+    }
+  };
   struct Material {
     const std::string* file = nullptr;  // the file that has it, one of files_
     LinearColor color, emission{0, 0, 0};
     bool see_through = false;
     double alpha = 1, roughness = 1, metal = 0;
-    Map color_map, normal_map, bump_map, roughness_map, metal_map, emission_map;
+    std::unique_ptr<Maps> own_maps;       // null: it has none; most materials of a large file have none
     std::optional<std::uint32_t> number;  // in the table of textures
+    [[nodiscard]] const Maps& maps() const;
     /// Returns the image whose coordinates count for all images of the material.
     [[nodiscard]] const Map& first_map() const;
     /// Returns the bytes outside of the object itself.
     [[nodiscard]] std::uint64_t heap_bytes() const;
-    [[nodiscard]] bool has_image() const { return !color_map.image.empty() || !emission_map.image.empty(); }
+    [[nodiscard]] bool has_image() const { return !maps().color.image.empty() || !maps().emission.image.empty(); }
   };
   void read(const std::string& path);
   static void read_line(TextScanner& text, const std::string& key, Material& material);
@@ -73,7 +82,8 @@ class MtlMaterials {
   [[nodiscard]] static TextureMap map_of(const Map& map, const Material& material, TextureTable& textures,
                                          const std::optional<Relief>& relief = {});
   [[nodiscard]] Material& renewed(const std::string& name);
-  const MemoryShare document_;
+  const bool is_limited_;
+  const MemoryShare memory_;
   std::map<std::string, Material> materials_;
   std::set<std::string> files_;
   std::string too_many_;                 // the file whose materials did not fit in addition to those before

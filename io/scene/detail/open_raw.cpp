@@ -70,7 +70,7 @@ RawSourcePtr open_raw(const SceneFilePtr& file, const std::string& path, const S
   std::string extension = scene_format_of(path);
   if (extension.empty() && !options.format.empty()) extension = scene_format_named(options.format);
   Reader reader = reader_of(extension);
-  if (file->size() == 0 && reader != Reader::obj)  // an empty OBJ is a mesh without faces
+  if (file->size() == 0)  // of any format: what a tool writes without faces has a few words at least
     fail(ErrorCode::bad_input, "{}: is empty; did the tool before it fail?", file->name());
   if (reader != Reader::other) {
     const std::string start = start_of(*file);

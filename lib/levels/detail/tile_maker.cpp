@@ -92,6 +92,14 @@ LatticeMesh TileMaker::make(TileMeasures& measures) {
   return mesh;
 }
 
+std::uint64_t TileMaker::limit(std::uint64_t triangles) const {
+  TileMeasures ignored;
+  MeshParams mesh = mesh_params(ignored);
+  if (params_.scene == nullptr && triangles > 0) mesh.enclose = Enclose::scene;
+  ShelfSource source(header(), *solid_, closing_.get(), ShelfSource::Keep::solid);
+  return mesh_limit(source, context_, mesh, params_.scene == nullptr ? triangles : scene_.size());
+}
+
 /// Removes from the closing the voxels that are here only because of voxels of the next cells: sheets along the walls,
 /// far from everything that the tile encloses. These are the voxels beyond the closing's reach from the solid. Voxels
 /// that fill a cavity of the rest stay.

@@ -23,6 +23,10 @@ class TileMaker {
   [[nodiscard]] bool begin();
   /// Makes the mesh. begin() must have returned true.
   [[nodiscard]] LatticeMesh make(TileMeasures& measures);
+  /// After begin(), in place of make(): returns the limit on memory at which the tile has enough. `triangles`: those
+  /// near the cell that it encloses or follows, at most, while TileParams::scene is not there yet. Throws as
+  /// mesh_limit().
+  [[nodiscard]] std::uint64_t limit(std::uint64_t triangles) const;
 
  private:
   void take_scene();

@@ -14,32 +14,11 @@ NearbyColors colors_around(const CutOptions& options, CellCoord cell, const Grid
   return options.colors->around(frame, options.cells.box(cell), reach);
 }
 
-TileParams tile_params(const CutLevel& cut, const CutOptions& options, double scene_voxel) {
-  TileParams params;
-  params.mode = options.mode;
-  params.enclose = options.enclose;
-  params.faces = cut.target.faces;
-  // The enclosed voxels reach up to a voxel's diagonal beyond the scene.
-  if (const double asked = cut.target.error_world; asked > 0)
-    params.error_world = std::max(asked - std::sqrt(3.0) * (cut.frame.voxel + scene_voxel), asked / 4);
-  params.scene = options.scene;
-  params.make = options.make;
-  if (options.jobs) {
-    params.wanted = [&cut, jobs = *options.jobs](CellCoord cell) { return jobs.meets(cut.number_of(cell), 1); };
-  }
-  if (options.colors != nullptr) {
-    params.add_to_key = [&cut, &options](CellCoord cell, KeyHash& hash) {
-      colors_around(options, cell, cut.frame, cut.scale_world).add_to(hash);
-    };
-  }
-  return params;
-}
-
 void add_level(TilePyramid& pyramid, const TilesetPlan& plan, std::size_t level, const CutOptions& options,
                const CutSteps& steps) {
   const CutLevel& cut = plan.cut[level];
   CutFiles files = steps.files(level, cut.frame);
-  TileParams params = tile_params(cut, options, plan.cut.front().frame.voxel);
+  TileParams params = tile_params(plan, level, options);
   params.encoding = files.encoding;
   if (files.add_to_key) params.add_to_key = files.add_to_key;
   if (options.colors != nullptr) options.colors->prepare(cut.frame);
@@ -53,6 +32,28 @@ void add_level(TilePyramid& pyramid, const TilesetPlan& plan, std::size_t level,
 }
 
 }  // namespace
+
+TileParams tile_params(const TilesetPlan& plan, std::size_t level, const CutOptions& options) {
+  const CutLevel& cut = plan.cut[level];
+  TileParams params;
+  params.mode = options.mode;
+  params.enclose = options.enclose;
+  params.faces = cut.target.faces;
+  // What is enclosed is within a diagonal of a voxel of the scene.
+  if (const double asked = cut.target.error_world; asked > 0)
+    params.error_world = std::max(asked - std::sqrt(3.0) * (cut.frame.voxel + plan.cut.front().frame.voxel), asked / 4);
+  params.scene = options.scene;
+  params.make = options.make;
+  if (options.jobs) {
+    params.wanted = [&cut, jobs = *options.jobs](CellCoord cell) { return jobs.meets(cut.number_of(cell), 1); };
+  }
+  if (options.colors != nullptr) {
+    params.add_to_key = [&cut, &options](CellCoord cell, KeyHash& hash) {
+      colors_around(options, cell, cut.frame, cut.scale_world).add_to(hash);
+    };
+  }
+  return params;
+}
 
 LatticeCoord tile_origin(const Cells& cells, CellCoord cell) {
   const VoxelCoord first = cells.box(cell).min;

@@ -36,6 +36,9 @@ struct CutSteps {
   std::function<void(double)> left;  ///< is told which share of all tiles is not kept; may be empty
 };
 
+/// Returns what decides the tiles of a level, besides its scale and the names of files. Keeps references.
+[[nodiscard]] TileParams tile_params(const TilesetPlan& plan, std::size_t level, const CutOptions& options);
+
 /// Makes all tiles of plan.cut. Afterwards `pyramid` is at the first level that is not cut.
 void make_cut_levels(TilePyramid& pyramid, const TilesetPlan& plan, const CutOptions& options, const CutSteps& steps);
 

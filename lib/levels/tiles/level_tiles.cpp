@@ -87,7 +87,8 @@ class TileMaking {
           i = next++;
           return i < jobs_.size();
         },
-        [&](const std::size_t& i) { make(jobs_[i]); });
+        [&](const std::size_t& i) { make_beside(jobs_[i], n); });
+    for (const TileJob* job : alone_) make(*job, context_);
   }
 
  private:
@@ -145,9 +146,20 @@ class TileMaking {
     return int(std::clamp<std::uint64_t>(context_.memory.bytes / largest, 1, std::uint64_t(thread_count())));
   }
 
-  void make(const TileJob& job) {
+  /// A tile whose share does not suffice beside others is made after them, by itself.
+  void make_beside(const TileJob& job, int at_once) {
+    try {
+      make(job, of_each_);
+    } catch (const NeedsMemory&) {
+      if (at_once == 1) throw;
+      const std::lock_guard lock(mutex_);
+      alone_.push_back(&job);
+    }
+  }
+
+  void make(const TileJob& job, const PassContext& context) {
     const TileTask& task = *job.task;
-    TileMaker maker(task, job.job.cell, of_each_);
+    TileMaker maker(task, job.job.cell, context);
     LevelTile tile;
     if (!task.params.make) return finish(job, std::move(tile), true);  // it may be in a cavity
     const bool there = maker.begin();
@@ -167,11 +179,26 @@ class TileMaking {
   const PassContext& context_;
   PassContext of_each_{context_};  // the context of one tile at work: less memory
   std::vector<TileJob> jobs_;
+  std::vector<const TileJob*> alone_;  // refused beside others
   std::mutex mutex_;
   std::size_t done_ = 0, total_ = 0;
 };
 
 }  // namespace
+
+std::uint64_t tiles_limit(const TileLevel& level, const TileParams& params, PassContext context, std::uint64_t held,
+                          std::uint64_t triangles) {
+  std::uint64_t most = context.memory.limit_for(voxel_bytes(level.cells) + held);
+  context.pieces = context.pieces.without(held);
+  const TileTask task{level, params, {}, {}};
+  const bool takes_all = params.mode == MeshMode::fit || triangles <= TileParams::kMostTriangles;
+  const std::uint64_t near = takes_all ? triangles : TileParams::kMostTriangles;
+  for (const Job& job : jobs_of(level, params.wanted)) {
+    TileMaker maker(task, job.cell, context);
+    if (maker.begin()) most = std::max(most, maker.limit(near));
+  }
+  return most;
+}
 
 void make_tiles(std::span<const TileTask> tasks, const PassContext& context, const std::function<void(double)>& left) {
   for (const TileTask& task : tasks) {

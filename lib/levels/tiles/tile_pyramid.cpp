@@ -8,13 +8,6 @@
 
 namespace bp {
 
-std::uint64_t pyramid_limit(const TilesetPlan& plan, const Cells& cells, const MemoryShare& memory,
-                            std::uint64_t held) {
-  std::uint64_t most = 0;
-  for (const CutLevel& level : plan.cut) most = std::max(most, least_cell_bytes(cells, level.halo.total_vox()));
-  return memory.limit_for(most + held);
-}
-
 TilePyramid::TilePyramid(const StreamHeader& header, std::unique_ptr<BrickShelf> solid, Backends& backends,
                          PyramidOptions options)
     : header_(header), solid_(std::move(solid)), backends_(backends), options_(std::move(options)) {
@@ -64,6 +57,7 @@ void TilePyramid::reduce() {
   }
   solid_ = std::move(solid);
   surface_ = std::move(surface);
+  ++level_;
 }
 
 }  // namespace bp

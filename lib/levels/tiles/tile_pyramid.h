@@ -16,10 +16,6 @@ struct PyramidOptions {
   PassContext context;  ///< its results keep closings and tiles
 };
 
-/// Returns the limit on memory at which the closings of all cut levels fit, in addition to `held` bytes; 0: not known.
-[[nodiscard]] std::uint64_t pyramid_limit(const TilesetPlan& plan, const Cells& cells, const MemoryShare& memory,
-                                          std::uint64_t held);
-
 class TilePyramid {
  public:
   /// Begins at level 0. `solid` holds the bricks of `header`, whose frame is aligned_to_cells(). Keeps a reference to
@@ -28,6 +24,9 @@ class TilePyramid {
               PyramidOptions options);
 
   [[nodiscard]] const StreamHeader& header() const { return header_; }  ///< of the level's solid
+  [[nodiscard]] BrickShelf& solid() { return *solid_; }
+  [[nodiscard]] std::size_t level() const { return level_; }
+  [[nodiscard]] const std::vector<TileTask>& tasks() const { return tasks_; }  ///< of levels that were added
 
   /// Closes the current level, and adds it to the levels whose tiles make_tiles() makes. Sets scale and element of
   /// `params`. Call it at most once for each level. Throws as close_cells().
@@ -51,7 +50,8 @@ class TilePyramid {
   std::unique_ptr<BrickShelf> solid_, surface_;
   std::vector<Waiting> waiting_;
   std::vector<TileTask> tasks_;
-  bool added_ = false;  ///< the current level was added
+  bool added_ = false;     ///< the current level was added
+  std::size_t level_ = 0;  ///< how often the solid was reduced
   Backends& backends_;
   PyramidOptions options_;
 };

@@ -6,7 +6,7 @@ awk '/^v/ { print "v", $2 / 2 + .25, $3 / 2 + .25, $4 / 2 + .25; next } { print 
 last() { said "$1 | tail -1"; }
 
 # An export that failed, among several scenes: each tool refuses it by its name.
-: > empty.obj
+echo "# nothing" > empty.obj
 try bpcheck cube.obj empty.obj around.obj
 try bpvox empty.obj cube.obj --resolution 16 -o o.bpv
 try bplod cube.obj empty.obj --resolution 16 -q -o o

@@ -8,6 +8,16 @@ echo nothing > noise.qqq
 try bpcheck noise.qqq
 : > empty.obj
 try bpcheck empty.obj
+# The same fault ends with the same code in every format, for scenes and for meshes.
+for format in obj stl ply off glb gltf dae; do
+  : > "none.$format"
+  try bpcheck cube.obj "none.$format"
+  try bpvox "none.$format" -o none.bpv
+done
+mkdir folder
+try bpcheck cube.obj folder
+try bpvox folder -o none.bpv
+rm -r none.* folder
 try bpinfo cube.obj --image missing/cube.png
 try bpinfo cube.obj --image cube.png --image-size 3
 bpvox cube.obj --resolution 10 -o cube.bpv

@@ -71,3 +71,9 @@ try bplod part0.obj --tiles 0..1 --cache cache
 try bplod part9.obj --explain
 try bplod - --format obj --explain --profile 3dtiles --cache cache
 files
+
+# The memory of a plan is that of the note of a run: triangles that levels enclose or follow count.
+bp-plant --triangles 50000 -o plant.ply > /dev/null
+for kind in "--enclose input" "--enclose scene" "--mode fit"; do
+  echo "$kind: $(bplod plant.ply --resolution 200 $kind --explain -j 1 --memory 1G | grep ^time)"
+done

@@ -176,3 +176,7 @@ files
 echo "A fit is closed by a ball"
 bplod part*.obj --name cubes --faces 100 --mode fit --resolution 60 -q -o element > said
 bpinfo element/cubes_LOD0.glb | grep -o 'element=[a-z]*'
+# A closed mesh has at least 4 faces, whatever is asked for.
+write_octahedron least.obj 4
+try bplod least.obj --faces 1 --resolution 20 -o least -q --report least.json > /dev/null
+grep -o '"level 0: .*tetrahedron"' least.json

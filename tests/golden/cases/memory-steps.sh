@@ -26,5 +26,9 @@ named bplod plant.ply --resolution 400 --faces 5000 --levels 1 --enclose input -
 named bplod plant.ply --resolution 400 --mode fit --faces 2000 --levels 1 -o lod
 named bplod plant.ply --resolution 400 --profile collision -o lod
 named bplod plant.ply --resolution 700 --profile occluder --faces 300 --scale 0 -o lod
+# Of a tileset the scene, the closings, the tiles, the leaves and the levels in one mesh come one after the other.
+named bplod plant.ply --resolution 400 --profile 3dtiles -o lod
+named bplod plant.ply --resolution 400 --profile 3dtiles --enclose input --leaves scene -o lod
+named bplod plant.ply --resolution 400 --profile 3dtiles --leaves scene --tile 128 -o lod
 rm -rf plant.ply solid.bp inside.bp closed.bp o.glb o.*.glb lod said out r.json
 files

@@ -128,12 +128,14 @@ std::vector<TriangleD> scene_triangles(const Build& build, std::uint64_t triangl
   return all;
 }
 
-/// Returns the target of the finest level.
-LodTarget first_target(const BuildOptions& o, const LodScene& scene) {
+/// Returns the target of the finest level in one mesh, after `cut` others. Each level has about a quarter of the faces
+/// of the solid before.
+LodTarget first_target(const BuildOptions& o, const LodScene& scene, std::size_t cut) {
   const StreamHeader& header = scene.voxels.header;
   const LevelRequest request = request_for(o, scene.size.triangles, header.bounds.diagonal(), header.frame.voxel);
   const bool by_voxels = !asks_for_faces(request) && request.errors_world.empty();
-  return level_target(request, 0, 0, by_voxels ? 2 * boundary_size(*scene.voxels.solid).faces : 0);
+  const std::uint64_t dense_faces = by_voxels ? 2 * boundary_size(*scene.voxels.solid).faces >> (2 * cut) : 0;
+  return level_target(request, cut, cut, dense_faces);
 }
 
 }  // namespace
@@ -199,24 +201,22 @@ CageRoom make_room(Build& build, LodScene& scene) {
   return room;
 }
 
-LodOptions lod_options(const Build& build, const LodScene& scene, const CageRoom& room, double share,
-                       const std::function<std::uint64_t()>& limit) {
+LodOptions lod_options(const Build& build, const LodScene& scene, const CageRoom& room, const TilesetSteps& tileset) {
   const BuildOptions& o = build.options;
   LodOptions lod;
   lod.closing.element = o.closing.element;
   lod.mode = o.proxy.mode;
   lod.enclose = scene.enclosed;
-  lod.context = build.context(nullptr, share);
-  if (scene.voxels.solid != nullptr && !o.is_tileset()) lod.first = first_target(o, scene);
+  lod.context = build.context(nullptr, tileset.share);
+  if (scene.voxels.solid != nullptr) lod.first = first_target(o, scene, tileset.cut);
   if (o.proxy.mode == MeshMode::fit || scene.enclosed == Enclose::scene) {
-    lod.scene = naming_limit(
-        [&] { return scene_triangles(build, scene.size.triangles); },
-        [&] {
-          BrickShelf* const solid = scene.voxels.solid.get();
-          const std::uint64_t chain =
-              solid != nullptr ? chain_limit(scene.voxels.header, *solid, lod, lod.context, scene.size.triangles) : 0;
-          return std::max(chain, limit ? limit() : 0);
-        });
+    lod.scene = naming_limit([&] { return scene_triangles(build, scene.size.triangles); },
+                             [&] {
+                               BrickShelf* const solid = scene.voxels.solid.get();
+                               if (tileset.limit) return tileset.limit(lod);
+                               if (solid == nullptr) return std::uint64_t(0);
+                               return chain_limit(scene.voxels.header, *solid, lod, lod.context, scene.size.triangles);
+                             });
   }
   const bool encloses = lod.mode == MeshMode::bounding && lod.enclose == Enclose::scene;
   if (encloses && scene.voxels.solid != nullptr) {  // else an earlier chain took the voxels, after this test

@@ -52,9 +52,16 @@ struct CageRoom {
 /// Makes the voxels symmetric if that is wanted, and grows them by the margin of a cage.
 [[nodiscard]] CageRoom make_room(Build& build, LodScene& scene);
 
-/// Returns the options of LodChain. Reads the scene once more if levels enclose its triangles or follow them. `share`:
-/// of the memory for work. limit: returns a limit on memory at which other steps fit; called after a refusal.
+/// The levels in one mesh as a part of a whole tileset.
+struct TilesetSteps {
+  double share = 1;     ///< part of the memory for work that they have
+  std::size_t cut = 0;  ///< number of levels before them that are cut
+  /// Returns a limit on memory at which all steps of the tileset fit, for these options; called after a refusal.
+  std::function<std::uint64_t(const LodOptions&)> limit;
+};
+
+/// Returns the options of LodChain. Reads the scene once more if levels enclose its triangles or follow them.
 [[nodiscard]] LodOptions lod_options(const Build& build, const LodScene& scene, const CageRoom& room = {},
-                                     double share = 1, const std::function<std::uint64_t()>& limit = {});
+                                     const TilesetSteps& tileset = {});
 
 }  // namespace bp

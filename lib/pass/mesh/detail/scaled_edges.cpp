@@ -26,7 +26,7 @@ class ScaleLines {
   [[nodiscard]] bool reach(const Vec3d& a, const Vec3d& b, double scale) {
     if (scale > largest_) return false;
     if (field_.rules.size() < kFewRules) return field_.reaches_along(a, b, scale, voxel_);
-    return reach_by_cells(a, b, scale);
+    return evaluate_at(a) >= scale && evaluate_at(b) >= scale && reach_between(a, b, scale);
   }
 
  private:
@@ -50,18 +50,35 @@ class ScaleLines {
     std::unordered_map<Cell, Part, CellHash> parts;
   };
   static constexpr std::size_t kFewRules = 8, kShards = 32, kMostCells = 1024;  // cells kept in a shard, at most
+  // Lines of at most so many voxels are followed within one part: finding a part takes as long as evaluating some
+  // rules.
+  static constexpr std::size_t kFewInPart = 4;
+  static constexpr double kFewRulesVox = 8, kManyRulesVox = 2;
   static constexpr int kCoarse = 6;  // cells of this level or above evaluate all rules
   // Radius of the part in edges: it holds a line as long as an edge whose middle lies in the cell.
   static constexpr double kReach = 1.4;
 
-  bool reach_by_cells(const Vec3d& a, const Vec3d& b, double scale) {
+  [[nodiscard]] double evaluate_at(const Vec3d& p) { return evaluate(field_, *part_of(cell_of(p, voxel_)), p); }
+
+  /// The ends of the line are known to reach the scale.
+  bool reach_between(const Vec3d& a, const Vec3d& b, double scale) {
     const Vec3d middle = 0.5 * (a + b);
     const double line = length(a - b);
     const Part part = part_of(cell_of(middle, line));
     if (part->range.least >= scale) return true;
-    if (part->range.most < scale || evaluate(field_, *part, middle) < scale) return false;
-    if (line <= voxel_) return evaluate(field_, *part, a) >= scale && evaluate(field_, *part, b) >= scale;
-    return reach_by_cells(a, middle, scale) && reach_by_cells(middle, b, scale);
+    if (part->range.most < scale) return false;
+    const double few = part->rules.size() <= kFewInPart ? kFewRulesVox : kManyRulesVox;
+    if (line <= few * voxel_) return reach_within(*part, a, b, scale);
+    if (evaluate(field_, *part, middle) < scale) return false;
+    return reach_between(a, middle, scale) && reach_between(middle, b, scale);
+  }
+
+  /// Returns what reach_between() does, for a line in the ball of the part: no other parts are needed.
+  bool reach_within(const ScalePart& part, const Vec3d& a, const Vec3d& b, double scale) const {
+    const Vec3d middle = 0.5 * (a + b);
+    if (evaluate(field_, part, middle) < scale) return false;
+    if (length(a - b) <= voxel_) return true;
+    return reach_within(part, a, middle, scale) && reach_within(part, middle, b, scale);
   }
 
   [[nodiscard]] double edge_of(int level) const { return std::ldexp(voxel_, level); }

@@ -69,6 +69,7 @@ const std::map<std::string, std::string> kBroken{
     {"nasty_assimp_badUint.gltf", "BoxTextured0.bin"},
     {"nasty_assimp_SphereWithLight_UTF16LE.ac", "No valid AC3D file"},
     {"nasty_trimesh_points_ascii.ply", "5 points; a point cloud needs a surface first"},
+    {"nasty_assimp_empty.obj", "is empty"},
     {"nasty_assimp_points.ply", "a point cloud needs a surface first"},
 };
 const std::map<std::string, std::uint64_t> kBadFaces{

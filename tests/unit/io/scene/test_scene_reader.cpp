@@ -183,7 +183,9 @@ TEST_CASE("several scenes come one after the other", "[quick][io]") {
 TEST_CASE("a file of several without a triangle is refused by its name", "[quick][io]") {
   const TempDir dir;
   const std::string a = dir.file("a.obj", std::string("o a\n") + kTetrahedron);
-  for (const char* text : {"", "# no faces\n", "v 0 0 0\nv 1 0 0\nf 1 2 2\n", "v 0 0 0\nf 1 2 3\n"}) {
+  CHECK_THROWS_WITH(read_all(*open_scenes({a, dir.file("none.obj", "")}, SceneOptions())),
+                    ContainsSubstring("none.obj: is empty"));
+  for (const char* text : {"# no faces\n", "v 0 0 0\nv 1 0 0\nf 1 2 2\n", "v 0 0 0\nf 1 2 3\n"}) {
     const std::string empty = dir.file("empty.obj", text);
     SceneOptions options;
     for (const bool keep : {false, true}) {
