@@ -119,6 +119,7 @@ struct CheckReport {
   // The proxy hidden by the scene, once openings are closed (hidden.h).
   bool asks_hidden = false;        ///< its file says how; asked if the proxy is not proven to be strictly inside
   HidingRecipe recipe;             ///< that its file names
+  double hidden_off = 0;           ///< what points of the scene that hides it may be off by, scene units
   std::string hidden_unknown;      ///< why the question is not decided; empty if it is decided
   std::uint64_t hidden_bytes = 0;  ///< of memory that deciding it takes, where memory is why it is not decided
   Finding exposed;                 ///< index: proxy triangle; position: middle of a voxel there that is not hidden

@@ -55,6 +55,7 @@ struct LodOptions {
   /// The scene's triangles, scene units: of Enclose::scene, and those that fits follow; without, these follow the
   /// closing.
   std::vector<TriangleD> scene;
+  Rounding rounding;  ///< of the scene's triangles
   /// The scene is known to lie within the solid, which was reduced from finer voxels. These told so: in larger voxels a
   /// corner may lie so near to a side, as these are rounded, that the voxel beyond it would have been set.
   bool is_within = false;

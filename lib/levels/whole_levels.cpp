@@ -13,13 +13,13 @@ ResultKey key_of(const WholeInput& input) {
   const auto& [header, solid, first, count, request, lod, colors, encoding] = input;
   // No byte depends on the memory, which is all of `context` and of how `surface` is kept. Who checked the scene, and
   // what refusals count, changes none.
-  const auto& [closing, mode, enclose, scene, is_within, surface, least_scale_world, field, foreseen, quads, context] =
-      lod;
+  const auto& [closing, mode, enclose, scene, rounding, is_within, surface, least_scale_world, field, foreseen, quads,
+               context] = lod;
   const GridFrame& frame = header.frame;
   KeyHash hash("levels in one mesh");
   hash.add(encoding, first, count, frame, header.bounds, header.scene.triangles, request.faces.size());
-  hash.add(closing, mode, enclose, std::as_bytes(std::span(scene)), least_scale_world, quads,
-           field ? to_json(*field) : "");
+  hash.add(closing, mode, enclose, std::as_bytes(std::span(scene)), rounding.share, rounding.offset, least_scale_world,
+           quads, field ? to_json(*field) : "");
   for (std::size_t i = 0; i < count; ++i) {  // dense faces are of the solid
     hash.add(level_target(request, first + i, first, 1000000));
   }

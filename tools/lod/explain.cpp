@@ -133,7 +133,9 @@ Plan plan_of(const Build& build, const Scene& scene) {
   v.fill = o.voxels.fill;
   if (tileset) v.cell_vox = o.tile_vox;
   Plan plan;
-  plan.header = solid_header(scene.bounds, voxel_size(o, {scene.bounds, scene.counts.triangles}), scene.up, v);
+  const double asked = voxel_size(o, {scene.bounds, scene.counts.triangles});
+  const double least = kVoxelsPerOff * scene.counts.rounding.of(scene.bounds);
+  plan.header = solid_header(scene.bounds, std::max(asked, least), scene.up, v);
   const LevelRequest request = request_for(o, scene.counts.triangles, diagonal, plan.header.frame.voxel);
   if (tileset) {
     const TilesetPlan tiles = plan_tileset(request, Cells{o.tile_vox}, plan.header);

@@ -194,7 +194,7 @@ void make_cut(const Shop& shop, TilePyramid& pyramid, const std::vector<Triangle
   cut.mode = o.proxy.mode;
   cut.enclose = made.scene.enclosed;
   cut.colors = made.scene.colors.get();
-  cut.scene = tree.get();
+  cut.scene = tree.get(), cut.rounding = made.scene.voxels.counts.scene.rounding;
   if (shop.task == Task::some_jobs) cut.jobs = o.tiles;
   cut.make = shop.task != Task::look_up;
   const CutSteps steps{

@@ -16,8 +16,8 @@ struct ConvexLevel {
 
 /// Returns those that have at most `faces` faces. Their error is not measured. `place`: a level without a mesh, whose
 /// frame and scale they take. `bounds`: of what is enclosed; scene units. `corners`: scene_corners(), or none, if only
-/// voxels are known.
+/// voxels are known. `off`: what corners may be off by, lattice units.
 [[nodiscard]] std::vector<ConvexLevel> convex_levels(const LodLevel& place, const Bounds3d& bounds,
-                                                     std::span<const Vec3d> corners, std::uint64_t faces);
+                                                     std::span<const Vec3d> corners, double off, std::uint64_t faces);
 
 }  // namespace bp

@@ -42,6 +42,7 @@ struct TileShape {
 struct TileParams : TileShape {
   /// What vertices of a fit move to; null: the closing. Of Enclose::scene, what stays inside; null: the solid.
   const TriangleBvh* scene = nullptr;
+  Rounding rounding;                      ///< of the scene's triangles
   std::function<bool(CellCoord)> wanted;  ///< other tiles are passed over; empty: all are wanted
   bool make = true;                       ///< false: what is not kept comes without measures and content
   std::function<void(CellCoord, KeyHash&)>

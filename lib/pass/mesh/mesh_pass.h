@@ -53,6 +53,7 @@ struct MeshParams {
   bool edges_yield = false;  ///< where so few faces are not to be had otherwise, the factor grows
   Enclose enclose = Enclose::closing;
   std::vector<TriangleD> scene;  ///< for Enclose::scene; scene units, as read
+  Rounding rounding;             ///< of `scene`
   /// What stays inside, in place of `scene`, as enclosed_scene() makes it in the frame of the stream: it lies in the
   /// stream's voxels. Not owned; null: `scene`.
   const Enclosed* enclosed = nullptr;
@@ -95,8 +96,8 @@ struct MeshCounts {
 
 /// The triangles of a scene as what stays inside proxies, for MeshParams::enclosed. `solid`: their voxels, of `header`.
 /// Many proxies may share it.
-[[nodiscard]] std::unique_ptr<Enclosed> enclosed_scene(std::vector<TriangleD> triangles, const StreamHeader& header,
-                                                       const BrickShelf& solid);
+[[nodiscard]] std::unique_ptr<Enclosed> enclosed_scene(std::vector<TriangleD> triangles, const Rounding& rounding,
+                                                       const StreamHeader& header, const BrickShelf& solid);
 
 /// The proxies, finest first: one per number in params.faces, or one. `params` by value: the scene's triangles are
 /// moved out of it. Meshes the closing layer if the stream has one, else the solid layer. Throws bad_input if that

@@ -214,9 +214,10 @@ LodOptions lod_options(const Build& build, const LodScene& scene, const CageRoom
           return std::max(chain, limit ? limit() : 0);
         });
   }
+  lod.rounding = scene.voxels.counts.scene.rounding;
   const bool encloses = lod.mode == MeshMode::bounding && lod.enclose == Enclose::scene;
   if (encloses && scene.voxels.solid != nullptr) {  // its levels may have taken them
-    require_within(lod.scene, scene.voxels.header.frame, *scene.voxels.solid);
+    require_within(lod.scene, lod.rounding, scene.voxels.header.frame, *scene.voxels.solid);
     lod.is_within = true;
   }
   lod.field = scene.field;
