@@ -1,5 +1,5 @@
-# A box of 1 m at UTM coordinates, and the same with a triangle far away. Read in double it holds; read in single
-# precision it may stick out of a proxy that fits the triangles as read, and nothing is proven.
+# A box of 1 m at UTM coordinates, and the same with a triangle far away. The tools keep the distance by which reading in
+# single precision may be off. A proxy of the box as read in double does not, and nothing is proven.
 box() {  # FORMAT alone|stray
   python3 - "$@" <<'PY'
 import sys
@@ -52,6 +52,8 @@ for with in alone stray; do
     cat note
   done
 done
+bpvox alone.obj --resolution 64 -q | bpclose --scale 0 -q | bpmesh --faces 100 -q -o tight.obj
+try bpcheck alone.dxf tight.obj
 try bpvox alone.dxf --resolution 64 -o alone.bpv
 bpinfo alone.dxf | grep "^read"
 bpinfo alone.dae | grep "^read" || true

@@ -49,7 +49,7 @@ for scene in near.dxf far.dxf turned.gltf; do
   bpcheck $scene $scene 2> /dev/null | grep "^  coordinates" | sed "s/^  /$scene: /"
   for profile in gltf collision cage occluder 3dtiles; do
     rm -rf out
-    bplod $scene --profile $profile --resolution 64 -o out -q 2> note || { cat note; continue; }
+    bplod $scene --profile $profile --resolution 64 -o out -q > /dev/null 2> note || { cat note; continue; }
     case $profile in
       occluder) proof $scene --inside out/*.glb ;;
       3dtiles) proof $scene out/tileset.json ;;
