@@ -21,8 +21,7 @@ namespace {
 constexpr std::int64_t kTrianglesAtOnce = 4096;
 
 // A face keeps this share of a voxel from a rounded triangle in addition to its error, so that a check in doubles can
-// tell.
-// The surface of the voxels, where tightening begins, leaves more (fixed_slack()).
+// tell. The surface of the voxels, where tightening begins, leaves more (fixed_slack()).
 constexpr double kKept = 0x1p-24;
 
 LatticeBox box_of(std::span<const NewFace> star, std::span<const Tetrahedron> swept) {

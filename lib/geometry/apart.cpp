@@ -40,7 +40,7 @@ class Pair {
  private:
   static std::array<Vec3d, 3> edges_of(const TriangleD& t) { return {t[1] - t[0], t[2] - t[1], t[0] - t[2]}; }
 
-  /// Whether the triangles lie beyond two planes across the direction, so far apart.
+  /// Returns whether the triangles lie beyond two planes across the direction, so far apart.
   [[nodiscard]] bool parts(const Vec3d& direction) const {
     const double size = length(direction);
     if (!(size > 0)) return false;
