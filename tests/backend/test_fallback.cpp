@@ -118,7 +118,7 @@ TEST_CASE("an error that is not the device's is not hidden", "[quick][backend]")
   class Refusing final : public Backend {
    public:
     [[nodiscard]] std::string name() const override { return "fake:0"; }
-    void voxelize(std::span<const FixedTriangle>, BitBox&) override { fail(ErrorCode::bad_input, "no"); }
+    void voxelize(std::span<const FixedTriangle>, BitBox&, std::int64_t) override { fail(ErrorCode::bad_input, "no"); }
     void find_crossings(std::span<const FixedTriangle>, const VoxelBox&, std::vector<Crossing>&) override {}
     void fill_winding(std::vector<Crossing>&, std::span<const std::uint64_t>, std::span<std::int32_t>,
                       BitBox&) override {}
