@@ -38,7 +38,7 @@ class CudaBackend final : public Backend {
   [[nodiscard]] std::string name() const override { return name_; }
   [[nodiscard]] std::uint64_t pinned_bytes() const override { return 2 * kStagingBytes; }
 
-  void voxelize(std::span<const FixedTriangle> triangles, BitBox& out) override {
+  void voxelize(std::span<const FixedTriangle> triangles, BitBox& out, std::int64_t slack) override {
     stream_.select();
     const VoxelBox box = out.box();
     if (box.empty() || triangles.empty()) return;
@@ -49,7 +49,7 @@ class CudaBackend final : public Backend {
       part.min.z = std::int32_t(z);
       part.max.z = std::int32_t(std::min<std::int64_t>(z + slices, box.max.z));
       try {
-        voxelize_part(triangles, part, std::size_t(plane) * std::size_t(part.max.z - part.min.z),
+        voxelize_part(triangles, slack, part, std::size_t(plane) * std::size_t(part.max.z - part.min.z),
                       out.row(box.min.y, part.min.z));
         z = part.max.z;
       } catch (const OutOfDeviceMemory&) {  // the device is fuller than expected, so smaller steps are taken
@@ -131,15 +131,15 @@ class CudaBackend final : public Backend {
   }
 
   /// Voxelizes one part of a tile. `bits`: the words of `part` on the host, contiguous.
-  void voxelize_part(std::span<const FixedTriangle> triangles, const VoxelBox& part, std::size_t words,
-                     std::uint64_t* bits) {
+  void voxelize_part(std::span<const FixedTriangle> triangles, std::int64_t slack, const VoxelBox& part,
+                     std::size_t words, std::uint64_t* bits) {
     out_.grow(2 * words);
     triangles_.grow(std::min(triangles.size(), kTriangleBatch));
     BP_CUDA_CHECK(cudaMemsetAsync(out_.data(), 0, words * 8, stream_.get()));
     for (std::size_t at = 0; at < triangles.size(); at += kTriangleBatch) {
       const std::size_t n = std::min(kTriangleBatch, triangles.size() - at);
       staging_.upload(triangles_.data(), triangles.data() + at, n * sizeof(FixedTriangle));
-      voxelizer_.enqueue(triangles_.data(), std::uint32_t(n), part, out_.data(), stream_.get());
+      voxelizer_.enqueue(triangles_.data(), std::uint32_t(n), slack, part, out_.data(), stream_.get());
     }
     staging_.download_bits(bits, out_.data(), words);
   }

@@ -16,6 +16,7 @@ struct BitsView {
   std::uint32_t* bits;
   std::int32_t min[3], max[3];  ///< voxels; x in whole words
   std::int32_t words;           ///< per row, 32 bits each
+  std::int64_t slack;           ///< that voxels are grown by
 
   __device__ CellRange inside(CellRange r) const {
 #pragma unroll
@@ -116,7 +117,7 @@ __global__ void __launch_bounds__(kPassThreads)
   const unsigned i = thread_in_grid();
   bool warp = false, grid = false;
   if (i < count) {
-    const Corners corners(triangles[i]);
+    const Corners corners(triangles[i], out.slack);
     const CellRange whole = voxel_range(corners), range = out.inside(whole);
     if (!range.empty()) {
       const bool few = range.size(0) <= kFew && range.size(1) <= kFew && range.size(2) <= kFew &&
@@ -212,7 +213,7 @@ __device__ void build(TriangleCells<EdgeInt, PlaneInt>& t, const Corners& corner
 /// Sets the voxels of `range` that the triangle in `shared` meets.
 template <class Team, class Triangle>
 __device__ void set_triangle(SharedTriangle<Triangle>& shared, const CellRange& range, const BitsView& out) {
-  if (Team::builder() < 12) build(shared.cells, Corners(shared.triangle), range, Team::builder());
+  if (Team::builder() < 12) build(shared.cells, Corners(shared.triangle, out.slack), range, Team::builder());
   Team::meet();
   set_rows(shared.cells, out, Team::worker(), Team::workers());
   Team::meet();
@@ -236,7 +237,7 @@ __global__ void __launch_bounds__(kPassThreads)
   const unsigned count = lists.counts[0];
   for (unsigned i = next_item(&lists.counts[2]); i < count; i = next_item(&lists.counts[2])) {
     load_triangle<WarpTeam>(shared.triangle, triangles[lists.warp[i]]);
-    set_triangle<WarpTeam>(shared, out.inside(voxel_range(Corners(shared.triangle))), out);
+    set_triangle<WarpTeam>(shared, out.inside(voxel_range(Corners(shared.triangle, out.slack))), out);
   }
 }
 
@@ -247,7 +248,7 @@ __global__ void __launch_bounds__(kPassThreads)
   const unsigned count = lists.counts[1];
   for (unsigned i = 0; i < count; ++i) {
     load_triangle<GridTeam>(shared.triangle, triangles[lists.grid[i]]);
-    const CellRange range = out.inside(voxel_range(Corners(shared.triangle)));
+    const CellRange range = out.inside(voxel_range(Corners(shared.triangle, out.slack)));
     const int nx = int((range.size(0) + kWideCells - 1) / kWideCells),
               ny = int((range.size(1) + kWideCells - 1) / kWideCells),
               nz = int((range.size(2) + kWideCells - 1) / kWideCells);
@@ -266,11 +267,11 @@ __global__ void __launch_bounds__(kPassThreads)
 
 }  // namespace
 
-void DeviceVoxelizer::enqueue(const FixedTriangle* triangles, std::uint32_t count, const VoxelBox& box,
-                              std::uint32_t* bits, cudaStream_t stream) {
+void DeviceVoxelizer::enqueue(const FixedTriangle* triangles, std::uint32_t count, std::int64_t slack,
+                              const VoxelBox& box, std::uint32_t* bits, cudaStream_t stream) {
   if (count == 0 || box.empty()) return;
-  BitsView out{
-      bits, {box.min.x, box.min.y, box.min.z}, {box.max.x, box.max.y, box.max.z}, (box.max.x - box.min.x) / 32};
+  const BitsView out{
+      bits, {box.min.x, box.min.y, box.min.z}, {box.max.x, box.max.y, box.max.z}, (box.max.x - box.min.x) / 32, slack};
   lists_.grow(2 * std::size_t(count));
   BP_CUDA_CHECK(cudaMemsetAsync(counts_.grow(3), 0, 3 * sizeof(std::uint32_t), stream));
   const Lists lists{lists_.data(), lists_.data() + count, counts_.data()};

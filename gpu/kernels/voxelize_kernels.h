@@ -14,10 +14,10 @@ class DeviceVoxelizer {
  public:
   explicit DeviceVoxelizer(int multiprocessors) : multiprocessors_(multiprocessors) {}
 
-  /// Sets the voxels that the triangles meet. `triangles` and `bits` are on the device; `bits` is laid out as the
-  /// BitBox of `box` (whole words of 64 voxels). No synchronisation; scratch grows with `count`.
-  void enqueue(const FixedTriangle* triangles, std::uint32_t count, const VoxelBox& box, std::uint32_t* bits,
-               cudaStream_t stream);
+  /// Sets the voxels that the triangles meet, grown by `slack`. `triangles` and `bits` are on the device; `bits` is
+  /// laid out as the BitBox of `box` (whole words of 64 voxels). No synchronisation; scratch grows with `count`.
+  void enqueue(const FixedTriangle* triangles, std::uint32_t count, std::int64_t slack, const VoxelBox& box,
+               std::uint32_t* bits, cudaStream_t stream);
   void release();
 
  private:

@@ -146,13 +146,14 @@ void check_scene_around(const WeldedMesh& mesh, const Surface& surface, Triangle
   if (free_of_scene && (report.free_of_scene() != Answer::proven || report.undecidable_scene.count > 0)) return;
   const HiddenReport hidden =
       check_hidden(mesh, surface, *walls, recipe, options.max_examples, options.scene_memory_bytes);
-  const double off = walls->counts().rounding.most + report.proxy_off;
   report.asks_hidden = true;
   report.recipe = recipe;
+  report.hidden_off = hidden.off;
   report.hidden_unknown = hidden.undecided, report.hidden_bytes = hidden.memory_bytes;
   report.exposed = hidden.exposed;
-  if (off > kMostHiddenOff * recipe.frame.voxel && report.hidden_unknown.empty())
-    report.hidden_unknown = fmt::format("coordinates are read to within {:.2g}, too much for these voxels", off);
+  if (report.proxy_off > kMostHiddenOff * recipe.frame.voxel && report.hidden_unknown.empty())
+    report.hidden_unknown =
+        fmt::format("the proxy is read to within {:.2g}, too much for these voxels", report.proxy_off);
 }
 
 void check_scene_in_parts(const WeldedMesh& mesh, const Surface& surface, TriangleSource& scene,

@@ -125,6 +125,7 @@ struct CheckReport {
   /// The proxy's file says how; asked if the proxy is not proven to be strictly inside.
   bool asks_hidden = false;
   HidingRecipe recipe;             ///< the recipe that the proxy's file names
+  double hidden_off = 0;           ///< how far points of the scene that hides the proxy may be off, scene units
   std::string hidden_unknown;      ///< why the question is not decided; empty if it is decided
   std::uint64_t hidden_bytes = 0;  ///< bytes that deciding it takes, if the memory is the reason why it is not decided
   Finding exposed;                 ///< index: proxy triangle; position: middle of a voxel there that is not hidden

@@ -17,14 +17,15 @@ struct HidingRecipe {
   GridFrame frame;
   double scale_world = 0;
   StructuringElement element = StructuringElement::cube;
-  /// Returns the width, scene units, below which gaps of the scene may count as closed. Let a line keep a distance r
-  /// from all triangles, and let it pass a voxel p. A voxel of G holds a point of a triangle, so it is at least r -
-  /// sqrt(3) voxel away from p, centre to centre. If that is more than the element reaches, which is S for a ball and
-  /// sqrt(3) S for a cube, then p is not in E. So the line lies in O, and ends at nothing hidden. S is rounded up by a
-  /// 16th of a voxel.
-  [[nodiscard]] double closed_gap() const {
+  /// Returns the width, scene units, below which gaps of the scene may count as closed. `off`: what points of the scene
+  /// may be off by. Let a line keep a distance r from all triangles, and let it pass a voxel p. A voxel of G, grown by
+  /// `off` along each axis, holds a point of a triangle as read, which is off by no more. So the voxel is at least r -
+  /// sqrt(3) voxel - 3 off away from p, centre to centre. If that is more than the element reaches, which is S for a
+  /// ball and sqrt(3) S for a cube, then p is not in E. So the line lies in O, and ends at nothing hidden. S is rounded
+  /// up by a 16th of a voxel.
+  [[nodiscard]] double closed_gap(double off = 0) const {
     const double diagonal = std::sqrt(3.0), scale = scale_world > 0 ? scale_world + frame.voxel / 16 : 0;
-    return 2 * (diagonal * frame.voxel + (element == StructuringElement::cube ? diagonal : 1) * scale);
+    return 2 * (diagonal * frame.voxel + 3 * off + (element == StructuringElement::cube ? diagonal : 1) * scale);
   }
 };
 

@@ -87,6 +87,10 @@ class CoverChecker {
     if (mine_[0] && astray_ > 0)
       findings_.push_back(
           {fmt::format("{}: {} triangles of the scene leave its cell", tiles_[0].place, astray_.load())});
+    if (mine_[0] && nearly_astray_ > 0)
+      findings_.push_back({fmt::format("{}: {} triangles of the scene may leave its cell, as coordinates may be off",
+                                       tiles_[0].place, nearly_astray_.load()),
+                           Answer::undecided});
     for (std::size_t i = 0; i < tiles_.size(); ++i) {
       if (mine_[i]) say_of_scene(i);
     }
@@ -155,8 +159,10 @@ class CoverChecker {
         [&](std::vector<TriangleD>& chunk) {
           KnownInside known;
           for (const TriangleD& t : chunk) {
-            if (in_root(t)) {
-              visit(0, t, bounds_of(t), known);
+            const double off = rounding_.of(t);
+            if (in_root(t, 0)) {
+              if (begin_ == 0 && !in_root(t, off)) ++nearly_astray_;
+              visit(0, {t, bounds_of(t), off}, known);
             } else if (begin_ == 0) {
               ++astray_;
             }
@@ -176,44 +182,54 @@ class CoverChecker {
     return kNowhere;
   }
 
-  [[nodiscard]] bool in_root(const TriangleD& t) const {
+  /// Returns whether the root's cell holds t, and all that is within `off` of it.
+  [[nodiscard]] bool in_root(const TriangleD& t, double off) const {
     if (!tiles_[0].cell) return true;
     const Bounds3d& cell = *tiles_[0].cell;
     for (const Vec3d& p : t) {
       for (std::size_t i = 0; i < 3; ++i) {
-        if (!(p[i] >= cell.min[i] && p[i] <= cell.max[i])) return false;
+        if (!(p[i] - off >= cell.min[i] && p[i] + off <= cell.max[i])) return false;
       }
     }
     return true;
   }
 
-  /// True unless t, whose box is `bounds`, surely avoids the closed cell.
-  [[nodiscard]] static bool meets(const TriangleD& t, const Bounds3d& bounds, const Bounds3d& cell) {
-    if (lies_in(bounds, cell)) return true;
-    const Bounds3d box = grown(cell, growth_for(cell, t) / 2);
-    return overlap(bounds, box) && !TrianglePart(t, box).empty();
+  /// A triangle of the scene, its box, and what its points may be off by.
+  struct Sought {
+    const TriangleD& t;
+    Bounds3d bounds;
+    double off = 0;
+  };
+  /// True unless t surely avoids all that is within `off` of the closed cell.
+  [[nodiscard]] static bool meets(const Sought& of, const Bounds3d& cell, double off) {
+    if (lies_in(of.bounds, cell)) return true;
+    const Bounds3d box = grown(cell, growth_for(cell, of.t) / 2 + off);
+    return overlap(of.bounds, box) && !TrianglePart(of.t, box).empty();
   }
-  /// Tests t, which meets the cell of tile i, in the subtree. Only tiles of this share count.
-  void visit(std::size_t i, const TriangleD& t, const Bounds3d& bounds, KnownInside& known) {
+  /// Returns whether t meets the cell as read, and not only within what it may be off by.
+  [[nodiscard]] bool meets_as_read(std::size_t i, const Sought& of) const {
+    return of.off == 0 || !tiles_[i].cell || meets(of, *tiles_[i].cell, 0);
+  }
+  /// Tests t, which may meet the cell of tile i, in the subtree. Only tiles of this share count.
+  void visit(std::size_t i, const Sought& of, KnownInside& known) {
     if (below_[i].first >= end_ || below_[i].last < begin_) return;
     const CoverTile& tile = tiles_[i];
     const bool mine = mine_[i] && i >= begin_ && i < end_;
-    if (mine && !held_[i] && !tile.triangles && tile.children.empty()) count(i, shown_by_nothing(i, t));
-    if (mine && tile.triangles && !refused_[i])
-      count(i, tile.leaf_error ? compare(i, t) : examine(i, t, bounds, known));
+    if (mine && !held_[i] && !tile.triangles && tile.children.empty()) count(i, shown_by_nothing(i, of));
+    if (mine && tile.triangles && !refused_[i]) count(i, tile.leaf_error ? compare(i, of.t) : examine(i, of, known));
     if (tile.children.empty()) return;
     if (tile.children.size() == 1 && tiles_[tile.children[0]].cell == tile.cell)
-      return visit(tile.children[0], t, bounds, known);
+      return visit(tile.children[0], of, known);
     if (!tile.cell) return;
-    const Bounds3d near = grown(bounds, growth_for(*tile.cell, t));
+    const Bounds3d near = grown(of.bounds, growth_for(*tile.cell, of.t) + of.off);
     const bool stays = held_[i] || (tile.adds && tile.triangles && !tile.leaf_error);
     for (int k = 0; k < 8; ++k) {
       const Bounds3d octant = octant_of(*tile.cell, k);
-      if (!overlap(near, octant) || !meets(t, bounds, octant)) continue;
+      if (!overlap(near, octant) || !meets(of, octant, of.off)) continue;
       if (const std::size_t child = octants_[i][std::size_t(k)]; child != 0) {
-        visit(child, t, bounds, known);
+        visit(child, of, known);
       } else if (mine && !stays) {
-        const Verdict verdict = without_child(i, octant, t);
+        const Verdict verdict = without_child(i, octant, of);
         count(i, verdict == Verdict::missing ? Verdict::uncovered : verdict);
       }
     }
@@ -229,14 +245,15 @@ class CoverChecker {
   }
   /// Returns the verdict for an octant without a child. No leaf is made for parts of a neighbour's triangle just beyond
   /// a face.
-  [[nodiscard]] Verdict without_child(std::size_t i, const Bounds3d& octant, const TriangleD& t) const {
-    return below_[i].leaf_error ? compare_with_nothing(octant, t, *below_[i].leaf_error) : Verdict::missing;
+  [[nodiscard]] Verdict without_child(std::size_t i, const Bounds3d& octant, const Sought& of) const {
+    if (below_[i].leaf_error) return compare_with_nothing(octant, of.t, *below_[i].leaf_error);
+    return of.off == 0 || meets(of, octant, 0) ? Verdict::missing : Verdict::rounded;
   }
   /// Returns the verdict for a tile without content and children: a leaf, or none.
-  [[nodiscard]] Verdict shown_by_nothing(std::size_t i, const TriangleD& t) const {
+  [[nodiscard]] Verdict shown_by_nothing(std::size_t i, const Sought& of) const {
     const CoverTile& tile = tiles_[i];
-    if (!tile.leaf_error || refused_[i]) return Verdict::bare;
-    const Verdict verdict = compare_with_nothing(*tile.cell, t, *tile.leaf_error);
+    if (!tile.leaf_error || refused_[i]) return meets_as_read(i, of) ? Verdict::bare : Verdict::rounded;
+    const Verdict verdict = compare_with_nothing(*tile.cell, of.t, *tile.leaf_error);
     return verdict == Verdict::missing ? Verdict::bare : verdict;
   }
   [[nodiscard]] Verdict compare_with_nothing(const Bounds3d& box, const TriangleD& t, double error) const {
@@ -269,10 +286,16 @@ class CoverChecker {
     return error + kLeafRounding * rounding_of(cell, t);
   }
 
-  [[nodiscard]] Verdict examine(std::size_t i, const TriangleD& t, const Bounds3d& bounds, KnownInside& known) const {
-    switch (bodies_[i]->side_of(t, bounds, tiles_[i].cell, known)) {
+  [[nodiscard]] Verdict examine(std::size_t i, const Sought& of, KnownInside& known) const {
+    const TileBody& body = *bodies_[i];
+    const std::optional<Bounds3d>& cell = tiles_[i].cell;
+    const auto keeps_clear = [&](bool is_inside) {
+      return body.keeps_clear(of.t, cell, of.off, is_inside, known) ? Verdict::fine : Verdict::rounded;
+    };
+    if (!meets_as_read(i, of)) return keeps_clear(false);
+    switch (body.side_of(of.t, of.bounds, cell, known)) {
       case TileBody::Side::inside:
-        return bodies_[i]->keeps_clear(t, tiles_[i].cell, rounding_.of(t)) ? Verdict::fine : Verdict::rounded;
+        return keeps_clear(true);
       case TileBody::Side::touching:
         return Verdict::touching;
       case TileBody::Side::outside:
@@ -359,7 +382,7 @@ class CoverChecker {
   std::vector<Octants> octants_;  ///< per tile: the octants of its cell
   const std::vector<bool> held_;
   std::size_t begin_ = 0, end_ = 0;  ///< range of tiles of this share
-  std::atomic<std::uint64_t> astray_{0};
+  std::atomic<std::uint64_t> astray_{0}, nearly_astray_{0};
   double scene_edge_ = 0;      ///< longest edge of the scene's box, if there are leaves
   Rounding rounding_;          ///< the scene's
   std::vector<bool> refused_;  ///< per tile: a leaf with too large an error

@@ -38,9 +38,10 @@
 /// the grown cell. So "holds" is a proof, and a tile is blamed unjustly only if a triangle and a face nearly coincide
 /// where the cell ends.
 ///
-/// If the coordinates of the scene or of a content were rounded when they were read (lib/core/triangle_source.h),
-/// t ∩ cell must keep clear of the content's faces by the sum of both errors. If it does not, or if that sum is more
-/// than half of the growth of cells, the answer is "not decided". A leaf is compared with the scene as read.
+/// If the coordinates of the scene or of a content were rounded when they were read (lib/core/triangle_source.h), what
+/// lies within the error of a cell may lie in it. The cell is grown by that error, and t in it must keep clear of the
+/// content's faces by the sum of both errors. If it does not, the answer is "not decided". A leaf is compared with the
+/// scene as read.
 ///
 /// Each statement is about one tile: the scene in its cell, its content, the cells of its children, and whether
 /// children have contents. The statement that t lies in the root's cell is about the root. So a check may be done in

@@ -115,8 +115,9 @@ Json json_of(const CheckReport& r, const std::string& proxy_name) {
   all["proxy"] = std::move(proxy);
   all["scene"] = scene_json(r);
   if (r.asks_hidden)
-    all["hidden"] = {
-        {"voxel", r.recipe.frame.voxel}, {"scale", r.recipe.scale_world}, {"closed_gap", r.recipe.closed_gap()}};
+    all["hidden"] = {{"voxel", r.recipe.frame.voxel},
+                     {"scale", r.recipe.scale_world},
+                     {"closed_gap", r.recipe.closed_gap(r.hidden_off)}};
   all["findings"] = std::move(findings);
   all["measures"] = std::move(measures);
   return all;

@@ -71,7 +71,7 @@ std::string inside_rows(const CheckReport& r) {
   if (!r.asks_hidden) return text;
   if (r.hiddenness() != Answer::proven) return text + row("hidden from outside", r.hiddenness(), hidden_doubt(r));
   return text + fmt::format("  {:<28}yes, if gaps narrower than {:.4g} count as closed: {}\n", "hidden from outside",
-                            r.recipe.closed_gap(), recipe_text(r.recipe));
+                            r.recipe.closed_gap(r.hidden_off), recipe_text(r.recipe));
 }
 
 /// Returns whether a finding is no failure: because the question asked instead is decided, or because triangles that

@@ -47,6 +47,8 @@ struct Rounding {
     return of(largest);
   }
   [[nodiscard]] double of(double largest) const { return kRoundUp * kDiagonal * (share * largest + offset); }
+  /// Returns the same distance for all triangles in the box.
+  [[nodiscard]] double of(const Bounds3d& box) const { return any() ? of({box.min, box.max, box.max}) : 0; }
 
  private:
   static constexpr double kDiagonal = 1.7320508075688774;  // diagonal of a cube of edge 1, rounded up

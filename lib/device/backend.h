@@ -23,9 +23,9 @@ class Backend {
   /// Returns the bytes of page-locked host memory that the backend holds, in addition to the memory of its calls.
   [[nodiscard]] virtual std::uint64_t pinned_bytes() const { return 0; }
 
-  /// Sets, in `out`, every voxel whose closed cube meets a triangle (grown by kFixedSlack), and keeps the set ones.
-  /// Triangles may reach outside the box. Exact in integers; [SS10].
-  virtual void voxelize(std::span<const FixedTriangle> triangles, BitBox& out) = 0;
+  /// Sets, in `out`, every voxel whose closed cube, grown by `slack` (fixed_slack()), meets a triangle, and keeps the
+  /// set ones. Triangles may reach outside the box. Exact in integers; [SS10].
+  virtual void voxelize(std::span<const FixedTriangle> triangles, BitBox& out, std::int64_t slack) = 0;
 
   /// Appends the crossings of the tile's columns that lie in the tile, in any order (lib/voxel/winding.h).
   virtual void find_crossings(std::span<const FixedTriangle> triangles, const VoxelBox& tile,

@@ -22,8 +22,9 @@ class EnclosedScene final : public EnclosedTriangles {
   /// `voxels`: the scene's voxels in `frame`. `part`: encloses only a part of the scene. `near`: answers is_near() in
   /// place of the voxels; may be null.
   EnclosedScene(std::vector<TriangleD> triangles, const GridFrame& frame, const BrickShelf& voxels,
-                const std::optional<ScenePart>& part, std::unique_ptr<const NearTriangles> near)
-      : EnclosedTriangles(std::move(triangles), frame, part ? std::optional(part->box) : std::nullopt),
+                const std::optional<ScenePart>& part, std::unique_ptr<const NearTriangles> near,
+                const Rounding& rounding = {})
+      : EnclosedTriangles(std::move(triangles), frame, part ? std::optional(part->box) : std::nullopt, rounding),
         near_(std::move(near)) {
     if (!near_) voxels_.emplace(voxels);
     if (part && !part->voxels->coords().empty()) held_.emplace(*part->voxels);

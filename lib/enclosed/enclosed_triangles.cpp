@@ -12,6 +12,7 @@
 #include "lib/enclosed/detail/triangle_samples.h"
 #include "lib/exact/triangle_intersection.h"
 #include "lib/exact/triangle_part.h"
+#include "lib/geometry/apart.h"
 
 namespace bp {
 
@@ -19,36 +20,11 @@ namespace {
 
 constexpr std::int64_t kTrianglesAtOnce = 4096;
 
-/// Returns a lattice box that surely holds the triangle: to_voxels errs by less than 2^-20 voxel.
-LatticeBox box_around(const GridFrame& frame, const TriangleD& t) {
-  LatticeBox box;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3d at = frame.to_lattice(t[k]);
-    LatticeCoord low, high;
-    for (int i = 0; i < 3; ++i) {
-      low[i] = std::int64_t(std::floor(at[std::size_t(i)])) - 1;
-      high[i] = low[i] + 3;
-    }
-    if (k == 0) box = {low, high};
-    box.add(low);
-    box.add(high);
-  }
-  return box;
-}
+// A face keeps this share of a voxel from a rounded triangle in addition to its error, so that a check in doubles can
+// tell. The surface of the voxels, where tightening begins, leaves more (fixed_slack()).
+constexpr double kKept = 0x1p-24;
 
-/// Returns the smallest lattice box that surely has the point strictly inside.
-LatticeBox box_around(const GridFrame& frame, const Vec3d& p) {
-  constexpr double kSlack = 0x1p-13;  // to_voxels errs by less than 2^-20 voxel
-  const Vec3d at = frame.to_lattice(p);
-  LatticeBox box;
-  for (int i = 0; i < 3; ++i) {
-    box.min[i] = std::int64_t(std::floor(at[std::size_t(i)] - kSlack));
-    box.max[i] = std::int64_t(std::ceil(at[std::size_t(i)] + kSlack));
-  }
-  return box;
-}
-
-LatticeBox box_around(std::span<const NewFace> star, std::span<const Tetrahedron> swept) {
+LatticeBox box_of(std::span<const NewFace> star, std::span<const Tetrahedron> swept) {
   LatticeBox box{star[0].corners[0], star[0].corners[0]};
   for (const NewFace& f : star) {
     for (const LatticeCoord& p : f.corners) box.add(p);
@@ -67,15 +43,56 @@ BoxTree::Plane plane_of(const LatticeCoord& a, const LatticeCoord& b, const Latt
 
 }  // namespace
 
+/// Returns a lattice box that surely holds the triangle, and what faces keep from it: to_voxels errs by less than 2^-20
+/// voxel.
+LatticeBox EnclosedTriangles::box_around(const TriangleD& t) const {
+  const auto room = std::int64_t(std::ceil(kept_from_all_));
+  LatticeBox box;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3d at = frame_.to_lattice(t[k]);
+    LatticeCoord low, high;
+    for (int i = 0; i < 3; ++i) {
+      low[i] = std::int64_t(std::floor(at[std::size_t(i)])) - 1;
+      high[i] = low[i] + 3;
+    }
+    if (k == 0) box = {low, high};
+    box.add(low);
+    box.add(high);
+  }
+  return box.grown(room);
+}
+
+/// Returns the smallest lattice box that surely has the point strictly inside, wherever it lies in its file.
+LatticeBox EnclosedTriangles::box_around(const Vec3d& p) const {
+  constexpr double kSlack = 0x1p-13;  // to_voxels errs by less than 2^-20 voxel
+  const Vec3d at = frame_.to_lattice(p);
+  const double slack = kSlack + (kept_from_all_ > 0 ? kept_from({p, p, p}) / frame_.voxel * kLatticePerVoxel : 0);
+  LatticeBox box;
+  for (int i = 0; i < 3; ++i) {
+    box.min[i] = std::int64_t(std::floor(at[std::size_t(i)] - slack));
+    box.max[i] = std::int64_t(std::ceil(at[std::size_t(i)] + slack));
+  }
+  return box;
+}
+
+/// Returns the distance that faces keep from the triangle, scene units.
+double EnclosedTriangles::kept_from(const TriangleD& t) const {
+  return rounding_.any() ? rounding_.of(t) + kKept * frame_.voxel : 0;
+}
+
 EnclosedTriangles::EnclosedTriangles(std::vector<TriangleD> triangles, const GridFrame& frame,
-                                     const std::optional<Bounds3d>& within)
-    : frame_(frame), within_(within) {
+                                     const std::optional<Bounds3d>& within, const Rounding& rounding)
+    : frame_(frame), within_(within), rounding_(rounding) {
+  if (rounding.any()) {
+    for (const TriangleD& t : triangles) kept_from_all_ = std::max(kept_from_all_, kept_from(t));
+    kept_from_all_ *= kLatticePerVoxel / frame.voxel;
+  }
   const std::vector<Vec3d> middles = within ? cut_to(*within, triangles) : std::vector<Vec3d>{};
   std::vector<LatticeBox> boxes(triangles.size());
   std::vector<std::uint32_t> items(triangles.size());
   parallel_ranges(std::int64_t(triangles.size()), kTrianglesAtOnce, [&](std::int64_t begin, std::int64_t end) {
     for (auto i = std::size_t(begin); i < std::size_t(end); ++i) {
-      boxes[i] = box_around(frame_, triangles[i]);
+      boxes[i] = box_around(triangles[i]);
       items[i] = std::uint32_t(i);
     }
   });
@@ -145,7 +162,7 @@ class EnclosedTriangles::Swept {
       body_[k] = to_double(corners_[k] - all.tree_.base());
     }
     body_[3] = solid ? to_double(t[3] - all.tree_.base()) : body_[0];
-    inwards_ = beyond(-1.0 * normal(), body_, all.reach_);
+    inwards_ = beyond(-1.0 * normal(), body_, all.reach_, all.kept_from_all_);
   }
 
   [[nodiscard]] LatticeBox box() const {
@@ -168,9 +185,12 @@ class EnclosedTriangles::Swept {
     return clear | (of_face & of_solid);
   }
 
-  /// Tests triangle i. Exact; for a part of a triangle it may return true for one that is clear.
+  /// Tests triangle i. Exact; for a part of a triangle, or a rounded one, it may return true for one that is clear.
   [[nodiscard]] bool meets(std::size_t i) {
     const TriangleD& t = all_.triangles_[i];
+    if (all_.rounding_.any())
+      return (has_face_ && !keeps_from(t)) ||
+             (solid_ && (all_.within_ ? solid_->may_hold(all_.middles_[i]) : solid_->holds(t[0])));
     const bool cut = has_face_ && (all_.has_area(i) ? triangles_intersect(t.data(), world_.data(), plane_of_face())
                                                     : degenerate_triangle_meets(t.data(), world_.data()));
     if (!all_.within_) return cut || (solid_ && solid_->holds(t[0]));
@@ -178,13 +198,24 @@ class EnclosedTriangles::Swept {
   }
 
  private:
+  /// Returns whether the face surely keeps the distance from a rounded triangle, or from its part.
+  [[nodiscard]] bool keeps_from(const TriangleD& t) const {
+    const double distance = all_.kept_from(t);
+    if (are_apart(t, world_, distance)) return true;
+    if (!all_.within_) return false;
+    const std::vector<Vec3d> part = TrianglePart(t, *all_.within_).corners();
+    for (std::size_t k = 2; k < part.size(); ++k) {
+      if (!are_apart({part[0], part[k - 1], part[k]}, world_, distance + rounding_of(*all_.within_, t))) return false;
+    }
+    return true;
+  }
   [[nodiscard]] Vec3d normal() const { return cross(body_[1] - body_[0], body_[2] - body_[0]); }
 
   /// Returns the half-space beyond edge k, upright on the face.
   [[nodiscard]] const ClearSpace& beside_face(std::size_t k) {
     if (k == face_sides_) {
       const Vec3d &a = body_[k], &b = body_[(k + 1) % 3];
-      beside_face_[face_sides_++] = beyond(cross(b - a, normal()), {body_.data(), 3}, all_.reach_);
+      beside_face_[face_sides_++] = beyond(cross(b - a, normal()), {body_.data(), 3}, all_.reach_, all_.kept_from_all_);
     }
     return beside_face_[k];
   }
@@ -245,7 +276,7 @@ bool EnclosedTriangles::allows(std::span<const NewFace> star, std::span<const Te
     const auto under = std::find_if(swept.begin(), swept.end(), [&](const Tetrahedron& t) { return closes(f, t); });
     const std::optional<Solid> solid = under == swept.end() ? std::nullopt : solid_of(frame_, *under);
     if (i == 1) {
-      tree_.gather(box_around(star, swept), around_star);
+      tree_.gather(box_of(star, swept), around_star);
       nearby = around_star.complete() ? &around_star : nullptr;
     }
     if (!is_free(Swept(*this, &f, solid), nearby, blocker)) return false;
@@ -281,12 +312,12 @@ void EnclosedTriangles::outer_boxes(const UseBoxes& use) const {
   if (within_ || triangles_.empty()) return;
   std::vector<LatticeBox> boxes;
   const std::size_t step = triangles_.size() / kFirstBoxes + 1;
-  for (std::size_t i = 0; i < triangles_.size(); i += step) boxes.push_back(box_around(frame_, triangles_[i][0]));
+  for (std::size_t i = 0; i < triangles_.size(); i += step) boxes.push_back(box_around(triangles_[i][0]));
   if (!use(boxes)) return;
   for (std::size_t begin = 0; begin < triangles_.size(); begin += kAtOnce) {
     boxes.clear();
     for (std::size_t i = begin; i < std::min(begin + kAtOnce, triangles_.size()); ++i) {
-      for (const Vec3d& p : triangles_[i]) boxes.push_back(box_around(frame_, p));
+      for (const Vec3d& p : triangles_[i]) boxes.push_back(box_around(p));
     }
     if (!use(boxes)) return;
   }

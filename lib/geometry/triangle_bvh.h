@@ -1,6 +1,7 @@
 #pragma once
 #include <cmath>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "lib/core/box.h"
@@ -13,6 +14,11 @@ namespace bp {
   Bounds3d b;
   for (const Vec3d& p : t) b.add(p);
   return b;
+}
+[[nodiscard]] inline Bounds3d bounds_of(std::span<const TriangleD> triangles) {
+  Bounds3d box;
+  for (const TriangleD& t : triangles) box.merge(bounds_of(t));
+  return box;
 }
 /// Returns whether two closed boxes meet; touching counts.
 [[nodiscard]] inline bool overlap(const Bounds3d& a, const Bounds3d& b) {

@@ -158,13 +158,16 @@ ConvexScene convex_scene(std::span<const TriangleD> scene) {
   return out;
 }
 
-std::vector<ConvexHull> hulls_around(const ConvexScene& scene, const GridFrame& frame, std::size_t corners) {
+std::vector<ConvexHull> hulls_around(const ConvexScene& scene, const GridFrame& frame, std::size_t corners,
+                                     const Rounding& rounding) {
   std::vector<ConvexHull> hulls(scene.parts.size());
   parallel_for(std::int64_t(hulls.size()), [&](std::int64_t i) {
     std::vector<Vec3d> points;
-    for (const Vec3d& p : scene.parts[std::size_t(i)]) points.push_back(frame.to_lattice(p));
+    Bounds3d bounds;
+    for (const Vec3d& p : scene.parts[std::size_t(i)]) points.push_back(frame.to_lattice(p)), bounds.add(p);
+    const double off = rounding.of(bounds) * kLatticePerVoxel / frame.voxel;
     ConvexHull& hull = hulls[std::size_t(i)];
-    hull = with_fewer_corners(outward_hull(points), corners, kFlatSides);
+    hull = with_fewer_corners(outward_hull(points, off), corners, kFlatSides);
     draw_diagonals(hull);
   });
   return outer_hulls(std::move(hulls));

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "lib/core/grid_frame.h"
+#include "lib/core/triangle_source.h"
 #include "lib/hulls/convex_hull.h"
 
 /// The convex parts of a scene, which need no decomposition.
@@ -21,9 +22,10 @@ struct ConvexScene {
 [[nodiscard]] ConvexScene convex_scene(std::span<const TriangleD> scene);
 
 /// Returns, for each part, the hull of its corners, rounded outwards to lattice points of `frame`: each point of the
-/// part lies strictly within. A hull has at most `corners` corners, 8 or more. Corners that hold next to nothing go in
-/// any case, and no hull loses a point. Hulls within others are left out. Parallel; the same for any number of threads.
+/// part lies strictly within, wherever corners lie within `rounding` of their places. A hull has at most `corners`
+/// corners, 8 or more. Corners that hold next to nothing go in any case, and no hull loses a point. Hulls within others
+/// are left out. Parallel; the same for any number of threads.
 [[nodiscard]] std::vector<ConvexHull> hulls_around(const ConvexScene& scene, const GridFrame& frame,
-                                                   std::size_t corners);
+                                                   std::size_t corners, const Rounding& rounding = {});
 
 }  // namespace bp

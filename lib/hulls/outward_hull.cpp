@@ -14,16 +14,16 @@ namespace bp {
 
 namespace {
 
-constexpr double kOff = 1.0 / 16;  // lattice units: far more than points are off
+constexpr double kOff = 1.0 / 16;  // lattice units: far more than points are off by computing
 /// Room for rounding to the lattice, tried in this order. Sides along the axes need none; 0.9 is enough for all.
 constexpr std::array kRoom{1e-4, 0.3, 0.6, 0.9};
 
 /// The point lies strictly within, also where it is off.
-LatticeBox cell_around(const Vec3d& p) {
+LatticeBox cell_around(const Vec3d& p, double off) {
   LatticeBox cell;
   for (int k = 0; k < 3; ++k) {
     const double x = p[std::size_t(k)];
-    cell.min[k] = std::int64_t(std::floor(x - kOff)), cell.max[k] = std::int64_t(std::ceil(x + kOff));
+    cell.min[k] = std::int64_t(std::floor(x - off)), cell.max[k] = std::int64_t(std::ceil(x + off));
   }
   return cell;
 }
@@ -124,10 +124,10 @@ ConvexHull hull_of_cells(const std::vector<LatticeBox>& cells) {
 
 }  // namespace
 
-ConvexHull outward_hull(std::span<const Vec3d> points) {
+ConvexHull outward_hull(std::span<const Vec3d> points, double off) {
   std::vector<LatticeBox> cells;
   std::vector<LatticeCoord> near;
-  for (const Vec3d& p : points) cells.push_back(cell_around(p)), near.push_back(rounded(p));
+  for (const Vec3d& p : points) cells.push_back(cell_around(p, kOff + off)), near.push_back(rounded(p));
   std::optional<ConvexHull> hull = hull_of(near);
   if (hull) hull = moved_out(*hull, cells);
   if (!hull || !holds_cells(*hull, cells)) hull = hull_of_cells(cells);

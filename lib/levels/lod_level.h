@@ -57,6 +57,7 @@ struct LodOptions {
   /// The scene's triangles, scene units. With Enclose::scene they stay inside; a fit follows them. Without them a fit
   /// follows the closing.
   std::vector<TriangleD> scene;
+  Rounding rounding;  ///< of the scene's triangles
   /// The scene is known to lie within the solid, which was reduced from finer voxels. It cannot be tested in the larger
   /// voxels: a corner may lie so near to a side of theirs that rounding puts it into the next voxel.
   bool is_within = false;

@@ -1,5 +1,7 @@
 #pragma once
+#include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "lib/core/coords.h"
 #include "lib/core/grid_frame.h"
@@ -14,6 +16,8 @@ constexpr std::int64_t kFixedOne = std::int64_t(1) << kFixedBits;  ///< one voxe
 /// 2^-20 voxel from the double arithmetic. Cubes are grown by it before they are tested, so rounding only ever adds
 /// voxels.
 constexpr std::int64_t kFixedSlack = 1;
+constexpr double kVoxelsPerOff = 4;  ///< voxels are at least so many times what coordinates may be off by
+constexpr std::int64_t kMostFixedSlack = kFixedSlack + kFixedOne / 4;  ///< for such voxels; overlap.h counts on it
 
 struct FixedPoint {
   std::int64_t x = 0, y = 0, z = 0;
@@ -54,6 +58,15 @@ class FixedFrame {
   Vec3d origin_;
   double voxel_;
 };
+
+/// Returns the slack that takes the place of kFixedSlack where points of the scene may be `off` scene units from where
+/// they were read (Rounding). A quarter of a unit is free: 1/2 + 1/16 + 1/4 < 1. So a 16th of a unit, at least, is left
+/// between the voxels' outside and wherever a triangle may lie.
+[[nodiscard]] inline std::int64_t fixed_slack(const GridFrame& frame, double off) {
+  constexpr double kFree = 0.25, kMost = 2.0 * double(kMostFixedSlack);
+  const double units = off / frame.voxel * double(kFixedOne);
+  return units <= kFree ? kFixedSlack : kFixedSlack + std::int64_t(std::ceil(std::min(units, kMost)));
+}
 
 /// Converts one point; FixedFrame is quicker for many.
 [[nodiscard]] inline FixedPoint to_fixed(const GridFrame& frame, const Vec3d& point) {

@@ -6,7 +6,7 @@
 
 /// Exact triangle-cube overlap in integers, after Schwarz and Seidel 2010 ([SS10], docs/references.md): the separating
 /// axes of a triangle and a cube, as half-spaces that are linear in the cube's index. Cells are the cubes of a regular
-/// grid (voxels, or tiles) with corners at multiples of `edge`; each is grown by kFixedSlack and closed.
+/// grid (voxels, or tiles) with corners at multiples of `edge`; each is grown by the slack and closed.
 ///
 /// A cell (x, y, z) meets the triangle if and only if it lies in TriangleCells::range and all eleven half-spaces hold
 /// there:
@@ -17,9 +17,9 @@
 /// triangles need no case of their own.
 ///
 /// Integer types by the triangle's extent (largest side of its box), with all values bounded below 2^63 or 2^127:
-///   EdgeInt: |normal| <= extent, |corner - vertex| <= extent + edge + 2, two terms
+///   EdgeInt: |normal| <= extent, |corner - vertex| <= extent + edge + 2 kMostFixedSlack, two terms
 ///   PlaneInt: |normal| <= 2 extent^2, three terms
-///   small   extent <= 2^20 (16 voxels), edge 2^16     edges 64 bits (2^41.2), plane 64 bits (6.4 * 2^60)
+///   small   extent <= 2^20 (16 voxels), edge 2^16     edges 64 bits (2^41.2), plane 64 bits (6.6 * 2^60)
 ///   medium  extent <= 2^30, edge <= 2^28              edges 64 bits (2^61.4), plane 128 bits
 ///   wide    any, extent < 2^48                        edges 128 bits (2^97); plane see WidePlane below
 namespace bp {
@@ -59,8 +59,9 @@ struct CellRange {
 /// A triangle as arrays, for loops over axes.
 struct Corners {
   std::int64_t p[3][3];
-  BP_HD explicit Corners(const FixedTriangle& t)
-      : p{{t.a.x, t.a.y, t.a.z}, {t.b.x, t.b.y, t.b.z}, {t.c.x, t.c.y, t.c.z}} {}
+  std::int64_t slack;  ///< that cells are grown by, at most kMostFixedSlack
+  BP_HD explicit Corners(const FixedTriangle& t, std::int64_t grown_by = kFixedSlack)
+      : p{{t.a.x, t.a.y, t.a.z}, {t.b.x, t.b.y, t.b.z}, {t.c.x, t.c.y, t.c.z}}, slack(grown_by) {}
   [[nodiscard]] BP_HD std::int64_t low(int axis) const { return smaller(smaller(p[0][axis], p[1][axis]), p[2][axis]); }
   [[nodiscard]] BP_HD std::int64_t high(int axis) const { return larger(larger(p[0][axis], p[1][axis]), p[2][axis]); }
   [[nodiscard]] BP_HD std::int64_t extent() const {
@@ -75,8 +76,8 @@ struct Corners {
   CellRange r{};
   for (int axis = 0; axis < 3; ++axis) {
     // Returns n . p, saturated to +-2^126, without overflow: |n| < 2^96, |p| < 2^49.
-    r.min[axis] = (t.low(axis) - kFixedSlack - 1) >> kFixedBits;
-    r.max[axis] = ((t.high(axis) + kFixedSlack) >> kFixedBits) + 1;
+    r.min[axis] = (t.low(axis) - t.slack - 1) >> kFixedBits;
+    r.max[axis] = ((t.high(axis) + t.slack) >> kFixedBits) + 1;
   }
   return r;
 }
@@ -100,8 +101,9 @@ struct Corners {
 }
 
 /// Returns the corner, grown, of the range's first cell that lies farthest along a normal with this sign.
-[[nodiscard]] BP_HD inline std::int64_t far_corner(const CellRange& range, int axis, bool positive, std::int64_t edge) {
-  return range.min[axis] * edge + (positive ? edge + kFixedSlack : -kFixedSlack);
+[[nodiscard]] BP_HD inline std::int64_t far_corner(const Corners& t, const CellRange& range, int axis, bool positive,
+                                                   std::int64_t edge) {
+  return range.min[axis] * edge + (positive ? edge + t.slack : -t.slack);
 }
 
 /// Returns component w of the triangle's normal: twice the signed area of the projection along w.
@@ -121,7 +123,8 @@ template <class Int>
   const std::int64_t du = to[u] - from[u], dv = to[v] - from[v];
   const Int nu = clockwise ? dv : -dv, nv = clockwise ? -du : du;  // points inward
   HalfSpace<Int> h;
-  h.at = nu * (far_corner(range, u, nu > 0, edge) - from[u]) + nv * (far_corner(range, v, nv > 0, edge) - from[v]);
+  h.at =
+      nu * (far_corner(t, range, u, nu > 0, edge) - from[u]) + nv * (far_corner(t, range, v, nv > 0, edge) - from[v]);
   h.step[u] = nu * edge;
   h.step[v] = nv * edge;
   return h;
@@ -134,7 +137,7 @@ template <class Int>
   HalfSpace<Int> h;
   std::int64_t reach[3];
   for (int axis = 0; axis < 3; ++axis) {
-    reach[axis] = far_corner(range, axis, normal[axis] > 0, edge) - t.p[0][axis];
+    reach[axis] = far_corner(t, range, axis, normal[axis] > 0, edge) - t.p[0][axis];
     h.step[axis] = normal[axis] * edge;
   }
   h.at = saturated_dot(normal, reach);

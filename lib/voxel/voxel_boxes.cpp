@@ -36,7 +36,7 @@ BP_INLINE void store_coord(const Four& fixed, VoxelCoord& out) {
 }
 
 /// `corners`: nine coordinates, and a tenth number that is read and not used.
-BP_INLINE void store_box(const double* corners, const Four& origin, double voxel, VoxelBox& out) {
+BP_INLINE void store_box(const double* corners, const Four& origin, double voxel, double slack, VoxelBox& out) {
   Four a, b, c;
   load_fixed(corners, origin, voxel, a);
   load_fixed(corners + 3, origin, voxel, b);
@@ -44,26 +44,26 @@ BP_INLINE void store_box(const double* corners, const Four& origin, double voxel
   Four low = a < b ? a : b, high = a < b ? b : a;
   low = c < low ? c : low;
   high = high < c ? c : high;
-  store_coord(low - double(kFixedSlack + 1), out.min);
-  store_coord(high + double(kFixedSlack + kFixedOne), out.max);
+  store_coord(low - (slack + 1), out.min);
+  store_coord(high + (slack + double(kFixedOne)), out.max);
 }
 
-BP_CLONES void store_boxes(const double* corners, std::size_t n, const double* world_origin, double voxel,
+BP_CLONES void store_boxes(const double* corners, std::size_t n, const double* world_origin, double voxel, double slack,
                            VoxelBox* out) {
   const Four origin{world_origin[0], world_origin[1], world_origin[2], 0};
-  for (std::size_t i = 0; i < n; ++i) store_box(corners + 9 * i, origin, voxel, out[i]);
+  for (std::size_t i = 0; i < n; ++i) store_box(corners + 9 * i, origin, voxel, slack, out[i]);
 }
 
 }  // namespace
 
-void voxel_boxes(std::span<const TriangleD> triangles, const GridFrame& frame, VoxelBox* out) {
+void voxel_boxes(std::span<const TriangleD> triangles, const GridFrame& frame, std::int64_t slack, VoxelBox* out) {
   if (triangles.empty()) return;
   const Vec3d origin = frame.world_origin();
   const std::size_t n = triangles.size() - 1;
-  store_boxes(triangles[0][0].data(), n, origin.data(), frame.voxel, out);
+  store_boxes(triangles[0][0].data(), n, origin.data(), frame.voxel, double(slack), out);
   double last[10]{};  // the last triangle, since no number follows it in memory
   std::memcpy(last, &triangles[n], sizeof(TriangleD));
-  store_boxes(last, 1, origin.data(), frame.voxel, out + n);
+  store_boxes(last, 1, origin.data(), frame.voxel, double(slack), out + n);
 }
 
 }  // namespace bp

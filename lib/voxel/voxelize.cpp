@@ -164,8 +164,8 @@ VoxelBox box_of(const CellRange& range) {
 }
 
 template <class Rows>
-void voxelize_triangle(const FixedTriangle& triangle, Rows& out) {
-  const Corners corners(triangle);
+void voxelize_triangle(const FixedTriangle& triangle, std::int64_t slack, Rows& out) {
+  const Corners corners(triangle, slack);
   const CellRange whole = voxel_range(corners), range = intersect(whole, out.box());
   if (range.empty()) return;
   const bool thin = int(whole.size(0) == 1) + int(whole.size(1) == 1) + int(whole.size(2) == 1) >= 2;
@@ -183,14 +183,14 @@ void voxelize_triangle(const FixedTriangle& triangle, Rows& out) {
 
 }  // namespace
 
-void voxelize_surface(std::span<const FixedTriangle> triangles, BitBox& out) {
+void voxelize_surface(std::span<const FixedTriangle> triangles, BitBox& out, std::int64_t slack) {
   if (out.box().empty()) return;
   BoxRows rows(out);
-  for (const FixedTriangle& t : triangles) voxelize_triangle(t, rows);
+  for (const FixedTriangle& t : triangles) voxelize_triangle(t, slack, rows);
 }
 
-void voxelize_brick(const FixedTriangle& triangle, SharedRows& out) {
-  voxelize_triangle(triangle, out);
+void voxelize_brick(const FixedTriangle& triangle, std::int64_t slack, SharedRows& out) {
+  voxelize_triangle(triangle, slack, out);
 }
 
 namespace {
@@ -211,15 +211,15 @@ void walk_tiles(const Corners& corners, const CellRange& range, std::int64_t edg
 }  // namespace
 
 void for_each_tile(const FixedTriangle& triangle, VoxelCoord first, std::int32_t edge_vox, TileCoord count,
-                   const std::function<void(TileCoord)>& emit) {
-  Corners corners(triangle);
+                   const std::function<void(TileCoord)>& emit, std::int64_t slack) {
+  Corners corners(triangle, slack);
   const std::int64_t edge = std::int64_t(edge_vox) * kFixedOne;
   CellRange range;
   bool one = true;  // the triangle's box touches one tile
   for (int axis = 0; axis < 3; ++axis) {
     for (auto& p : corners.p) p[axis] -= std::int64_t(first[axis]) * kFixedOne;
-    range.min[axis] = floor_div(corners.low(axis) - kFixedSlack - 1, edge);
-    range.max[axis] = floor_div(corners.high(axis) + kFixedSlack, edge) + 1;
+    range.min[axis] = floor_div(corners.low(axis) - slack - 1, edge);
+    range.max[axis] = floor_div(corners.high(axis) + slack, edge) + 1;
     if (range.size(axis) > 1) one = false;
     range.min[axis] = std::max<std::int64_t>(0, range.min[axis]);
     range.max[axis] = std::min<std::int64_t>(count[axis], range.max[axis]);

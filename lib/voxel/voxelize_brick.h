@@ -64,6 +64,6 @@ template <class Rows>
 }
 
 /// voxelize_surface() for one triangle and the voxels of one brick.
-void voxelize_brick(const FixedTriangle& triangle, SharedRows& out);
+void voxelize_brick(const FixedTriangle& triangle, std::int64_t slack, SharedRows& out);
 
 }  // namespace bp

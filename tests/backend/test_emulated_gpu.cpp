@@ -68,7 +68,7 @@ TEST_CASE("a tile that does not fit in device memory is closed or voxelized in p
     BitBox got(box), want(box);
     voxelize_surface(triangles, want);
     emulator::set_memory_limit(std::size_t(want.word_count()) * 8 / 3);
-    make_cuda_backend(0)->voxelize(triangles, got);
+    make_cuda_backend(0)->voxelize(triangles, got, kFixedSlack);
     CHECK(got == want);
     emulator::set_memory_limit(std::size_t(-1));
   }

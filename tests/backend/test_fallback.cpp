@@ -17,8 +17,8 @@ class FailingBackend final : public Backend {
   ~FailingBackend() override { --*living_; }
   [[nodiscard]] std::string name() const override { return "fake:0"; }
   [[nodiscard]] std::uint64_t pinned_bytes() const override { return 8; }
-  void voxelize(std::span<const FixedTriangle> triangles, BitBox& out) override {
-    if (good_-- > 0) return cpu_.voxelize(triangles, out);
+  void voxelize(std::span<const FixedTriangle> triangles, BitBox& out, std::int64_t slack) override {
+    if (good_-- > 0) return cpu_.voxelize(triangles, out, slack);
     spoil(out);
   }
   void find_crossings(std::span<const FixedTriangle> triangles, const VoxelBox& tile,
@@ -85,8 +85,8 @@ TEST_CASE("once a device fails, the CPU does the call and all later ones to the 
     BitBox start(tile);
     start.set({3, 4, 5});
     BitBox want = start, got = start;
-    cpu.voxelize(triangles, want);
-    backend.voxelize(triangles, got);
+    cpu.voxelize(triangles, want, kFixedSlack);
+    backend.voxelize(triangles, got, kFixedSlack);
     CHECK(got == want);
 
     std::vector<Crossing> some(3), want_crossings = some, crossings = some;
@@ -118,7 +118,7 @@ TEST_CASE("an error that is not the device's is not hidden", "[quick][backend]")
   class Refusing final : public Backend {
    public:
     [[nodiscard]] std::string name() const override { return "fake:0"; }
-    void voxelize(std::span<const FixedTriangle>, BitBox&) override { fail(ErrorCode::bad_input, "no"); }
+    void voxelize(std::span<const FixedTriangle>, BitBox&, std::int64_t) override { fail(ErrorCode::bad_input, "no"); }
     void find_crossings(std::span<const FixedTriangle>, const VoxelBox&, std::vector<Crossing>&) override {}
     void fill_winding(std::vector<Crossing>&, std::span<const std::uint64_t>, std::span<std::int32_t>,
                       BitBox&) override {}
@@ -130,6 +130,6 @@ TEST_CASE("an error that is not the device's is not hidden", "[quick][backend]")
   bool warned = false;
   FallbackBackend backend(std::make_unique<Refusing>(), [&](const DeviceError&) { warned = true; });
   BitBox bits(VoxelBox{{0, 0, 0}, {64, 1, 1}});
-  CHECK_THROWS_AS(backend.voxelize({}, bits), Error);
+  CHECK_THROWS_AS(backend.voxelize({}, bits, kFixedSlack), Error);
   CHECK_FALSE(warned);
 }

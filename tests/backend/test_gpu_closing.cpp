@@ -92,7 +92,7 @@ TEST_CASE("on a device that is nearly full, tiles are closed and voxelized in pa
   const VoxelBox large{{0, 0, 0}, {1024, 1024, 1024}};
   BitBox want, want_surface(large);
   CpuBackend().close(solid, scale, halo, params, interior, want);
-  CpuBackend().voxelize(triangles, want_surface);
+  CpuBackend().voxelize(triangles, want_surface, kFixedSlack);
   {
     const std::size_t before = free_memory();
     const auto backend = make_cuda_backend(0);
@@ -109,7 +109,7 @@ TEST_CASE("on a device that is nearly full, tiles are closed and voxelized in pa
     CHECK(got == want);
     backend->close_from_shelf(shelf, bricks_of(solid.box()), scale, halo, params, interior, got);
     CHECK(got == want);
-    backend->voxelize(triangles, surface);
+    backend->voxelize(triangles, surface, kFixedSlack);
     CHECK(surface == want_surface);
   }
 }

@@ -109,7 +109,8 @@ int run(const std::string& path, int resolution, int pieces, const std::string& 
   DeviceVoxelizer voxelizer(device.multiprocessors);
   const double ms = measure([&] {
     BP_CUDA_CHECK(cudaMemsetAsync(d_bits.data(), 0, bytes, nullptr));
-    voxelizer.enqueue(d_triangles.data(), std::uint32_t(triangles.size()), got.box(), d_bits.data(), nullptr);
+    voxelizer.enqueue(d_triangles.data(), std::uint32_t(triangles.size()), kFixedSlack, got.box(), d_bits.data(),
+                      nullptr);
   });
   BP_CUDA_CHECK(cudaMemcpyAsync(got.data(), d_bits.data(), bytes, cudaMemcpyDeviceToHost, nullptr));
   BP_CUDA_CHECK(cudaDeviceSynchronize());

@@ -32,11 +32,11 @@ bool separates(const Vec& axis, const std::array<Vec, 3>& t, const Vec& low, con
 
 }  // namespace
 
-bool meets(const FixedTriangle& f, const FixedPoint& corner, std::int64_t edge) {
+bool meets(const FixedTriangle& f, const FixedPoint& corner, std::int64_t edge, std::int64_t slack) {
   const Vec first{f.a.x, f.a.y, f.a.z};  // positions relative to a corner of the triangle stay small
   const std::array<Vec, 3> t{Vec{0, 0, 0}, minus({f.b.x, f.b.y, f.b.z}, first), minus({f.c.x, f.c.y, f.c.z}, first)};
-  const Vec low = minus({corner.x - kFixedSlack, corner.y - kFixedSlack, corner.z - kFixedSlack}, first);
-  const Wide side = edge + 2 * kFixedSlack;
+  const Vec low = minus({corner.x - slack, corner.y - slack, corner.z - slack}, first);
+  const Wide side = edge + 2 * slack;
   const Vec high{low[0] + side, low[1] + side, low[2] + side};
   const std::array<Vec, 3> unit{Vec{1, 0, 0}, Vec{0, 1, 0}, Vec{0, 0, 1}};
   const std::array<Vec, 3> edges{minus(t[1], t[0]), minus(t[2], t[1]), minus(t[0], t[2])};
@@ -48,13 +48,13 @@ bool meets(const FixedTriangle& f, const FixedPoint& corner, std::int64_t edge) 
   return !separates(cross(edges[0], edges[1]), t, low, high);
 }
 
-BitBox voxelize(std::span<const FixedTriangle> triangles, BitBox out) {
+BitBox voxelize(std::span<const FixedTriangle> triangles, BitBox out, std::int64_t slack) {
   const VoxelBox box = out.box();
   for (const FixedTriangle& t : triangles)
     for (std::int32_t z = box.min.z; z < box.max.z; ++z)
       for (std::int32_t y = box.min.y; y < box.max.y; ++y)
         for (std::int32_t x = box.min.x; x < box.max.x; ++x)
-          if (meets(t, {x * kFixedOne, y * kFixedOne, z * kFixedOne}, kFixedOne)) out.set({x, y, z});
+          if (meets(t, {x * kFixedOne, y * kFixedOne, z * kFixedOne}, kFixedOne, slack)) out.set({x, y, z});
   return out;
 }
 

@@ -60,8 +60,8 @@ std::string reading_note(const SceneCounts& c, double voxel) {
   const std::string text = skipped(c);
   if (c.rounding.share < kSinglePrecision || c.rounding.most < voxel / 256) return text;
   return fmt::format(
-      "{}{}coordinates of this format are read in single precision, here to within {:.2g}: bpcheck proves only what "
-      "keeps that distance; PLY and OBJ are read in double",
+      "{}{}coordinates of this format are read in single precision, here to within {:.2g}: proxies keep that "
+      "distance; PLY and OBJ are read in double",
       text, text.empty() ? "" : "; ", c.rounding.most);
 }
 

@@ -129,6 +129,12 @@ std::vector<std::uint64_t> thousandths_of(const std::vector<double>& work) {
   return cuts;
 }
 
+/// Returns the voxel size as voxelize_stream() will choose it.
+double planned_voxel(const BuildOptions& o, const Scene& scene) {
+  const double least = kVoxelsPerOff * scene.counts.rounding.of(scene.bounds);
+  return std::max(voxel_size(o, {scene.bounds, scene.counts.triangles}), least);
+}
+
 Plan plan_of(const Build& build, const Scene& scene) {
   const BuildOptions& o = build.options;
   const bool tileset = o.is_tileset();
@@ -137,7 +143,7 @@ Plan plan_of(const Build& build, const Scene& scene) {
   v.fill = o.voxels.fill;
   if (tileset) v.cell_vox = o.tile_vox;
   Plan plan;
-  plan.header = solid_header(scene.bounds, voxel_size(o, {scene.bounds, scene.counts.triangles}), scene.up, v);
+  plan.header = solid_header(scene.bounds, planned_voxel(o, scene), scene.up, v);
   const LevelRequest request = request_for(o, scene.counts.triangles, diagonal, plan.header.frame.voxel);
   if (tileset) {
     const TilesetPlan tiles = plan_tileset(request, Cells{o.tile_vox}, plan.header);

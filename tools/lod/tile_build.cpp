@@ -172,7 +172,7 @@ CutOptions cut_options(const Shop& shop, const MadeTileset& made, const Triangle
   cut.mode = o.proxy.mode;
   cut.enclose = made.scene.enclosed;
   cut.colors = made.scene.colors.get();
-  cut.scene = tree;
+  cut.scene = tree, cut.rounding = made.scene.voxels.counts.scene.rounding;
   if (shop.task == Task::some_jobs) cut.jobs = o.tiles;
   cut.make = shop.task != Task::look_up;
   return cut;

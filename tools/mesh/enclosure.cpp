@@ -66,8 +66,8 @@ void check_bounds(const std::string& name, const std::vector<TriangleD>& chunk, 
   fail(ErrorCode::bad_input, "{}: reaches beyond the scene that the stream was made from; name that scene", name);
 }
 
-/// Reads the triangles of files. `note` tells which content of the files was not read.
-std::vector<TriangleD> read_files(const std::vector<std::string>& files, const EnclosureInput& in, std::string& note) {
+/// Reads the triangles of files into `out`, whose note tells which content of the files was not read.
+void read_files(const std::vector<std::string>& files, const EnclosureInput& in, Enclosure& out) {
   const auto scene = open_scenes(files, scene_options(in, ""));
   std::vector<TriangleD> all;
   std::uint64_t triangles = 0;
@@ -81,9 +81,10 @@ std::vector<TriangleD> read_files(const std::vector<std::string>& files, const E
   }
   check_memory(scene->name(), triangles, in);
   if (all.empty()) fail(ErrorCode::bad_input, "{}: no triangles; there is nothing to enclose", scene->name());
-  note = reading_note(scene->counts(), in.header.frame.voxel);
-  if (!note.empty()) note = fmt::format("{}: {}", scene->name(), note);
-  return all;
+  out.note = reading_note(scene->counts(), in.header.frame.voxel);
+  if (!out.note.empty()) out.note = fmt::format("{}: {}", scene->name(), out.note);
+  out.rounding = scene->counts().rounding;
+  out.scene = std::move(all);
 }
 
 /// Why the scene's triangles cannot be used, and what to do.
@@ -110,17 +111,20 @@ std::vector<TriangleD> read_same(TriangleSource& source, const SceneFiles& scene
   return all;
 }
 
-std::vector<TriangleD> read_same(const SceneFiles& scene, const EnclosureInput& in) {
+std::vector<TriangleD> read_same(const SceneFiles& scene, const EnclosureInput& in, Rounding& rounding) {
   try {
-    return read_same(*open_scenes(names_of(scene), scene_options(in, scene.format)), scene);
+    const auto source = open_scenes(names_of(scene), scene_options(in, scene.format));
+    std::vector<TriangleD> all = read_same(*source, scene);
+    rounding = source->counts().rounding;
+    return all;
   } catch (const Error& e) {
     if (e.code() != ErrorCode::bad_input) throw;
     return {};
   }
 }
 
-/// Fills `out` with the scene's triangles; returns the obstacle if that fails.
-std::optional<Obstacle> take_scene(const EnclosureInput& in, bool any_number, std::vector<TriangleD>& out) {
+/// Gives `out` the scene's triangles; returns the obstacle if that fails.
+std::optional<Obstacle> take_scene(const EnclosureInput& in, bool any_number, Enclosure& out) {
   const SceneFiles& scene = in.header.scene;
   if (in.scene == nullptr) {
     if (const auto fault = fault_of(scene)) return obstacle(*fault);
@@ -132,8 +136,9 @@ std::optional<Obstacle> take_scene(const EnclosureInput& in, bool any_number, st
   if (in.scene != nullptr) {
     check_memory(in.scene->name(), scene.triangles, in);
     in.scene->rewind();
-    out = read_same(*in.scene, scene);
-    if (out.empty())
+    out.scene = read_same(*in.scene, scene);
+    out.rounding = in.scene->counts().rounding;
+    if (out.scene.empty())
       fail(ErrorCode::bad_input, "{}: its triangles are not those that were voxelized; voxelize it again",
            in.scene->name());
     return std::nullopt;
@@ -141,8 +146,9 @@ std::optional<Obstacle> take_scene(const EnclosureInput& in, bool any_number, st
   const std::string name = file_name(scene.files.front().name);
   keep_inputs(names_of(scene));
   check_memory(name, scene.triangles, in);
-  out = read_same(scene, in);
-  if (out.empty()) return obstacle(changed_scene(scene.files.size() == 1 ? scene.files.front().name : "a scene file"));
+  out.scene = read_same(scene, in, out.rounding);
+  if (out.scene.empty())
+    return obstacle(changed_scene(scene.files.size() == 1 ? scene.files.front().name : "a scene file"));
   return std::nullopt;
 }
 
@@ -159,7 +165,7 @@ bool wants_scene(const EnclosureInput& in) {
 Enclosure automatic(const EnclosureInput& in) {
   Enclosure out;
   if (!wants_scene(in)) return out;
-  const std::optional<Obstacle> obstacle = take_scene(in, false, out.scene);
+  const std::optional<Obstacle> obstacle = take_scene(in, false, out);
   const bool fit = in.mode == MeshMode::fit;
   if (!obstacle) {
     out.what = Enclose::scene;
@@ -183,11 +189,11 @@ Enclosure enclosure_of(const EncloseOption& option, const EnclosureInput& in) {
       break;
     case Kind::files:
       out.what = Enclose::scene;
-      out.scene = read_files(option.files, in, out.note);
+      read_files(option.files, in, out);
       break;
     case Kind::scene:
       out.what = Enclose::scene;
-      if (const std::optional<Obstacle> obstacle = take_scene(in, true, out.scene))
+      if (const std::optional<Obstacle> obstacle = take_scene(in, true, out))
         fail(ErrorCode::bad_input, "--enclose scene: {}; {}, or use --enclose input", obstacle->why, obstacle->remedy);
   }
   return out;

@@ -28,6 +28,7 @@ struct EnclosureInput {
 struct Enclosure {
   Enclose what = Enclose::closing;
   std::vector<TriangleD> scene;  ///< for Enclose::scene
+  Rounding rounding;             ///< of its triangles
   /// Tells why `automatic` does not use the scene's triangles, or which content of named files was not read; empty:
   /// nothing to tell.
   std::string note;

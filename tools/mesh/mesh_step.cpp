@@ -48,6 +48,7 @@ std::string set_enclosure(const MeshOptions& o, BrickSource& source, MeshParams&
   if (!enclosure.note.empty()) report.note(enclosure.note, o.common);
   params.enclose = enclosure.what;
   params.scene = std::move(enclosure.scene);
+  params.rounding = enclosure.rounding;
   // The user did not ask for the scene: the bound is on what bpmesh adds to the requested closing.
   if (o.error() && o.proxy.mode == MeshMode::bounding && o.proxy.enclose.kind == EncloseOption::Kind::automatic)
     params.distances_to = Enclose::closing;

@@ -48,7 +48,7 @@ double largest(const Vec3d& v) {
 /// adds one rounding for each corner. One bound serves a whole search: a corner that an early cut left at the required
 /// depth must be deep enough after the last cut.
 ConvexCover::Local ConvexCover::Local::after(int cuts) const {
-  return {origin, far, off + 10 * (cuts + 1) * kUnitRoundoff * far};
+  return {origin, far, moved, off + 10 * (cuts + 1) * kUnitRoundoff * far};
 }
 
 /// Returns a box, scene units, that holds the point that p approximates.
@@ -78,9 +78,8 @@ ConvexCover::ConvexCover(const std::vector<std::vector<TriangleD>>& parts) : box
 /// relative.
 ConvexCover::Plane::Height ConvexCover::Plane::height(const Vec3d& p, const Local& local) const {
   const Vec3d from = a - local.origin, d = p - from, steepest = absolute(n) + 16 * kUnitRoundoff * size;
-  const double off = local.off + kUnitRoundoff * largest(from);
-  return {dot(n, d),
-          16 * kUnitRoundoff * dot(size, absolute(d)) + 1.01 * off * (steepest[0] + steepest[1] + steepest[2])};
+  const double off = local.off + kUnitRoundoff * largest(from), along = steepest[0] + steepest[1] + steepest[2];
+  return {dot(n, d) + 1.01 * local.moved * along, 16 * kUnitRoundoff * dot(size, absolute(d)) + 1.01 * off * along};
 }
 
 bool ConvexCover::holds(std::uint32_t part, const Vec3d& p, const Local& local, double slack) const {
@@ -172,7 +171,7 @@ Answer ConvexCover::covers(const TriangleD& t, double moved) const {
   constexpr int kFewCuts = 32;  // the fewer cuts are allowed, the less is lost to rounding
   double far = 0;
   for (const Vec3d& p : t) far = std::max(far, largest(p - t[0]));
-  const Local local{t[0], far, moved};
+  const Local local{t[0], far, moved, 0};
   const auto holds_all = [&](std::uint32_t part) {
     return std::all_of(t.begin(), t.end(), [&](const Vec3d& p) { return holds(part, p - t[0], local.after(0), 1); });
   };

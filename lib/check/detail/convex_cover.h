@@ -17,9 +17,9 @@ class ConvexCover {
   /// Decides whether each point of the triangle lies strictly within a part. In floating point, with bounds on all
   /// rounding: both `proven` and `refuted` are certain. Undecided are triangles whose parts overlap by less than some
   /// 1e-13 of their size for each of a few cuts, and triangles that would need more than kMostPieces. Coordinates are
-  /// taken relative to the triangle, so that its distance from the origin does not matter. Thread-safe. `moved`: the
-  /// answer holds wherever the triangle's corners, and the planes of the parts, lie within this distance of their
-  /// places.
+  /// taken relative to the triangle, so that its distance from the origin does not matter. Thread-safe. `moved`: asks
+  /// it of parts whose planes have moved inwards by so much along each axis. So `proven` holds wherever the triangle's
+  /// corners, and the planes of the parts, lie within this distance of their places; `refuted` is about those parts.
   [[nodiscard]] Answer covers(const TriangleD& t, double moved = 0) const;
 
   /// Calls f(part) for each part whose box meets `box`, until f returns true. Returns whether it did.
@@ -35,7 +35,8 @@ class ConvexCover {
   /// A frame of coordinates around a triangle. Points are relative to `origin`, and off by `off` along each axis.
   struct Local {
     Vec3d origin;
-    double far;  // the largest coordinate in the frame
+    double far;    // the largest coordinate in the frame
+    double moved;  // as of covers()
     double off = 0;
     [[nodiscard]] Local after(int cuts) const;  // of the corners of a piece, and of its middle
   };

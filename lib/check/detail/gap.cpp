@@ -83,6 +83,34 @@ Bounds3d box_around(const TriangleD& t, double by) {
 
 }  // namespace
 
+namespace {
+
+/// Returns how far apart two planes across n are, between which nothing of the triangles is; below 0 if there are none.
+/// Points are measured from p. Wherever p is, the planes are this far apart.
+double between(const TriangleD& a, const TriangleD& b, const Vec3d& p, const Vec3d& n) {
+  const double size = length(n);
+  if (!(size > 0)) return -HUGE_VAL;
+  double a_low = HUGE_VAL, a_high = -HUGE_VAL, b_low = HUGE_VAL, b_high = -HUGE_VAL;
+  for (const Vec3d& c : a) a_low = std::min(a_low, dot(n, c - p)), a_high = std::max(a_high, dot(n, c - p));
+  for (const Vec3d& c : b) b_low = std::min(b_low, dot(n, c - p)), b_high = std::max(b_high, dot(n, c - p));
+  return std::max(b_low - a_high, a_low - b_high) / size;
+}
+
+/// Returns whether planes across a face, or across an edge of each, are so far apart.
+bool are_parted(const TriangleD& a, const TriangleD& b, const Vec3d& p, double distance) {
+  const auto edge = [](const TriangleD& t, std::size_t k) { return t[(k + 1) % 3] - t[k]; };
+  const auto parts = [&](const Vec3d& n) { return between(a, b, p, n) >= distance; };
+  if (parts(cross(edge(a, 0), edge(a, 1))) || parts(cross(edge(b, 0), edge(b, 1)))) return true;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      if (parts(cross(edge(a, i), edge(b, j)))) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
 Answer keeps_gap(const TriangleD& a, const TriangleD& b, double margin) {
   const Nearest nearest = nearest_of(a, b);
   const Vec3d& p = nearest.on_a;
@@ -91,13 +119,9 @@ Answer keeps_gap(const TriangleD& a, const TriangleD& b, double margin) {
   for (std::size_t i = 0; i < 3; ++i) far = std::max({far, std::abs(p[i]), std::abs(nearest.on_b[i])});
   const double rounding = kRounding * (size_around(p, a, b) + nearest.distance) + 0x1p-48 * far;
   if (nearest.distance < margin - rounding) return Answer::refuted;
-  const Vec3d n = (1 / nearest.distance) * (nearest.on_b - p);
-  double before = -HUGE_VAL, behind = HUGE_VAL;
-  for (const Vec3d& c : a) before = std::max(before, dot(n, c - p));
-  for (const Vec3d& c : b) behind = std::min(behind, dot(n, c - p));
-  const double between = (behind - before) / length(n);
-  // The planes are measured from p. Any p is right, since only their distance counts.
-  return between >= margin + kRounding * (size_around(p, a, b) + nearest.distance) ? Answer::proven : Answer::undecided;
+  const double least = margin + kRounding * (size_around(p, a, b) + nearest.distance);
+  const bool parted = between(a, b, p, nearest.on_b - p) >= least || are_parted(a, b, p, least);
+  return parted ? Answer::proven : Answer::undecided;
 }
 
 GapAnswer keeps_gap(const TriangleD& t, const TriangleBvh& surface, double margin) {

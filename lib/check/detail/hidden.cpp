@@ -95,15 +95,27 @@ class HiddenCheck {
       : mesh_(mesh), surface_(surface), walls_(walls), recipe_(recipe), max_examples_(max_examples) {}
 
   HiddenReport run(std::uint64_t memory_bytes) {
-    if (find_corners() && find_box(memory_bytes)) {
-      const BitBox hidden = hidden_voxels(touched_voxels(), recipe_);
-      check_faces(hidden);
-      check_swallowed(hidden);
+    if (!find_corners() || !find_box(memory_bytes)) return std::move(report_);
+    const std::int64_t slack = fixed_slack(recipe_.frame, report_.off);
+    check(slack);
+    if (slack != kFixedSlack && report_.exposed.count > 0) {
+      report_.exposed = {};
+      check(kFixedSlack);
+      if (report_.exposed.count == 0 && report_.undecided.empty())
+        undecided(
+            fmt::format("coordinates are read to within {:.2g}, and only as read is the proxy hidden", report_.off));
     }
     return std::move(report_);
   }
 
  private:
+  /// `slack`: that voxels are grown by when they are tested for triangles.
+  void check(std::int64_t slack) {
+    const BitBox hidden = hidden_voxels(touched_voxels(slack), recipe_);
+    check_faces(hidden);
+    check_swallowed(hidden);
+  }
+
   bool undecided(std::string why) {
     report_.undecided = std::move(why);
     return false;
@@ -149,6 +161,9 @@ class HiddenCheck {
         for (const Vec3d& p : t) bounds.add(p);
     }
     if (bounds.empty()) return undecided("no triangle of the scene hides anything");
+    report_.off = walls_.counts().rounding.of(bounds);
+    if (fixed_slack(recipe_.frame, report_.off) > kMostFixedSlack)
+      return undecided(fmt::format("coordinates are read to within {:.2g}, too much for these voxels", report_.off));
     const double reach = recipe_.scale_world / recipe_.frame.voxel;
     double bytes = double(kSetsAtOnce) / 8;
     for (const Vec3d& p : {bounds.min, bounds.max}) {
@@ -166,14 +181,14 @@ class HiddenCheck {
     return true;
   }
 
-  BitBox touched_voxels() {
+  BitBox touched_voxels(std::int64_t slack) {
     BitBox touched(box_);
     std::vector<FixedTriangle> fixed;
     walls_.rewind();
     for (std::vector<TriangleD> chunk; walls_.read(chunk);) {
       fixed.clear();
       for (const TriangleD& t : chunk) fixed.push_back(to_fixed(recipe_.frame, t));
-      voxelize_surface(fixed, touched);
+      voxelize_surface(fixed, touched, slack);
     }
     return touched;
   }

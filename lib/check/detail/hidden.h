@@ -14,6 +14,7 @@ struct HiddenReport {
   std::string undecided;           ///< why the question is not decided; empty if it is decided
   std::uint64_t memory_bytes = 0;  ///< memory that deciding takes, if memory is why it is undecided
   std::uint64_t triangles = 0;     ///< triangles of the scene
+  double off = 0;                  ///< what their points may be off by, scene units
   Finding exposed;  ///< index: nearby proxy triangle, other: 0, position: the middle of a voxel that is not hidden and
                     /// that the proxy meets
   [[nodiscard]] bool holds() const { return undecided.empty() && exposed.count == 0; }
@@ -22,8 +23,10 @@ struct HiddenReport {
 /// Decides whether the solid of the proxy, which must be closed and oriented, lies in the closed cubes of hidden
 /// voxels. Exact if all vertices are lattice points of the recipe. Other vertices, as those of a coarser level, are
 /// rounded to 2^-16 voxel, and the answer allows for that: it is undecided if a face comes that near to the side of a
-/// voxel. `walls`: the scene without its transparent parts; read twice from its start. Shared with the tools are the
-/// voxels that a triangle touches (lib/voxel), the closing of a tile (lib/closing) and the growth of voxel sets
+/// voxel. If coordinates were rounded when they were read, voxels are grown by as much when they are tested for
+/// triangles (fixed_slack()); what is exposed in these voxels, and not in those of the triangles as read, is undecided.
+/// `walls`: the scene without its transparent parts; read two or three times from its start. Shared with the tools are
+/// the voxels that a triangle touches (lib/voxel), the closing of a tile (lib/closing) and the growth of voxel sets
 /// (lib/grid). Memory: some 8 bits for each voxel of the scene's bounds; undecided if that exceeds memory_bytes.
 [[nodiscard]] HiddenReport check_hidden(const WeldedMesh& mesh, const Surface& surface, TriangleSource& walls,
                                         const HidingRecipe& recipe, std::size_t max_examples,

@@ -34,18 +34,20 @@ TileBody::TileBody(const IndexedMesh& content, std::size_t number) : number_(num
   off_ = most_off(mesh_.points, content.rounding);
 }
 
-bool TileBody::keeps_clear(const TriangleD& t, const std::optional<Bounds3d>& cell, double scene_off) const {
+bool TileBody::keeps_clear(const TriangleD& t, const std::optional<Bounds3d>& cell, double scene_off, bool is_inside,
+                           KnownInside& known) const {
   const double off = scene_off + off_;
   if (off == 0) return true;
   if (!cell) return keeps_gap(t, surface_->bvh(), off).answer == Answer::proven;
-  const double growth = growth_for(*cell, t);
-  if (off > growth / 2) return false;
+  if (!closed_ || !std::all_of(t.begin(), t.end(), [](const Vec3d& p) { return in_predicate_domain(p); })) return false;
+  // A point in the cell was read within `scene_off` of it.
+  const double growth = growth_for(*cell, t) + 2 * scene_off;
   const std::vector<Vec3d> part = TrianglePart(t, grown(*cell, growth)).corners();
   for (std::size_t k = 2; k < part.size(); ++k) {
     const GapAnswer gap = keeps_gap({part[0], part[k - 1], part[k]}, surface_->bvh(), off + rounding_of(*cell, t));
     if (gap.answer != Answer::proven) return false;
   }
-  return true;
+  return is_inside || part.empty() || side_of_part(t, *cell, growth, known) == Side::inside;
 }
 
 TileBody::Side TileBody::side_of(const TriangleD& t, const Bounds3d& bounds, const std::optional<Bounds3d>& cell,

@@ -49,9 +49,11 @@ class TileBody {
   /// Returns the side of the part of t in the cell; without a cell, of all of t. `bounds`: those of t.
   [[nodiscard]] Side side_of(const TriangleD& t, const Bounds3d& bounds, const std::optional<Bounds3d>& cell,
                              KnownInside& known) const;
-  /// For a triangle that lies inside: returns whether its part in the cell lies inside in the file, too, where each of
-  /// its points may be off by `scene_off`, and those of the content by as much as its reader says.
-  [[nodiscard]] bool keeps_clear(const TriangleD& t, const std::optional<Bounds3d>& cell, double scene_off) const;
+  /// Returns whether the part of t that may lie in the cell lies inside in the file, where each of its points may be
+  /// off by `scene_off`, and those of the content by as much as its reader says. `is_inside`: the part in the cell is
+  /// known to lie inside as read; else t misses the cell as read.
+  [[nodiscard]] bool keeps_clear(const TriangleD& t, const std::optional<Bounds3d>& cell, double scene_off,
+                                 bool is_inside, KnownInside& known) const;
 
  private:
   [[nodiscard]] Side side_of_part(const TriangleD& t, const Bounds3d& cell, double growth, KnownInside& known) const;

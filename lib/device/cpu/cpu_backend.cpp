@@ -4,8 +4,8 @@
 
 namespace bp {
 
-void CpuBackend::voxelize(std::span<const FixedTriangle> triangles, BitBox& out) {
-  voxelize_surface(triangles, out);
+void CpuBackend::voxelize(std::span<const FixedTriangle> triangles, BitBox& out, std::int64_t slack) {
+  voxelize_surface(triangles, out, slack);
 }
 
 void CpuBackend::find_crossings(std::span<const FixedTriangle> triangles, const VoxelBox& tile,

@@ -8,7 +8,7 @@ namespace bp {
 class CpuBackend final : public Backend {
  public:
   [[nodiscard]] std::string name() const override { return "cpu"; }
-  void voxelize(std::span<const FixedTriangle> triangles, BitBox& out) override;
+  void voxelize(std::span<const FixedTriangle> triangles, BitBox& out, std::int64_t slack) override;
   void find_crossings(std::span<const FixedTriangle> triangles, const VoxelBox& tile,
                       std::vector<Crossing>& out) override;
   void fill_winding(std::vector<Crossing>& crossings, std::span<const std::uint64_t> skip,

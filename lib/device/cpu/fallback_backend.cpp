@@ -16,12 +16,12 @@ bool FallbackBackend::device_does(const std::function<void(Backend&)>& call) {
   }
 }
 
-void FallbackBackend::voxelize(std::span<const FixedTriangle> triangles, BitBox& out) {
+void FallbackBackend::voxelize(std::span<const FixedTriangle> triangles, BitBox& out, std::int64_t slack) {
   BitBox before;
   if (device_) before = out;
-  if (device_does([&](Backend& device) { device.voxelize(triangles, out); })) return;
+  if (device_does([&](Backend& device) { device.voxelize(triangles, out, slack); })) return;
   if (!before.box().empty()) out = std::move(before);
-  cpu_.voxelize(triangles, out);
+  cpu_.voxelize(triangles, out, slack);
 }
 
 void FallbackBackend::find_crossings(std::span<const FixedTriangle> triangles, const VoxelBox& tile,

@@ -17,7 +17,7 @@ class FallbackBackend final : public Backend {
 
   [[nodiscard]] std::string name() const override { return device_ ? name_ : name_ + ", then cpu"; }
   [[nodiscard]] std::uint64_t pinned_bytes() const override { return device_ ? device_->pinned_bytes() : 0; }
-  void voxelize(std::span<const FixedTriangle> triangles, BitBox& out) override;
+  void voxelize(std::span<const FixedTriangle> triangles, BitBox& out, std::int64_t slack) override;
   void find_crossings(std::span<const FixedTriangle> triangles, const VoxelBox& tile,
                       std::vector<Crossing>& out) override;
   void fill_winding(std::vector<Crossing>& crossings, std::span<const std::uint64_t> skip,

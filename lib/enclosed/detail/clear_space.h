@@ -29,16 +29,17 @@ struct ClearSpace {
   }
 };
 
-/// Returns the half-space beyond `body` in this direction. `body` is relative to the tree's base. Rounding, with sizes
-/// of n that sum to 1: each of the three terms of n . p passes through at most 6 roundings of floats (n, p, the
-/// product, two sums), the limit through 2, so the height errs by less than 14 roundings of reach or limit; to_voxels
-/// errs by less than 2^-14 lattice units.
-inline ClearSpace beyond(const Vec3d& direction, std::span<const Vec3d> body, double reach) {
+/// Returns the half-space beyond `body` in this direction, and beyond all that is within `around` of it, lattice units.
+/// `body` is relative to the tree's base. Rounding, with sizes of n that sum to 1: each of the three terms of n . p
+/// passes through at most 6 roundings of floats (n, p, the product, two sums), the limit through 2, so the height errs
+/// by less than 14 roundings of reach or limit; to_voxels errs by less than 2^-14 lattice units.
+inline ClearSpace beyond(const Vec3d& direction, std::span<const Vec3d> body, double reach, double around = 0) {
   const double size = std::abs(direction[0]) + std::abs(direction[1]) + std::abs(direction[2]);
   if (!(size > 0)) return {{0, 0, 0}, 1};
   const Vec3d n = (1 / size) * direction;
   double limit = dot(n, body[0]);
   for (const Vec3d& p : body) limit = std::max(limit, dot(n, p));
+  limit += around;
   return {{float(n[0]), float(n[1]), float(n[2])}, float(limit + 0x1p-12 + 0x1p-20 * (reach + std::abs(limit)))};
 }
 

@@ -17,6 +17,6 @@ struct ConvexLevel {
 /// mesh; the results take its frame and scale. `bounds`: of everything that is enclosed; scene units. `corners`:
 /// scene_corners(); empty if only voxels are known, and then there is a box only.
 [[nodiscard]] std::vector<ConvexLevel> convex_levels(const LodLevel& place, const Bounds3d& bounds,
-                                                     std::span<const Vec3d> corners, std::uint64_t faces);
+                                                     std::span<const Vec3d> corners, double off, std::uint64_t faces);
 
 }  // namespace bp

@@ -70,7 +70,8 @@ std::optional<ConvexHull> grown(const ConvexHull& hull, double room) {
 
 }  // namespace
 
-std::optional<LodLevel> hull_level(const LodLevel& level, std::span<const Vec3d> corners, std::uint64_t faces) {
+std::optional<LodLevel> hull_level(const LodLevel& level, std::span<const Vec3d> corners, double off,
+                                   std::uint64_t faces) {
   constexpr double kLeast = 0.5;  // far more than the rounding of the doubles here
   if (corners.empty() || corners.size() > kMostOfScene) return {};
   std::vector<LatticeCoord> near;
@@ -83,11 +84,11 @@ std::optional<LodLevel> hull_level(const LodLevel& level, std::span<const Vec3d>
   const std::optional<ConvexHull> hull = hull_of(near);
   if (!hull || hull->triangles.size() > std::min<std::uint64_t>(faces, kMostFaces)) return {};
   for (double room = 1; room <= 8; room *= 1.5) {
-    const std::optional<ConvexHull> around = grown(*hull, room);
+    const std::optional<ConvexHull> around = grown(*hull, room + off);
     if (!around || around->triangles.size() > faces) return {};
     const std::vector<Side> sides = sides_of(*around);
     // A corner of the scene was moved by at most `rounding`, and its rounded place lies in the hull.
-    const auto is_deep = [&](const LatticeCoord& p) { return depth(sides, to_double(p)) >= kLeast + rounding; };
+    const auto is_deep = [&](const LatticeCoord& p) { return depth(sides, to_double(p)) >= kLeast + rounding + off; };
     if (!std::all_of(hull->vertices.begin(), hull->vertices.end(), is_deep)) continue;
     LatticeMesh mesh;
     mesh.vertices = around->vertices;

@@ -20,7 +20,7 @@ LevelScene::LevelScene(const StreamHeader& header, std::unique_ptr<BrickShelf> s
   const BrickShelf& voxels = *voxels_.reduced(0).shelf;
   // The scene is checked here, and not at each level, whose voxels may be larger.
   if (is_bounding() && options_.enclose == Enclose::scene && !options_.is_within)
-    require_within(options_.scene, header.frame, voxels);
+    require_within(options_.scene, options_.rounding, header.frame, voxels);
   naming_limit([&] { make_ruler(); }, [&] { return all_steps_limit(); });
   options_.surface.reset();
   take_off(ruler_->bytes());
@@ -62,7 +62,7 @@ std::shared_ptr<const Enclosed> LevelScene::enclosed(const LevelVoxels::Solid& s
   if (std::shared_ptr<const Enclosed> made = place.lock()) return made;
   kept_.reset();
   std::shared_ptr<const Enclosed> made;
-  isolated([&] { made = enclosed_scene(options_.scene, solid.header, *solid.shelf); });
+  isolated([&] { made = enclosed_scene(options_.scene, options_.rounding, solid.header, *solid.shelf); });
   place = made;
   if (made->bytes() <= context().memory.bytes / kSmallShare) kept_ = made;
   return made;
@@ -72,7 +72,7 @@ std::optional<LevelStart> LevelScene::own_surface() {
   // For a scene of more triangles than the voxels' surface, the latter leads to the level faster.
   if (!has_triangles() || options_.field || options_.scene.size() > ruler_->dense_faces) return std::nullopt;
   const StreamHeader& header = voxels_.reduced(0).header;
-  std::optional<LatticeMesh> surface = outward_scene(options_.scene, header.frame);
+  std::optional<LatticeMesh> surface = outward_scene(options_.scene, options_.rounding, header.frame);
   if (!surface) return std::nullopt;
   surface->provenance = header.provenance;
   const MeshMeasures measures = measure(*surface);

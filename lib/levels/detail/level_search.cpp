@@ -122,8 +122,9 @@ std::vector<ConvexLevel> LevelSearch::convex_ways() {
   place.mesh.frame = header.frame;
   place.mesh.provenance = header.provenance;
   place.attempts = 1;
-  if (!scene_.has_triangles()) return convex_levels(place, scene_.ruler().bounds(), {}, target_.faces);
-  return convex_levels(place, scene_.bounds(), scene_corners(header.frame, options_.scene), target_.faces);
+  if (!scene_.has_triangles()) return convex_levels(place, scene_.ruler().bounds(), {}, 0, target_.faces);
+  const double off = options_.rounding.of(scene_.bounds()) * kLatticePerVoxel / header.frame.voxel;
+  return convex_levels(place, scene_.bounds(), scene_corners(header.frame, options_.scene), off, target_.faces);
 }
 
 /// Returns whether the target has fewer than `faces_per_part` faces for each part and hole of the closing.
@@ -250,7 +251,7 @@ MeshParams LevelSearch::mesh_params(const Solid& solid, std::optional<double> ne
         std::max(target_.error_world - std::sqrt(3.0) * (solid.header.frame.voxel + scene_.ruler().voxel()),
                  target_.error_world / 4);
   params.near_world = near_world;
-  if (options_.mode == MeshMode::fit) params.scene = options_.scene;
+  if (options_.mode == MeshMode::fit) params.scene = options_.scene, params.rounding = options_.rounding;
   return params;
 }
 

@@ -156,14 +156,14 @@ LatticeMesh prism(const Slab& slab, const std::vector<Flat>& outline, double roo
 
 /// Returns whether the prism still encloses the slab and the outline after its corners were rounded: both ends lie
 /// beyond the slab and are hardly tilted, and the outline lies inside each side's plane.
-bool holds(const LatticeMesh& mesh, const Slab& slab, const std::vector<Flat>& outline) {
-  constexpr double kLeast = 0.5;  // far more than the rounding of the doubles here
+bool holds(const LatticeMesh& mesh, const Slab& slab, const std::vector<Flat>& outline, double off) {
+  const double least = 0.5 + off;  // far more than the rounding of the doubles here
   const std::size_t n = mesh.vertices.size() / 2;
   std::vector<Vec3d> at;
   for (const LatticeCoord& p : mesh.vertices) at.push_back(to_double(p) - slab.origin);
   const auto corner = [&](std::size_t v) { return Flat{dot(at[v], slab.a), dot(at[v], slab.b)}; };
   for (std::size_t v = 0; v < n; ++v) {
-    if (dot(at[v], slab.up) > slab.low - kLeast || dot(at[v + n], slab.up) < slab.high + kLeast) return false;
+    if (dot(at[v], slab.up) > slab.low - least || dot(at[v + n], slab.up) < slab.high + least) return false;
   }
   for (std::size_t i = 1; i + 1 < n; ++i) {
     for (const std::size_t end : {std::size_t(0), n}) {
@@ -176,14 +176,15 @@ bool holds(const LatticeMesh& mesh, const Slab& slab, const std::vector<Flat>& o
     const Vec3d p = at[t[0]], normal = cross(at[t[1]] - p, at[t[2]] - p);
     return std::all_of(outline.begin(), outline.end(), [&](const Flat& c) {
       return std::max(dot(slab.point(c, slab.low) - slab.origin - p, normal),
-                      dot(slab.point(c, slab.high) - slab.origin - p, normal)) <= -kLeast * length(normal);
+                      dot(slab.point(c, slab.high) - slab.origin - p, normal)) <= -least * length(normal);
     });
   });
 }
 
 }  // namespace
 
-std::optional<LodLevel> prism_level(const LodLevel& level, std::span<const Vec3d> corners, std::uint64_t faces) {
+std::optional<LodLevel> prism_level(const LodLevel& level, std::span<const Vec3d> corners, double off,
+                                    std::uint64_t faces) {
   if (corners.empty()) return {};
   const std::optional<Slab> slab = slab_of(corners);
   if (!slab) return {};
@@ -193,11 +194,12 @@ std::optional<LodLevel> prism_level(const LodLevel& level, std::span<const Vec3d
   if (hull.size() < 3 || hull.size() > kMostOfOutline || faces < kFacesOfTriangle) return {};
   const std::vector<Flat> outline = with_fewer(hull, std::size_t((faces + 4) / 4));
   if (outline.empty()) return {};
-  for (double room = 2; room <= 8; room *= 2) {
+  for (double step = 2; step <= 8; step *= 2) {
+    const double room = step + off;
     const std::vector<Flat> around = grown(outline, room);
     if (around.empty()) return {};
     const LatticeMesh mesh = prism(*slab, around, room);
-    if (holds(mesh, *slab, hull)) return convex_level(level, mesh);
+    if (holds(mesh, *slab, hull, off)) return convex_level(level, mesh);
   }
   return {};
 }

@@ -17,8 +17,6 @@ namespace bp {
 namespace {
 
 constexpr const char* kJobName = "tile";
-// In lattice units; far more than a check grows the cell by, far less than a voxel.
-constexpr std::int64_t kLatticeAround = 1;
 
 /// Makes bricks of the voxels in `box` from rows. word(c, y, z, p, i) returns row (y, z) of brick c; the row begins at
 /// voxel p, and is word i of a row of a bit box over `box`.
@@ -51,7 +49,7 @@ ResultKey TileMaker::key() const {
   add_voxels(hash, level_.surface, reach(), origin);
   if (params_.scene != nullptr) {
     const std::vector<TriangleD> scene = scene_nearby();
-    hash.add(std::as_bytes(std::span(scene)));
+    hash.add(std::as_bytes(std::span(scene)), params_.rounding.share, params_.rounding.offset);
   }
   if (params_.add_to_key) params_.add_to_key(coord_, hash);
   return hash.key();
@@ -77,7 +75,7 @@ void TileMaker::take_scene() {
   if (!fit && params_.enclose != Enclose::scene) return;
   scene_ = scene_nearby();
   if (fit) return;
-  const Bounds3d cell = world(cell_, kLatticeAround);
+  const Bounds3d cell = grown_world();
   const bool here =
       std::any_of(scene_.begin(), scene_.end(), [&](const TriangleD& t) { return overlap(bounds_of(t), cell); });
   if (!here || scene_.size() > TileParams::kMostTriangles) scene_.clear();
@@ -198,13 +196,13 @@ MeshParams TileMaker::mesh_params(TileMeasures& measures) const {
     if (params_.faces == 0 && params_.mode == MeshMode::bounding && solid_faces <= TileParams::kMostFacesForError)
       mesh.error_world = TileParams::kErrorVox * level_.header.frame.voxel;
   }
-  mesh.scene = scene_;
+  mesh.scene = scene_, mesh.rounding = params_.rounding;
   if (params_.mode == MeshMode::fit) {
     mesh.enclose = scene_.empty() ? Enclose::closing : Enclose::scene;
   } else if (params_.enclose == Enclose::scene) {
     mesh.enclose = scene_.empty() ? Enclose::input : Enclose::scene;
     mesh.distances_to = Enclose::input;
-    if (!scene_.empty()) mesh.part = ScenePart{world(cell_, kLatticeAround), held_.get()};
+    if (!scene_.empty()) mesh.part = ScenePart{grown_world(), held_.get()};
   }
   return mesh;
 }
@@ -233,6 +231,13 @@ Bounds3d TileMaker::world(const VoxelBox& box, std::int64_t by) const {
                                           p.y * std::int64_t(kLatticePerVoxel) + more,
                                           p.z * std::int64_t(kLatticePerVoxel) + more}));
   return bounds;
+}
+
+/// Returns the cell, grown by a lattice unit and by twice the distance that triangles may be off: far more than a check
+/// grows it by, and less than a voxel.
+Bounds3d TileMaker::grown_world() const {
+  const double off = params_.rounding.of(level_.header.bounds) * kLatticePerVoxel / level_.header.frame.voxel;
+  return world(cell_, 1 + std::int64_t(std::ceil(2 * off)));
 }
 
 /// Returns the triangles that meet the box of reach(), in the scene's order.

@@ -37,6 +37,7 @@ class TileMaker {
   [[nodiscard]] MeshParams mesh_params(TileMeasures& measures) const;
   [[nodiscard]] StreamHeader header() const;
   [[nodiscard]] Bounds3d world(const VoxelBox& box, std::int64_t by = 0) const;
+  [[nodiscard]] Bounds3d grown_world() const;
   [[nodiscard]] std::vector<TriangleD> scene_nearby() const;
   [[nodiscard]] std::vector<TriangleD> shown() const;
   [[nodiscard]] VoxelBox reach() const;

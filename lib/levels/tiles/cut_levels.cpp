@@ -42,7 +42,7 @@ TileParams tile_params(const TilesetPlan& plan, std::size_t level, const CutOpti
   // What is enclosed is within a diagonal of a voxel of the scene.
   if (const double asked = cut.target.error_world; asked > 0)
     params.error_world = std::max(asked - std::sqrt(3.0) * (cut.frame.voxel + plan.cut.front().frame.voxel), asked / 4);
-  params.scene = options.scene;
+  params.scene = options.scene, params.rounding = options.rounding;
   params.make = options.make;
   if (options.jobs) {
     params.wanted = [&cut, jobs = *options.jobs](CellCoord cell) { return jobs.meets(cut.number_of(cell), 1); };

@@ -16,6 +16,7 @@ struct CutOptions {
   Enclose enclose = Enclose::input;
   SceneColors* colors = nullptr;       ///< null: none
   const TriangleBvh* scene = nullptr;  ///< the triangles that fits follow; null: they follow the closing
+  Rounding rounding;                   ///< of the scene's triangles
   std::optional<JobRange> jobs;        ///< empty: all
   bool make = true;                    ///< TileParams::make
 };

@@ -46,6 +46,7 @@ struct TileParams : TileShape {
   /// The triangles that vertices of a fit move to; null: they move to the closing. With Enclose::scene, the triangles
   /// that stay inside; null: the solid stays inside.
   const TriangleBvh* scene = nullptr;
+  Rounding rounding;                      ///< of the scene's triangles
   std::function<bool(CellCoord)> wanted;  ///< tells which tiles are made; empty: all
   bool make = true;                       ///< false: tiles that are not kept are passed on without measures and content
   std::function<void(CellCoord, KeyHash&)>

@@ -55,6 +55,7 @@ struct MeshParams {
   bool edges_yield = false;  ///< the factor grows if the number of faces cannot be reached otherwise
   Enclose enclose = Enclose::closing;
   std::vector<TriangleD> scene;  ///< for Enclose::scene; scene units, as read
+  Rounding rounding;             ///< of `scene`
   /// Replaces `scene`: made by enclosed_scene() in the frame of the stream, and its triangles lie in the stream's
   /// voxels. Not owned; null: `scene` is used.
   const Enclosed* enclosed = nullptr;
@@ -101,8 +102,8 @@ struct MeshCounts {
 
 /// Makes MeshParams::enclosed from the triangles of a scene. `solid`: their voxels, as bricks of `header`. Many proxies
 /// may share the result.
-[[nodiscard]] std::unique_ptr<Enclosed> enclosed_scene(std::vector<TriangleD> triangles, const StreamHeader& header,
-                                                       const BrickShelf& solid);
+[[nodiscard]] std::unique_ptr<Enclosed> enclosed_scene(std::vector<TriangleD> triangles, const Rounding& rounding,
+                                                       const StreamHeader& header, const BrickShelf& solid);
 
 /// Makes the proxies, finest first: one for each number in params.faces, or one. `params` is passed by value, since the
 /// scene's triangles are moved out of it. Meshes the closing layer; the solid layer if the stream has no closing.

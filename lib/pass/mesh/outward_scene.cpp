@@ -5,6 +5,7 @@
 
 #include "lib/core/disjoint_sets.h"
 #include "lib/core/parallel.h"
+#include "lib/geometry/triangle_bvh.h"
 #include "lib/geometry/welded_triangles.h"
 #include "lib/mesh/constrained_minimum.h"
 #include "lib/mesh/lattice_geometry.h"
@@ -128,12 +129,14 @@ LatticeMesh moved_outwards(const Fans& fans, const GridFrame& frame, double dist
 
 }  // namespace
 
-std::optional<LatticeMesh> outward_scene(std::span<const TriangleD> scene, const GridFrame& frame) {
+std::optional<LatticeMesh> outward_scene(std::span<const TriangleD> scene, const Rounding& rounding,
+                                         const GridFrame& frame) {
+  const double off = rounding.of(bounds_of(scene)) * kLatticePerVoxel / frame.voxel;
   for (const double unit : kUnits) {
     const std::optional<Fans> fans = fans_of(scene, frame, unit);
     if (!fans) return {};
-    LatticeMesh mesh = moved_outwards(*fans, frame, kStep * unit);
-    if (!mend_around(mesh, scene)) continue;
+    LatticeMesh mesh = moved_outwards(*fans, frame, kStep * unit + off);
+    if (!mend_around(mesh, scene, rounding)) continue;
     HalfEdgeMesh shells(mesh);
     erase_inner_shells(shells);
     return shells.compact(frame);

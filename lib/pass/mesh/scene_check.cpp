@@ -7,6 +7,7 @@
 
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
+#include "lib/geometry/triangle_bvh.h"
 #include "lib/voxel/voxelize.h"
 
 namespace bp {
@@ -30,7 +31,7 @@ Bricks box_around(std::span<const BrickCoord> coords) {
 
 /// Returns false for a point outside the box of bricks, or so near to its boundary that voxelization would set a voxel
 /// outside.
-bool is_among(const GridFrame& frame, const Vec3d& p, const Bricks& all) {
+bool is_among(const GridFrame& frame, std::int64_t slack, const Vec3d& p, const Bricks& all) {
   const Vec3d v = frame.to_voxels(p);
   for (int i = 0; i < 3; ++i) {
     const double x = v[std::size_t(i)] / kBrickEdge;
@@ -39,8 +40,8 @@ bool is_among(const GridFrame& frame, const Vec3d& p, const Bricks& all) {
   const FixedPoint f = to_fixed(frame, p);
   const std::array<std::int64_t, 3> x = {f.x, f.y, f.z};
   for (int i = 0; i < 3; ++i) {
-    if (x[std::size_t(i)] <= all.low[i] * kBrickEdge * kFixedOne + kFixedSlack) return false;
-    if (x[std::size_t(i)] >= (all.high[i] + 1) * kBrickEdge * kFixedOne - kFixedSlack) return false;
+    if (x[std::size_t(i)] <= all.low[i] * kBrickEdge * kFixedOne + slack) return false;
+    if (x[std::size_t(i)] >= (all.high[i] + 1) * kBrickEdge * kFixedOne - slack) return false;
   }
   return true;
 }
@@ -49,24 +50,27 @@ bool is_among(const GridFrame& frame, const Vec3d& p, const Bricks& all) {
 using Items = std::vector<std::pair<TileCoord, std::uint32_t>>;
 
 /// Lists the triangles that each brick meets, sorted by brick. Returns false if a corner lies outside all bricks.
-bool sort_into_bricks(std::span<const TriangleD> triangles, const GridFrame& frame, const Bricks& all, Items& items) {
+bool sort_into_bricks(std::span<const TriangleD> triangles, const GridFrame& frame, std::int64_t slack,
+                      const Bricks& all, Items& items) {
   TileCoord count;
   for (int i = 0; i < 3; ++i) count[i] = all.high[i] - all.low[i] + 1;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     for (const Vec3d& p : triangles[t]) {
-      if (!is_among(frame, p, all)) return false;
+      if (!is_among(frame, slack, p, all)) return false;
     }
-    for_each_tile(to_fixed(frame, triangles[t]), first_voxel(all.low), kBrickEdge, count,
-                  [&](TileCoord tile) { items.emplace_back(tile, std::uint32_t(t)); });
+    for_each_tile(
+        to_fixed(frame, triangles[t]), first_voxel(all.low), kBrickEdge, count,
+        [&](TileCoord tile) { items.emplace_back(tile, std::uint32_t(t)); }, slack);
   }
   std::sort(items.begin(), items.end());
   return true;
 }
 
-bool holds(const BrickShelf& shelf, const BrickCoord& brick, std::span<const FixedTriangle> triangles) {
+bool holds(const BrickShelf& shelf, const BrickCoord& brick, std::span<const FixedTriangle> triangles,
+           std::int64_t slack) {
   const VoxelCoord low = first_voxel(brick);
   BitBox met({low, {low.x + kBrickEdge, low.y + kBrickEdge, low.z + kBrickEdge}});
-  voxelize_surface(triangles, met);
+  voxelize_surface(triangles, met, slack);
   BrickBits bits{};
   (void)shelf.get(brick, bits);
   for (std::size_t i = 0; i < kBrickWords; ++i) {
@@ -75,16 +79,16 @@ bool holds(const BrickShelf& shelf, const BrickCoord& brick, std::span<const Fix
   return true;
 }
 
-bool lie_within(std::span<const TriangleD> triangles, const GridFrame& frame, const BrickShelf& shelf,
-                const Bricks& all) {
+bool lie_within(std::span<const TriangleD> triangles, const GridFrame& frame, std::int64_t slack,
+                const BrickShelf& shelf, const Bricks& all) {
   Items items;
-  if (!sort_into_bricks(triangles, frame, all, items)) return false;
+  if (!sort_into_bricks(triangles, frame, slack, all, items)) return false;
   std::vector<FixedTriangle> fixed;
   for (std::size_t i = 0; i < items.size(); ++i) {
     const TileCoord tile = items[i].first;
     fixed.push_back(to_fixed(frame, triangles[items[i].second]));
     if (i + 1 < items.size() && items[i + 1].first == tile) continue;
-    if (!holds(shelf, {all.low.x + tile.x, all.low.y + tile.y, all.low.z + tile.z}, fixed)) return false;
+    if (!holds(shelf, {all.low.x + tile.x, all.low.y + tile.y, all.low.z + tile.z}, fixed, slack)) return false;
     fixed.clear();
   }
   return true;
@@ -92,21 +96,25 @@ bool lie_within(std::span<const TriangleD> triangles, const GridFrame& frame, co
 
 }  // namespace
 
-bool lies_within(std::span<const TriangleD> triangles, const GridFrame& frame, const BrickShelf& shelf) {
+bool lies_within(std::span<const TriangleD> triangles, const Rounding& rounding, const GridFrame& frame,
+                 const BrickShelf& shelf) {
   const std::vector<BrickCoord> coords = shelf.coords();
   if (triangles.empty()) return true;
-  if (coords.empty()) return false;
+  const std::int64_t slack = fixed_slack(frame, rounding.any() ? rounding.of(bounds_of(triangles)) : 0);
+  if (coords.empty() || slack > kMostFixedSlack) return false;
   const Bricks all = box_around(coords);
   std::atomic<bool> within = true;
   parallel_ranges(std::int64_t(triangles.size()), kTrianglesAtOnce, [&](std::int64_t begin, std::int64_t end) {
-    if (within && !lie_within(triangles.subspan(std::size_t(begin), std::size_t(end - begin)), frame, shelf, all))
+    if (within &&
+        !lie_within(triangles.subspan(std::size_t(begin), std::size_t(end - begin)), frame, slack, shelf, all))
       within = false;
   });
   return within;
 }
 
-void require_within(std::span<const TriangleD> triangles, const GridFrame& frame, const BrickShelf& shelf) {
-  if (lies_within(triangles, frame, shelf)) return;
+void require_within(std::span<const TriangleD> triangles, const Rounding& rounding, const GridFrame& frame,
+                    const BrickShelf& shelf) {
+  if (lies_within(triangles, rounding, frame, shelf)) return;
   fail(ErrorCode::bad_input, {Remedy::enclose_own_scene},
        "the scene to be enclosed does not lie inside the voxels of the stream: the stream was made from another scene");
 }

@@ -71,7 +71,7 @@ class SceneVoxelizer {
   [[nodiscard]] bool guess_grid();
   void measure(bool guessed);
   void lay_grid(bool guessed);
-  [[nodiscard]] StreamHeader header_of(const Bounds3d& bounds);
+  [[nodiscard]] StreamHeader header_of(const Bounds3d& bounds, double off);
   void cut_grid();
   using Portion = ScenePasses::Portion;
   using NextPortion = ScenePasses::NextPortion;
@@ -100,6 +100,7 @@ class SceneVoxelizer {
   std::unique_ptr<ChunkedSurface> chunks_;  ///< used in place of bins_, except for large triangles
   ScenePasses scene_;
   StreamHeader header_;
+  std::int64_t slack_ = kFixedSlack;  ///< that voxels are grown by; a grid that is guessed does not know it
   TileGrid tiles_;
   std::unique_ptr<SurfaceBricks> bricks_;  ///< null if chunks have their own bricks, or if triangles are needed by tile
   std::unique_ptr<TriangleBins> bins_;     ///< for triangles that bricks do not take
@@ -115,7 +116,7 @@ bool SceneVoxelizer::guess_grid() {
   const std::optional<Bounds3d> bounds = source_.bounds();
   if (!bounds) return false;
   try {
-    header_ = header_of(*bounds);
+    header_ = header_of(*bounds, 0);
     cut_grid();
   } catch (const Error&) {  // the error is reported when the bounds are known
     return false;
@@ -138,10 +139,11 @@ void SceneVoxelizer::measure(bool guessed) {
   counts_.input_hash = scene_.input_hash();
 }
 
-StreamHeader SceneVoxelizer::header_of(const Bounds3d& bounds) {
+/// `off`: what points may be off by, scene units.
+StreamHeader SceneVoxelizer::header_of(const Bounds3d& bounds, double off) {
   counts_.voxel_asked = options_.voxel_size(bounds);
   const UpAxis up = options_.up ? *options_.up : source_.up().value_or(UpAxis::y);
-  return solid_header(bounds, counts_.voxel_asked, up, options_);
+  return solid_header(bounds, std::max(counts_.voxel_asked, kVoxelsPerOff * off), up, options_);
 }
 
 /// Cuts the header's grid into tiles, and makes empty containers for triangles and voxels.
@@ -180,8 +182,11 @@ void SceneVoxelizer::cut_grid() {
 void SceneVoxelizer::lay_grid(bool guessed) {
   const GridFrame guess = header_.frame;
   const BrickBox guessed_bricks = header_.bricks;
-  header_ = header_of(scene_.sums().bounds());
-  sorted_ = guessed && scene_.sorted() && header_.frame == guess && header_.bricks == guessed_bricks;
+  const double off = counts_.scene.rounding.of(scene_.sums().bounds());
+  header_ = header_of(scene_.sums().bounds(), off);
+  slack_ = fixed_slack(header_.frame, off);
+  sorted_ =
+      guessed && scene_.sorted() && header_.frame == guess && header_.bricks == guessed_bricks && slack_ == kFixedSlack;
   if (!sorted_) cut_grid();
   if (!sorted_ && guessed) scene_.read_twice();  // no triangle stayed in memory
   counts_.read_twice = scene_.reads_twice();
@@ -198,7 +203,7 @@ void SceneVoxelizer::sort_triangles() {
 
 /// Triangles of known chunks are not read again. If all chunks are known, the scene is not read twice.
 void SceneVoxelizer::look_up_chunks() {
-  chunks_->look_up(header_.frame, header_.bricks, options_.context.memory.bytes / 10 * 3, *shelf_);
+  chunks_->look_up(header_.frame, slack_, header_.bricks, options_.context.memory.bytes / 10 * 3, *shelf_);
   counts_.chunks = chunks_->chunks();
   counts_.chunks_kept = chunks_->kept();
   if (chunks_->complete()) return;
@@ -219,13 +224,13 @@ void SceneVoxelizer::look_up_chunks() {
 TriangleBatch SceneVoxelizer::sort(std::span<const TriangleD> triangles) const {
   std::vector<FixedTriangle> rest;
   if (bricks_) {
-    bricks_->add(triangles, header_.frame, rest);
+    bricks_->add(triangles, header_.frame, slack_, rest);
   } else {
     const FixedFrame to_fixed(header_.frame);
     rest.reserve(triangles.size());
     for (const TriangleD& t : triangles) rest.push_back(to_fixed(t));
   }
-  return bins_->sort(rest);
+  return bins_->sort(rest, slack_);
 }
 
 void SceneVoxelizer::bin(TriangleBatch&& batch) {
@@ -329,7 +334,7 @@ void SceneVoxelizer::voxelize_tile(std::uint64_t tile, bool& on_shelf, bool last
     work->crossings.clear();
     {
       const BackendPool::Lease backend(*backends_);
-      backend->voxelize(triangles, work->bits);
+      backend->voxelize(triangles, work->bits, slack_);
       if (options_.fill == FillMode::winding) backend->find_crossings(triangles, box, work->crossings);
     }
     if (fill_) fill_->add_crossings(tile, work->crossings);

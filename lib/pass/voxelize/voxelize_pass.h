@@ -17,7 +17,8 @@
 namespace bp {
 
 struct VoxelizeOptions {
-  /// Returns the voxel size in scene units, given the scene's bounds; make_frame rounds it up a little.
+  /// Returns the voxel size in scene units, given the scene's bounds; make_frame rounds it up a little. It becomes
+  /// kVoxelsPerOff times what points may be off by, if that is more.
   std::function<double(const Bounds3d&)> voxel_size;
   /// Voxel_size depends on the bounds only: it may be called before the scene has been read.
   bool voxel_by_bounds = false;

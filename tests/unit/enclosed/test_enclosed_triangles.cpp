@@ -3,6 +3,7 @@
 #include "lib/core/vec3.h"
 #include "lib/enclosed/enclosed_triangles.h"
 #include "lib/exact/triangle_intersection.h"
+#include "lib/geometry/triangle_bvh.h"
 #include "tests/catch.h"
 #include "tests/support/random_lattice.h"
 
@@ -171,4 +172,35 @@ TEST_CASE("a set of triangles allows what its definition allows, to the last bit
   }
   CHECK(allowed_ones > 200);
   CHECK(refused > 200);
+}
+
+TEST_CASE("no face comes as near to a rounded triangle as it may be off by", "[quick][meshing][rounding]") {
+  GridFrame frame;
+  frame.voxel = 64;  // a lattice unit is a unit
+  RandomLattice random(5);
+  Rounding rounding;
+  rounding.see(1.5, 60, 0);
+  int near = 0, free = 0;
+  for (int i = 0; i < 3000; ++i) {
+    TriangleD t, world;
+    NewFace face{{0, 1, 2}, {random.point(-40, 40), random.point(-40, 40), random.point(-40, 40)}};
+    for (std::size_t k = 0; k < 3; ++k) world[k] = to_double(face.corners[k]);
+    for (Vec3d& p : t) p = to_double(random.point(-40, 40));
+    const EnclosedTriangles rounded({t}, frame, {}, rounding), exact({t}, frame);
+    const bool allowed = rounded.allows(std::span(&face, 1), {}, nullptr);
+    if (allowed) CHECK(exact.allows(std::span(&face, 1), {}, nullptr));
+    double nearest = HUGE_VAL;  // of samples of the triangle
+    for (int a = 0; a <= 8; ++a) {
+      for (int b = 0; a + b <= 8; ++b) {
+        const Vec3d p = t[0] + a / 8.0 * (t[1] - t[0]) + b / 8.0 * (t[2] - t[0]);
+        nearest = std::min(nearest, std::sqrt(distance_squared(p, world)));
+      }
+    }
+    const double off = rounding.of(t);
+    if (nearest <= off) CHECK_FALSE(allowed);
+    near += nearest <= off, free += allowed;
+    if (nearest > 15 * off) CHECK(allowed);
+  }
+  CHECK(near > 50);
+  CHECK(free > 50);
 }

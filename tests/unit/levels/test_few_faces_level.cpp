@@ -120,7 +120,7 @@ TEST_CASE("prisms of flat scenes hold them, however they lie", "[quick][pass][lo
     for (int i = 0; i < n; ++i) scene.push_back({point(), point(), point()});
     const LodLevel level = level_to_replace(scene, random);
     const std::uint64_t faces = random.between(8, 200);
-    const std::optional<LodLevel> prism = prism_level(level, scene_corners(level.mesh.frame, scene), faces);
+    const std::optional<LodLevel> prism = prism_level(level, scene_corners(level.mesh.frame, scene), 0, faces);
     if (!prism) continue;
     ++made;
     CAPTURE(seed);
@@ -172,7 +172,7 @@ TEST_CASE("hulls of scenes hold them, however they lie", "[quick][pass][lod]") {
     };
     for (int i = int(random.between(2, 12)); i > 0; --i) scene.push_back({point(), point(), point()});
     const LodLevel level = level_to_replace(scene, random);
-    const std::optional<LodLevel> hull = hull_level(level, scene_corners(level.mesh.frame, scene), 60);
+    const std::optional<LodLevel> hull = hull_level(level, scene_corners(level.mesh.frame, scene), 0, 60);
     if (!hull) continue;
     ++made;
     CAPTURE(seed);

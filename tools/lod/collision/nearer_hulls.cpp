@@ -8,6 +8,7 @@
 #include "lib/grid/shelf_stream.h"
 #include "lib/hulls/convex_budget.h"
 #include "lib/hulls/convex_scene.h"
+#include "lib/hulls/outward_hull.h"
 #include "lib/levels/lod_chain.h"
 #include "tools/lod/choices.h"
 #include "tools/lod/collision/collision_files.h"
@@ -21,7 +22,9 @@ constexpr double kCounts = 0.05;
 
 class RestSource final : public TriangleSource {
  public:
-  explicit RestSource(const std::vector<TriangleD>& triangles) : triangles_(triangles) {}
+  RestSource(const std::vector<TriangleD>& triangles, const Rounding& rounding) : triangles_(triangles) {
+    counts_.rounding = rounding;
+  }
   bool read(std::vector<TriangleD>& out) override {
     constexpr std::size_t kAtOnce = 16384;
     const std::size_t end = std::min(next_ + kAtOnce, triangles_.size());
@@ -30,7 +33,7 @@ class RestSource final : public TriangleSource {
     counts_.triangles = end;
     return !out.empty();
   }
-  void rewind() override { next_ = 0, counts_ = {}; }
+  void rewind() override { next_ = 0, counts_.triangles = 0; }
   [[nodiscard]] const SceneCounts& counts() const override { return counts_; }
   [[nodiscard]] std::string name() const override { return "the rest of the scene"; }
 
@@ -52,7 +55,7 @@ LatticeMesh in_finer_frame(LatticeMesh mesh, int reductions) {
 /// Makes a body around the scene's remaining triangles as the chain made the scene's: with the same voxels and the same
 /// target.
 LatticeMesh body_of_rest(Build& build, const MadeChain& chain, std::vector<TriangleD> rest, LodOptions lod) {
-  RestSource source(rest);
+  RestSource source(rest, lod.rounding);
   VoxelizeOptions v;
   v.fill = build.options.voxels.fill;
   v.up = chain.scene.voxels.header.frame.up;
@@ -79,18 +82,34 @@ LatticeMesh body_of_rest(Build& build, const MadeChain& chain, std::vector<Trian
 
 /// Returns the scene's convex parts unchanged, and the hulls of a body around the rest.
 ConvexParts hulls_of_parts(Build& build, const MadeChain& chain, ConvexScene scene, HullLimits limits, LodOptions lod) {
+  const Rounding rounding = lod.rounding;
   LatticeMesh rest;
   rest.frame = chain.scene.voxels.header.frame;
   if (!scene.rest.empty()) rest = body_of_rest(build, chain, std::move(scene.rest), std::move(lod));
   rest.provenance = chain.made.levels.front().mesh.provenance;
-  const std::vector<ConvexHull> given = hulls_around(scene, rest.frame, limits.corners);
+  const std::vector<ConvexHull> given = hulls_around(scene, rest.frame, limits.corners, rounding);
   if (build.options.levels.faces.empty()) limits.faces = std::max(limits.faces, face_count(given));
   return convex_parts(rest, limits, given);
 }
 
-}  // namespace
+/// Hulls overlap by a lattice unit where the body was cut, and the body keeps clear of the scene by what that may be
+/// off by. So a point that is off by up to half a unit stays in a hull. `off`: scene units; more of them take larger
+/// hulls.
+ConvexParts grown(ConvexParts parts, double off) {
+  constexpr double kOverlap = 0.25;  // lattice units, with room for the rounding of a check
+  for (LatticeMesh& hull : parts.hulls) {
+    const double by = off * kLatticePerVoxel / hull.frame.voxel;
+    if (by <= kOverlap) continue;
+    std::vector<Vec3d> corners;
+    for (const LatticeCoord& v : hull.vertices) corners.push_back(to_double(v));
+    ConvexHull around = outward_hull(corners, by);
+    hull.vertices = std::move(around.vertices);
+    hull.triangles = std::move(around.triangles);
+  }
+  return parts;
+}
 
-ConvexParts nearer_hulls(Build& build, const MadeChain& chain) {
+ConvexParts nearest_hulls(Build& build, const MadeChain& chain) {
   const LatticeMesh& body = chain.made.levels.front().mesh;
   HullLimits limits;
   limits.hulls = std::size_t(build.options.hulls), limits.corners = std::size_t(build.options.hull_corners);
@@ -106,6 +125,13 @@ ConvexParts nearer_hulls(Build& build, const MadeChain& chain) {
   limits.hulls = std::max(most, of_body.hulls.size());
   ConvexParts of_parts = hulls_of_parts(build, chain, std::move(scene), limits, std::move(lod));
   return volume_of(of_parts) <= volume_of(of_body) ? std::move(of_parts) : std::move(of_body);
+}
+
+}  // namespace
+
+ConvexParts nearer_hulls(Build& build, const MadeChain& chain) {
+  const VoxelizedScene& voxels = chain.scene.voxels;
+  return grown(nearest_hulls(build, chain), voxels.counts.scene.rounding.of(voxels.header.bounds));
 }
 
 }  // namespace bp

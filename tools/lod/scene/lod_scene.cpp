@@ -218,9 +218,10 @@ LodOptions lod_options(const Build& build, const LodScene& scene, const CageRoom
                                return chain_limit(scene.voxels.header, *solid, lod, lod.context, scene.size.triangles);
                              });
   }
+  lod.rounding = scene.voxels.counts.scene.rounding;
   const bool encloses = lod.mode == MeshMode::bounding && lod.enclose == Enclose::scene;
   if (encloses && scene.voxels.solid != nullptr) {  // else an earlier chain took the voxels, after this test
-    require_within(lod.scene, scene.voxels.header.frame, *scene.voxels.solid);
+    require_within(lod.scene, lod.rounding, scene.voxels.header.frame, *scene.voxels.solid);
     lod.is_within = true;
   }
   lod.field = scene.field;

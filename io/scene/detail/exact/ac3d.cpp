@@ -193,6 +193,9 @@ class Ac3dMeshes {
     const std::size_t n = s.corners.size();
     if (s.type == kStrip) {
       for (std::size_t k = 2; k < n; ++k) {
+        if (is_skipped(
+                {object.vertices[s.corners[k - 2]], object.vertices[s.corners[k - 1]], object.vertices[s.corners[k]]}))
+          continue;
         add(k % 2 == 0 ? k - 2 : k - 1);
         add(k % 2 == 0 ? k - 1 : k - 2);
         add(k);
@@ -205,6 +208,19 @@ class Ac3dMeshes {
     } else {
       for (std::size_t k = 0; k < n; ++k) add(k);
     }
+  }
+
+  /// Returns whether Assimp leaves a triangle of a strip out, since two of its corners are at one place. If they are so
+  /// only in float32, a triangle of the file is missing.
+  bool is_skipped(const TriangleD& t) {
+    bool skipped = false, equal = false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3d &p = t[k], &q = t[(k + 1) % 3];
+      equal = equal || p == q;
+      skipped = skipped || (float(p[0]) == float(q[0]) && float(p[1]) == float(q[1]) && float(p[2]) == float(q[2]));
+    }
+    if (skipped && !equal) ++scene_.unfollowed.vertices;
+    return skipped;
   }
 
   static void add_corner(const Vec3d& p, const Vec3d& loc, ExactMesh& mesh) {

@@ -60,13 +60,14 @@ std::unique_ptr<Enclosed> make_enclosed(const Shelves& shelves, MeshParams& para
                                         const ShelfFactory& make_shelf) {
   if (params.enclose == Enclose::scene) {
     const GridFrame& frame = start.surface->frame();
-    if (params.mode == MeshMode::bounding && !params.part) require_within(params.scene, frame, *shelves.meshed);
+    if (params.mode == MeshMode::bounding && !params.part)
+      require_within(params.scene, params.rounding, frame, *shelves.meshed);
     if (params.near_world && params.mode == MeshMode::bounding) {
       auto near = params.part ? nullptr : near_triangles(params.scene, frame, fill);
       return std::make_unique<EnclosedScene>(std::move(params.scene), frame, *shelves.input, params.part,
-                                             std::move(near));
+                                             std::move(near), params.rounding);
     }
-    return std::make_unique<EnclosedTriangles>(std::move(params.scene), frame);
+    return std::make_unique<EnclosedTriangles>(std::move(params.scene), frame, std::nullopt, params.rounding);
   }
   if (params.enclose == Enclose::closing)
     return std::make_unique<EnclosedVoxels>(start.around ? *start.around : *shelves.meshed);
@@ -78,10 +79,11 @@ std::unique_ptr<Enclosed> make_enclosed(const Shelves& shelves, MeshParams& para
 
 }  // namespace
 
-std::unique_ptr<Enclosed> enclosed_scene(std::vector<TriangleD> triangles, const StreamHeader& header,
-                                         const BrickShelf& solid) {
+std::unique_ptr<Enclosed> enclosed_scene(std::vector<TriangleD> triangles, const Rounding& rounding,
+                                         const StreamHeader& header, const BrickShelf& solid) {
   auto near = near_triangles(triangles, header.frame, header.fill);
-  return std::make_unique<EnclosedScene>(std::move(triangles), header.frame, solid, std::nullopt, std::move(near));
+  return std::make_unique<EnclosedScene>(std::move(triangles), header.frame, solid, std::nullopt, std::move(near),
+                                         rounding);
 }
 
 std::uint64_t ground_bytes(const Shelves& shelves, const MeshParams& params, std::uint64_t triangles,

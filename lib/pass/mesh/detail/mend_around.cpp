@@ -10,6 +10,7 @@
 #include "lib/core/disjoint_sets.h"
 #include "lib/core/parallel.h"
 #include "lib/exact/triangle_intersection.h"
+#include "lib/geometry/apart.h"
 #include "lib/geometry/crossing.h"
 #include "lib/geometry/triangle_bvh.h"
 #include "lib/geometry/welded_triangles.h"
@@ -22,6 +23,7 @@ namespace bp {
 namespace {
 
 constexpr std::int64_t kGrain = 256;
+constexpr double kKept = 0x1p-24;  // part of a voxel
 // Distance from an apex to the planes around it, lattice units: more than rounding moves it.
 constexpr double kAbove = 2;
 
@@ -40,29 +42,33 @@ TriangleD world_face(const LatticeMesh& mesh, std::uint32_t f) {
   return {mesh.frame.world(mesh.vertices[a]), mesh.frame.world(mesh.vertices[b]), mesh.frame.world(mesh.vertices[c])};
 }
 
-/// Returns a box around a triangle of the scene, with a margin for rounding.
-LatticeBox lattice_box(const TriangleD& t, const GridFrame& frame) {
+/// Returns a box around a triangle of the scene, with a margin for rounding to the lattice and of `off` lattice units.
+LatticeBox lattice_box(const TriangleD& t, const GridFrame& frame, double off) {
   const LatticeBox box =
       box_of(rounded(frame.to_lattice(t[0])), rounded(frame.to_lattice(t[1])), rounded(frame.to_lattice(t[2])));
-  return {box.min - LatticeCoord{2, 2, 2}, box.max + LatticeCoord{2, 2, 2}};
-}
-
-bool touches(const TriangleD& t, const TriangleD& face) {
-  return collinear(t[0], t[1], t[2]) ? degenerate_triangle_meets(t.data(), face.data())
-                                     : triangles_intersect(t.data(), face.data());
+  return box.grown(2 + std::int64_t(std::ceil(off)));
 }
 
 /// The scene's triangles, which the mesh must enclose, each with a box.
 class SceneBoxes {
  public:
-  SceneBoxes(std::span<const TriangleD> triangles, const GridFrame& frame) : triangles_(triangles) {
+  SceneBoxes(std::span<const TriangleD> triangles, const Rounding& rounding, const GridFrame& frame)
+      : triangles_(triangles), rounding_(rounding), kept_(rounding.any() ? kKept * frame.voxel : 0) {
     boxes_.resize(triangles.size());
     parallel_ranges(std::int64_t(boxes_.size()), kGrain, [&](std::int64_t begin, std::int64_t end) {
-      for (auto i = std::size_t(begin); i < std::size_t(end); ++i) boxes_[i] = lattice_box(triangles[i], frame);
+      for (auto i = std::size_t(begin); i < std::size_t(end); ++i)
+        boxes_[i] = lattice_box(triangles[i], frame, kept_from(triangles[i]) * kLatticePerVoxel / frame.voxel);
     });
   }
   [[nodiscard]] std::span<const TriangleD> triangles() const { return triangles_; }
   [[nodiscard]] const LatticeBox& box(std::size_t i) const { return boxes_[i]; }
+  /// Returns whether the face meets triangle i, or may come as near to it as that may be off by.
+  [[nodiscard]] bool touches(std::size_t i, const TriangleD& face) const {
+    const TriangleD& t = triangles_[i];
+    if (rounding_.any()) return !are_apart(t, face, kept_from(t));
+    return collinear(t[0], t[1], t[2]) ? degenerate_triangle_meets(t.data(), face.data())
+                                       : triangles_intersect(t.data(), face.data());
+  }
   /// Returns a tree over the boxes. It is made on the first call, since most scenes have no folds and need none.
   [[nodiscard]] const BoxTree& tree() {
     if (tree_.size() == 0) {
@@ -74,7 +80,11 @@ class SceneBoxes {
   }
 
  private:
+  [[nodiscard]] double kept_from(const TriangleD& t) const { return rounding_.any() ? rounding_.of(t) + kept_ : 0; }
+
   std::span<const TriangleD> triangles_;
+  const Rounding rounding_;
+  const double kept_;  // besides, from a rounded triangle, so that a check in doubles can tell; scene units
   std::vector<LatticeBox> boxes_;
   BoxTree tree_;
 };
@@ -117,7 +127,7 @@ void mark_touched(const LatticeMesh& mesh, const FaceTree& tree, const SceneBoxe
   parallel_ranges(std::int64_t(triangles.size()), kGrain, [&](std::int64_t begin, std::int64_t end) {
     for (auto i = std::size_t(begin); i < std::size_t(end); ++i) {
       static_cast<void>(tree.query(scene.box(i), [&](std::uint32_t f) {
-        if (has_area(mesh, f) && touches(triangles[i], world_face(mesh, f))) faulty[f] = 1;
+        if (has_area(mesh, f) && scene.touches(i, world_face(mesh, f))) faulty[f] = 1;
         return true;
       }));
     }
@@ -204,7 +214,7 @@ class Tents {
  public:
   /// `faces`: a tree over the mesh's present faces.
   Tents(LatticeMesh& mesh, const FaceTree& faces, SceneBoxes& scene)
-      : mesh_(mesh), faces_(faces), scene_(scene.triangles()), scene_tree_(scene.tree()) {}
+      : mesh_(mesh), faces_(faces), scene_(scene), scene_tree_(scene.tree()) {}
 
   /// Puts a tent over each disc for which an apex is found.
   void put_over(const std::vector<Disc>& discs) {
@@ -309,7 +319,7 @@ class Tents {
       free = normal_of(p, q, r) != LatticeCoord{} && faces_.query(box, [&](std::uint32_t f) {
         return gone[f] != 0 || !has_area(mesh_, f) ||
                !triangles_meet_beyond_shared(mesh_.vertices.data(), tent[i], mesh_.triangles[f]);
-      }) && scene_tree_.query(box, [&](std::uint32_t t) { return !touches(scene_[t], world); });
+      }) && scene_tree_.query(box, [&](std::uint32_t t) { return !scene_.touches(t, world); });
       for (std::size_t j = 0; j < i && free; ++j)
         free = !triangles_meet_beyond_shared(mesh_.vertices.data(), tent[i], tent[j]);
     }
@@ -319,7 +329,7 @@ class Tents {
 
   LatticeMesh& mesh_;
   const FaceTree& faces_;
-  std::span<const TriangleD> scene_;
+  const SceneBoxes& scene_;
   const BoxTree& scene_tree_;
 };
 
@@ -340,11 +350,11 @@ std::vector<char> vertices_near(const HalfEdgeMesh& mesh, const Faults& faulty, 
 
 }  // namespace
 
-bool mend_around(LatticeMesh& mesh, std::span<const TriangleD> scene) {
+bool mend_around(LatticeMesh& mesh, std::span<const TriangleD> scene, const Rounding& rounding) {
   constexpr int kRounds = 6;
   constexpr std::size_t kFewFaults = 50;  // at most one fault for so many faces: a scene of overlapping parts has more
   if (!std::all_of(scene.begin(), scene.end(), is_in_domain)) return false;
-  SceneBoxes inside(scene, mesh.frame);
+  SceneBoxes inside(scene, rounding, mesh.frame);
   for (int round = 0; round < kRounds; ++round) {
     const HalfEdgeMesh connected(mesh);
     const FaceTree faces(connected);

@@ -85,9 +85,10 @@ bool ChunkedSurface::needs_met() const {
   return false;
 }
 
-void ChunkedSurface::look_up(const GridFrame& frame, const BrickBox& grid, std::uint64_t memory_bytes,
-                             BrickShelf& shelf) {
+void ChunkedSurface::look_up(const GridFrame& frame, std::int64_t slack, const BrickBox& grid,
+                             std::uint64_t memory_bytes, BrickShelf& shelf) {
   frame_ = frame;
+  slack_ = slack;
   grid_ = grid;
   chunks_ = cutter_.finish();
   found_.assign(chunks_.size(), 0);
@@ -104,7 +105,7 @@ void ChunkedSurface::look_up(const GridFrame& frame, const BrickBox& grid, std::
 /// Adds the chunk's voxels if they are among the results; returns whether they are.
 bool ChunkedSurface::take_kept(std::size_t chunk) {
   std::string bytes;
-  return results_.get(chunk_key(chunks_[chunk], frame_), bytes) && bricks_->add(bytes);
+  return results_.get(chunk_key(chunks_[chunk], frame_, slack_), bytes) && bricks_->add(bytes);
 }
 
 /// Reads the next missing chunks into `window`, in reverse order: one, or in a turn as many as there is room for.
@@ -151,10 +152,10 @@ void ChunkedSurface::make(Item& item) {
     ++kept_;
     return std::vector<TriangleD>().swap(item.triangles);
   }
-  const std::optional<std::string> bytes = chunk_voxels(item.triangles, frame_, grid_);
+  const std::optional<std::string> bytes = chunk_voxels(item.triangles, frame_, grid_, slack_);
   if (!bytes) return;
   std::vector<TriangleD>().swap(item.triangles);
-  results_.put(chunk_key(chunks_[item.chunk], frame_), *bytes);
+  results_.put(chunk_key(chunks_[item.chunk], frame_, slack_), *bytes);
   results_.put(met_key(chunks_[item.chunk]), "");
   if (!bricks_->add(*bytes)) fail(ErrorCode::failed, "a chunk of triangles has voxels outside the grid of its scene");
 }

@@ -27,7 +27,8 @@ class ChunkedSurface {
   /// triangles need not stay in memory, though the voxels that are found may turn out to be of another frame.
   [[nodiscard]] bool met(std::uint64_t begin, std::uint64_t end) const;
   /// After the first pass: looks up the voxels of every chunk. `memory_bytes`: for bricks in memory.
-  void look_up(const GridFrame& frame, const BrickBox& grid, std::uint64_t memory_bytes, BrickShelf& shelf);
+  void look_up(const GridFrame& frame, std::int64_t slack, const BrickBox& grid, std::uint64_t memory_bytes,
+               BrickShelf& shelf);
   [[nodiscard]] bool complete() const { return kept_ == chunks_.size(); }
   /// Returns true if triangles that are met() are needed after all.
   [[nodiscard]] bool needs_met() const;
@@ -61,6 +62,7 @@ class ChunkedSurface {
   std::atomic<std::uint64_t> kept_{0};
   std::size_t read_ = 0;  // chunks that add_missing() has passed
   GridFrame frame_;
+  std::int64_t slack_ = kFixedSlack;
   BrickBox grid_;
   std::unique_ptr<BrickSum> bricks_;
 };

@@ -39,21 +39,22 @@ class SurfaceBricks::Finder {
   std::array<Slot, 64> slots_;  // one for each brick of a block of 4^3
 };
 
-void SurfaceBricks::add(std::span<const TriangleD> triangles, const GridFrame& frame,
+void SurfaceBricks::add(std::span<const TriangleD> triangles, const GridFrame& frame, std::int64_t slack,
                         std::vector<FixedTriangle>& rest) {
   const FixedFrame to_fixed(frame);
   Finder find(*this);
   std::array<VoxelBox, kTogether> touched;
   for (std::size_t begin = 0; begin < triangles.size(); begin += kTogether) {
     const auto some = triangles.subspan(begin, std::min(kTogether, triangles.size() - begin));
-    voxel_boxes(some, frame, touched.data());
+    voxel_boxes(some, frame, slack, touched.data());
     for (std::size_t i = 0; i < some.size(); ++i) {
-      if (!add(some[i], touched[i], to_fixed, find)) rest.push_back(to_fixed(some[i]));
+      if (!add(some[i], slack, touched[i], to_fixed, find)) rest.push_back(to_fixed(some[i]));
     }
   }
 }
 
-bool SurfaceBricks::add(const TriangleD& t, const VoxelBox& touched, const FixedFrame& to_fixed, Finder& find) {
+bool SurfaceBricks::add(const TriangleD& t, std::int64_t slack, const VoxelBox& touched, const FixedFrame& to_fixed,
+                        Finder& find) {
   if (is_longer_than_brick(touched)) return false;
   const BrickBox at = bricks_of(touched);
   const bool one = at.volume() == 1;
@@ -66,7 +67,7 @@ bool SurfaceBricks::add(const TriangleD& t, const VoxelBox& touched, const Fixed
         if (bits == nullptr) return false;
         SharedRows rows(c, *bits);
         const VoxelBox within = one ? touched : intersect(touched, rows.box());
-        if (!settle_by_box(thin, within, rows)) voxelize_brick(to_fixed(t), rows);
+        if (!settle_by_box(thin, within, rows)) voxelize_brick(to_fixed(t), slack, rows);
       }
     }
   }

@@ -23,7 +23,8 @@ class SurfaceBricks {
   /// Sets the voxels that the triangles touch (voxelize_surface). Appends to `rest` triangles with a box longer than a
   /// brick, since they are few and one may be work for many threads, and triangles that meet a brick for which there is
   /// no room. Thread-safe.
-  void add(std::span<const TriangleD> triangles, const GridFrame& frame, std::vector<FixedTriangle>& rest);
+  void add(std::span<const TriangleD> triangles, const GridFrame& frame, std::int64_t slack,
+           std::vector<FixedTriangle>& rest);
 
   /// Returns the bits of a brick, which is made if it is new; null if there is no room. Thread-safe.
   [[nodiscard]] BrickBits* find(BrickCoord c);
@@ -37,7 +38,8 @@ class SurfaceBricks {
  private:
   class Finder;
   /// Adds a triangle's voxels; returns false if it belongs to the rest.
-  [[nodiscard]] bool add(const TriangleD& t, const VoxelBox& touched, const FixedFrame& to_fixed, Finder& find);
+  [[nodiscard]] bool add(const TriangleD& t, std::int64_t slack, const VoxelBox& touched, const FixedFrame& to_fixed,
+                         Finder& find);
   static constexpr std::size_t kShards = 64;  // more than threads, so that few wait for another
   struct Shard {
     mutable std::mutex mutex;

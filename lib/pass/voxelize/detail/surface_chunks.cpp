@@ -135,14 +135,14 @@ std::vector<ChunkCutter::Chunk> ChunkCutter::finish() {
   return std::move(chunks_);
 }
 
-ResultKey chunk_key(const ChunkCutter::Chunk& chunk, const GridFrame& frame) {
-  return KeyHash(kJob).add(chunk, frame).key();
+ResultKey chunk_key(const ChunkCutter::Chunk& chunk, const GridFrame& frame, std::int64_t slack) {
+  return KeyHash(kJob).add(chunk, frame, slack).key();
 }
 
 // --- Voxels ----------------------------------------------------------------------------------------------------------
 
 std::optional<std::string> chunk_voxels(std::span<const TriangleD> triangles, const GridFrame& frame,
-                                        const BrickBox& grid) {
+                                        const BrickBox& grid, std::int64_t slack) {
   const TileGrid bricks(voxels_of(grid), kBrickEdge);
   std::vector<FixedTriangle> fixed;
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> sorted;
@@ -153,12 +153,15 @@ std::optional<std::string> chunk_voxels(std::span<const TriangleD> triangles, co
   fixed.reserve(triangles.size());
   for (const TriangleD& t : triangles) {
     fixed.push_back(to_fixed(frame, t));
-    for_each_tile(fixed.back(), bricks.voxels.min, bricks.edge_vox, bricks.count, [&](TileCoord at) {
-      const std::uint64_t brick = bricks.index(at);
-      if (last == nullptr || brick != last_brick) last = &sorted[last_brick = brick];
-      last->push_back(std::uint32_t(fixed.size() - 1));
-      ++meetings;
-    });
+    for_each_tile(
+        fixed.back(), bricks.voxels.min, bricks.edge_vox, bricks.count,
+        [&](TileCoord at) {
+          const std::uint64_t brick = bricks.index(at);
+          if (last == nullptr || brick != last_brick) last = &sorted[last_brick = brick];
+          last->push_back(std::uint32_t(fixed.size() - 1));
+          ++meetings;
+        },
+        slack);
     if (meetings > kChunkMeetings) return std::nullopt;
   }
   std::vector<std::uint64_t> order;
@@ -172,7 +175,7 @@ std::optional<std::string> chunk_voxels(std::span<const TriangleD> triangles, co
     for (const std::uint32_t i : sorted[brick]) within.push_back(fixed[i]);
     const VoxelBox box = bricks.box(bricks.coord(brick));
     bits.reset(box);
-    voxelize_surface(within, bits);
+    voxelize_surface(within, bits, slack);
     append_brick(brick_of(box.min), bits.data(), out);
     if (out.size() > kChunkBytes) return std::nullopt;
   }

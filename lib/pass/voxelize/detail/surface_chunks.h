@@ -45,15 +45,16 @@ class ChunkCutter {
   std::vector<Chunk> chunks_;
 };
 
-/// Returns the key of a chunk's voxels in this frame.
-[[nodiscard]] ResultKey chunk_key(const ChunkCutter::Chunk& chunk, const GridFrame& frame);
+/// Returns the key of a chunk's voxels in this frame. `slack`: as of voxelize_surface(), here and below.
+[[nodiscard]] ResultKey chunk_key(const ChunkCutter::Chunk& chunk, const GridFrame& frame,
+                                  std::int64_t slack = kFixedSlack);
 
 /// Returns the voxels that the triangles touch (voxelize_surface), as bytes for BrickSum::add(): for each brick its
 /// coordinates, a bit for each of its words that is not 0, and these words. `grid`: the bricks of the scene. Returns
 /// nothing if the triangles are too large for a chunk: if the bytes exceed kChunkBytes, or the sum of the bricks that
 /// each triangle meets exceeds kChunkMeetings. Memory: kChunkWorkBytes, and the bricks of one triangle.
 [[nodiscard]] std::optional<std::string> chunk_voxels(std::span<const TriangleD> triangles, const GridFrame& frame,
-                                                      const BrickBox& grid);
+                                                      const BrickBox& grid, std::int64_t slack = kFixedSlack);
 constexpr std::size_t kChunkBytes = std::size_t(4) << 20, kChunkMeetings = std::size_t(1) << 17;
 /// With the triangles, and with the bytes packed for the store.
 constexpr std::uint64_t kChunkWorkBytes = std::uint64_t(24) << 20;

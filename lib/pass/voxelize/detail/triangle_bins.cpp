@@ -98,12 +98,13 @@ void get_chunks(const Scratch& store, const std::vector<Scratch::Handle>& handle
 
 }  // namespace
 
-TriangleBatch TriangleBins::sort(std::span<const FixedTriangle> triangles) const {
+TriangleBatch TriangleBins::sort(std::span<const FixedTriangle> triangles, std::int64_t slack) const {
   TriangleBatch batch;
   BatchSorter sorter(grid_, batch);
   for (const FixedTriangle& t : triangles) {
-    for_each_tile(t, grid_.voxels.min, grid_.edge_vox, grid_.count,
-                  [&](TileCoord tile) { sorter.add(t, grid_.index(tile)); });
+    for_each_tile(
+        t, grid_.voxels.min, grid_.edge_vox, grid_.count, [&](TileCoord tile) { sorter.add(t, grid_.index(tile)); },
+        slack);
   }
   return batch;
 }

@@ -72,7 +72,7 @@ class TriangleBins {
   TriangleBins(const TileGrid& grid, Scratch& store) : grid_(grid), store_(store) {}
 
   /// Sorts triangles. Each goes into every tile that it meets (lib/voxel/voxelize.h, for_each_tile). Thread-safe.
-  [[nodiscard]] TriangleBatch sort(std::span<const FixedTriangle> triangles) const;
+  [[nodiscard]] TriangleBatch sort(std::span<const FixedTriangle> triangles, std::int64_t slack) const;
   /// Adds a batch. On one thread only.
   void add(TriangleBatch&& batch);
 

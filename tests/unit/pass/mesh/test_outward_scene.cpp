@@ -19,7 +19,7 @@ GridFrame frame_of(const Triangles& scene, double voxel) {
 
 /// The proxy of a scene that has one, proven by the checker.
 LatticeMesh proven(const Triangles& scene, double voxel) {
-  const std::optional<LatticeMesh> proxy = outward_scene(scene, frame_of(scene, voxel));
+  const std::optional<LatticeMesh> proxy = outward_scene(scene, {}, frame_of(scene, voxel));
   REQUIRE(proxy);
   MemorySource source(scene);
   const CheckReport report = check_proxy(indexed(*proxy), &source);
@@ -29,7 +29,7 @@ LatticeMesh proven(const Triangles& scene, double voxel) {
 }
 
 bool has_none(const Triangles& scene, double voxel) {
-  return !outward_scene(scene, frame_of(scene, voxel));
+  return !outward_scene(scene, {}, frame_of(scene, voxel));
 }
 
 /// A ring with a square section: each of its inner corners is a saddle.

@@ -30,17 +30,17 @@ TEST_CASE("a scene lies within its own voxels, and no part of it elsewhere does"
   const GridFrame frame;
   MemoryShelf shelf;
   voxelize(scene(), frame, shelf);
-  CHECK(lies_within(scene(), frame, shelf));
-  CHECK(lies_within({}, frame, shelf));
+  CHECK(lies_within(scene(), {}, frame, shelf));
+  CHECK(lies_within({}, {}, frame, shelf));
   std::vector<TriangleD> moved = scene();
   for (Vec3d& p : moved[1]) p[0] += 3;
-  CHECK_FALSE(lies_within(moved, frame, shelf));
+  CHECK_FALSE(lies_within(moved, {}, frame, shelf));
   moved = scene();
   moved[0][1] = {500, 40, 20};  // beyond the bricks
-  CHECK_FALSE(lies_within(moved, frame, shelf));
+  CHECK_FALSE(lies_within(moved, {}, frame, shelf));
   moved = scene();
   moved[0][1][2] = 0;  // on their outer border: the voxel beyond is not there
-  CHECK_FALSE(lies_within(moved, frame, shelf));
+  CHECK_FALSE(lies_within(moved, {}, frame, shelf));
 }
 
 TEST_CASE("one voxel missing is found", "[quick][pass]") {
@@ -52,5 +52,18 @@ TEST_CASE("one voxel missing is found", "[quick][pass]") {
   const auto word = std::find_if(bits.begin(), bits.end(), [](std::uint64_t w) { return w != 0; });
   *word &= *word - 1;
   shelf.put({1, 0, 0}, classify(bits), bits);
-  CHECK_FALSE(lies_within(scene(), frame, shelf));
+  CHECK_FALSE(lies_within(scene(), {}, frame, shelf));
+}
+
+TEST_CASE("a rounded scene needs the voxels that it may lie in, too", "[quick][pass][rounding]") {
+  const GridFrame frame;
+  MemoryShelf shelf;
+  voxelize(scene(), frame, shelf);
+  Rounding rounding;
+  rounding.see(0x1p-20, 150, 0);
+  CHECK(lies_within(scene(), rounding, frame, shelf));
+  rounding.see(0.1, 150, 0);
+  CHECK_FALSE(lies_within(scene(), rounding, frame, shelf));
+  rounding.see(10, 150, 0);  // more than any voxels tell
+  CHECK_FALSE(lies_within(scene(), rounding, frame, shelf));
 }

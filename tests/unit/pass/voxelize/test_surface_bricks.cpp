@@ -113,7 +113,7 @@ TEST_CASE("bricks that all threads add to hold the voxels of the triangles, what
       std::size_t left = 0;
       parallel_ranges(std::int64_t(scene.size()), 100, [&](std::int64_t begin, std::int64_t end) {
         std::vector<FixedTriangle> rest;
-        shared.add(std::span(scene).subspan(std::size_t(begin), std::size_t(end - begin)), frame, rest);
+        shared.add(std::span(scene).subspan(std::size_t(begin), std::size_t(end - begin)), frame, kFixedSlack, rest);
         const std::lock_guard lock(mutex);
         voxelize_surface(rest, found);
         left += rest.size();
