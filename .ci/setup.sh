@@ -27,7 +27,11 @@ provided() {
     sed -e 's/(.*//' -e 's/[[:space:]]//g' -e '/^$/d' | sort -u
 }
 
-packages() { sed -e 's/#.*//' "$root/.ci/packages.txt" | tr '\n' ' '; }
+# extra: what one script needs besides. With tests=no those from "To test" on are left out.
+packages() {
+  sed -e "$([ "${tests:-}" != no ] || echo '/^# To test/,$d')" -e 's/#.*//' "$root/.ci/packages.txt" | tr '\n' ' '
+  echo "${extra:-}"
+}
 
 # build_release [-DNAME=VALUE...]: the arguments go to the configuration. From nothing, rooms are compiled as one.
 build_release() {

@@ -1,4 +1,4 @@
-# Man pages, made by pandoc of docs/NAME.1.md, and completion for bash, zsh and fish, printed by the tools themselves.
+# Man pages, made by pandoc of docs/NAME.1.md and compressed, and completion for bash, zsh and fish, printed by the tools themselves.
 find_program(BP_PANDOC pandoc)
 if(BP_PANDOC)
   message(STATUS "Man pages: ${BP_PANDOC}")
@@ -11,22 +11,27 @@ string(TIMESTAMP bp_manual_date "%Y-%m-%d" UTC)  # SOURCE_DATE_EPOCH, if set
 function(bp_add_manual tool)
   set(made)
   if(BP_PANDOC)
-    set(page ${CMAKE_CURRENT_BINARY_DIR}/man/${tool}.1)
+    set(text ${CMAKE_CURRENT_BINARY_DIR}/man/${tool}.1)
+    set(page ${text}.gz)
     set(manual ${PROJECT_SOURCE_DIR}/docs/${tool}.1.md)
     set(filter ${PROJECT_SOURCE_DIR}/cmake/man.lua)
     add_custom_command(
       OUTPUT ${page}
       COMMAND ${CMAKE_COMMAND} -E make_directory ${CMAKE_CURRENT_BINARY_DIR}/man
-      COMMAND ${BP_PANDOC} -s -f markdown-smart -t man -L ${filter} -M docs=${CMAKE_INSTALL_FULL_DOCDIR} -M date=${bp_manual_date} -M "footer=${PROJECT_NAME} ${PROJECT_VERSION}"
-              -o ${page} ${manual}
+      COMMAND ${BP_PANDOC} -s -f markdown-smart -t man -L ${filter} -M docs=${CMAKE_INSTALL_FULL_DOCDIR}/docs -M date=${bp_manual_date} -M "footer=${PROJECT_NAME} ${PROJECT_VERSION}"
+              -o ${text} ${manual}
+      COMMAND gzip -9nf ${text}
       DEPENDS ${manual} ${filter}
       VERBATIM)
-    install(FILES ${page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+    install(FILES ${page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT tools)
     list(APPEND made ${page})
   endif()
   if(NOT CMAKE_CROSSCOMPILING)
     set(folder_bash bash-completion/completions)
     set(folder_zsh zsh/site-functions)
+    if(CMAKE_INSTALL_PREFIX STREQUAL "/usr" AND EXISTS /etc/debian_version)
+      set(folder_zsh zsh/vendor-completions)  # the place of Debian's packages
+    endif()
     set(folder_fish fish/vendor_completions.d)
     set(name_bash ${tool})
     set(name_zsh _${tool})
@@ -38,7 +43,7 @@ function(bp_add_manual tool)
         COMMAND ${CMAKE_COMMAND} -E make_directory ${CMAKE_CURRENT_BINARY_DIR}/completion/${shell}
         COMMAND ${tool} --help ${shell} > ${script}
         DEPENDS ${tool})
-      install(FILES ${script} DESTINATION ${CMAKE_INSTALL_DATADIR}/${folder_${shell}})
+      install(FILES ${script} DESTINATION ${CMAKE_INSTALL_DATADIR}/${folder_${shell}} COMPONENT tools)
       list(APPEND made ${script})
     endforeach()
   endif()

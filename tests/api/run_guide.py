@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Runs the examples of the guide as they stand there.
-    tests/api/run_guide.py library.md CC CXX INCLUDE      BP_LIBRARY names libbp.so"""
+    tests/api/run_guide.py library.md CC CXX [INCLUDE]      BP_LIBRARY names libbp.so; without INCLUDE both are installed, and pkg-config finds them"""
 import os
 import re
 import subprocess
@@ -12,8 +12,12 @@ from scenes import torus, write_ply
 
 
 def main():
-    page, compilers, include = Path(sys.argv[1]).read_text(encoding="utf-8"), {"c": sys.argv[2], "cpp": sys.argv[3]}, Path(sys.argv[4]).resolve()
-    library = Path(os.environ["BP_LIBRARY"])
+    page, compilers = Path(sys.argv[1]).read_text(encoding="utf-8"), {"c": sys.argv[2], "cpp": sys.argv[3]}
+    if len(sys.argv) > 4:
+        library = Path(os.environ["BP_LIBRARY"])
+        linked = ["-I", Path(sys.argv[4]).resolve(), library, f"-Wl,-rpath,{library.parent}"]
+    else:
+        linked = subprocess.run(["pkg-config", "--cflags", "--libs", "bp"], capture_output=True, text=True, check=True).stdout.split()
     options = {"c": ["-std=c99"], "cpp": ["-std=c++17"]}
     ran = {"python": 0, "c": 0, "cpp": 0}
     with tempfile.TemporaryDirectory() as folder:
@@ -26,8 +30,7 @@ def main():
             elif language in compilers:
                 source = Path(f"program.{language}")
                 source.write_text(code, encoding="utf-8")
-                subprocess.run([compilers[language], *options[language], "-Wall", "-Wextra", "-Werror", source, "-I", include, str(library),
-                                f"-Wl,-rpath,{library.parent}", "-o", f"./{language}"], check=True)
+                subprocess.run([compilers[language], *options[language], "-Wall", "-Wextra", "-Werror", source, *linked, "-o", f"./{language}"], check=True)
                 subprocess.run([f"./{language}"], check=True)
             else:
                 continue

@@ -25,8 +25,9 @@ fi
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
-# The folder's name differs each time; in texts it is called FOLDER.
-plain() { sed -e "s|$folder/run|FOLDER|g" "$1"; }
+# The folder's name differs each time; in texts it is called FOLDER. The version, which CMakeLists.txt alone names, is called VERSION.
+version=$(sed -n 's/^project(.* VERSION \([0-9.]*\).*/\1/p' "$root/CMakeLists.txt")
+plain() { sed -E -e "s|$folder/run|FOLDER|g" -e "s/\b(bp[a-z]+ |\"version\": \")${version//./\\.}\b/\1VERSION/g" "$1"; }
 
 failed=0
 for name in "$@"; do

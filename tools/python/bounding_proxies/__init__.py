@@ -23,5 +23,5 @@ __all__ = ["ArgumentError", "CancelledError", "Error", "FailedError", "Grid", "I
 
 
 def library_version():
-    """Returns the version of the C library, such as "0.1.0"."""
+    """Returns the version of the C library, such as "0.2.0"."""
     return lib().bp_version().decode()

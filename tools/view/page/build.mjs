@@ -10,7 +10,7 @@ const here = dirname(fileURLToPath(import.meta.url));
 const { build } = createRequire(join(process.env.NODE_PATH, 'x'))('esbuild');
 const bundle = await build({
   entryPoints: [join(here, 'src/main.ts')], bundle: true, minify: true, write: false, format: 'esm', target: 'es2022',
-  legalComments: 'none', nodePaths: [process.env.NODE_PATH],
+  legalComments: 'eof', nodePaths: [process.env.NODE_PATH],
 });
 const files = [
   ['/index.html', 'text/html; charset=utf-8', readFileSync(join(here, 'index.html'))],

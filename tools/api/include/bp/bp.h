@@ -44,9 +44,9 @@ extern "C" {
 /* ---- Version and errors ------------------------------------------------------------------------------------------*/
 
 #define BP_API_MAJOR 0
-#define BP_API_MINOR 1
+#define BP_API_MINOR 2
 
-/* Returns the version of the library that runs: "0.1.0". */
+/* Returns the version of the library that runs: "0.2.0". */
 BP_API const char* bp_version(void);
 
 typedef enum bp_status {
