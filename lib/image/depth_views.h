@@ -13,9 +13,9 @@ class DepthViews {
   /// Draws the triangles so that `bounds` fill each view; what lies beyond them by more than an eighth is cut off.
   DepthViews(std::span<const TriangleD> triangles, const Bounds3d& bounds);
 
-  /// Returns the share of the pixels, of those that show one of both, that both show otherwise, as a mean over all views.
-  /// A pixel that only one of them covers counts fully, and one where the nearest points are an eighth of the bounds'
-  /// diagonal apart, too; less of a distance counts in proportion.
+  /// Returns the share of the pixels, of those that show one of both, that both show otherwise, as a mean over all
+  /// views. A pixel that only one of them covers counts fully, and one where the nearest points are an eighth of the
+  /// bounds' diagonal apart, too; less of a distance counts in proportion.
   [[nodiscard]] double difference(std::span<const TriangleD> others) const;
 
   static constexpr std::size_t kViews = 14;

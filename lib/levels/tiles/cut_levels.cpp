@@ -39,7 +39,7 @@ TileParams tile_params(const TilesetPlan& plan, std::size_t level, const CutOpti
   params.mode = options.mode;
   params.enclose = options.enclose;
   params.faces = cut.target.faces;
-  // What is enclosed is within a diagonal of a voxel of the scene.
+  // The enclosed voxels reach up to a voxel's diagonal beyond the scene.
   if (const double asked = cut.target.error_world; asked > 0)
     params.error_world = std::max(asked - std::sqrt(3.0) * (cut.frame.voxel + plan.cut.front().frame.voxel), asked / 4);
   params.scene = options.scene, params.rounding = options.rounding;

@@ -101,8 +101,8 @@ struct TileTask {
 void make_tiles(std::span<const TileTask> tasks, const PassContext& context,
                 const std::function<void(double)>& left = {});
 
-/// Returns the limit on memory at which make_tiles() has enough for each tile of a level. 0: not known. Of a level that
-/// is not closed yet, the solid stands for the closing. `held`: bytes that others keep of the memory of `context`.
+/// Returns the limit on memory at which make_tiles() has enough for each tile of a level. 0: not known. The solid
+/// stands for the closing of a level that is not closed yet. `held`: bytes that others keep of the memory of `context`.
 /// `triangles`: of the scene that tiles enclose or follow, while TileParams::scene is not there yet. Asked for after a
 /// refusal; meshes the surface of the level, brick by brick.
 [[nodiscard]] std::uint64_t tiles_limit(const TileLevel& level, const TileParams& params, PassContext context,

@@ -5,7 +5,7 @@
 /// must suffice for the steps after it, too.
 namespace bp {
 
-/// What the steps of a tileset are counted from.
+/// The facts from which the steps of a tileset are counted.
 struct TilesetCount {
   const TilesetPlan& plan;
   const CutOptions& cut;
@@ -20,7 +20,7 @@ struct TilesetCount {
 [[nodiscard]] std::uint64_t tileset_limit(const TilesetCount& count, const StreamHeader& header, BrickShelf& solid,
                                           std::size_t level = 0);
 
-/// The same, of all that a pyramid has still to make.
+/// Returns the limit for all levels that a pyramid has still to make.
 [[nodiscard]] std::uint64_t tileset_limit(const TilesetCount& count, TilePyramid& pyramid);
 
 }  // namespace bp

@@ -16,7 +16,7 @@ using Index = LeafMesh::Index;
 using Look = LeafMesh::Look;
 using Change = LeafMesh::Change;
 
-/// Of costs that are equal, as in a plane, a short edge collapses first: this times its length counts as a distance.
+/// Where costs are equal, as in a plane, a short edge collapses first: this times its length counts as a distance.
 constexpr double kShort = 1e-3;
 /// A face turns by less than 78 degrees in one collapse.
 constexpr double kLeastCosine = 0.2;
@@ -184,8 +184,8 @@ class EdgeCollapses {
 
   // --- what is possible
 
-  /// Whether a collapse joins nothing: the ends have no common neighbours but the third corners of their faces, or
-  /// those where faces of both come to lie on each other; and no edge between two borders goes.
+  /// Returns whether a collapse joins nothing: the ends have no common neighbours but the third corners of their faces,
+  /// or those where faces of both come to lie on each other; and no edge between two borders goes.
   [[nodiscard]] bool keeps_parts(Index u, Index v) const {
     const std::vector<Index> of_u = mesh_.neighbours(u), of_v = mesh_.neighbours(v), thirds = thirds_of(u, v);
     if (is_border(of_u) && is_border(of_v) && std::count(of_u.begin(), of_u.end(), v) > 1) return false;
@@ -272,7 +272,7 @@ class EdgeCollapses {
     return changes;
   }
 
-  /// Whether a face that is left would turn over, in the scene or in its image, or lose its area.
+  /// Returns whether a face that is left would turn over, in the scene or in its image, or lose its area.
   [[nodiscard]] bool turns_faces(Index u, Index v, const Vec3d& to, const std::vector<Change>& changes) const {
     for (const Index end : {u, v}) {
       for (const Index f : mesh_.faces_of(end)) {

@@ -9,10 +9,11 @@ namespace bp {
 /// Memory of with_fewer_triangles(), but for its results, for each triangle of the leaf.
 constexpr std::uint64_t kCollapseBytesPerTriangle = 700;
 
-/// Returns the same surface with at most so many triangles, for each number in `most`, which fall. Edges collapse in the order of their quadric errors
-/// [GH97], and each corner keeps a look of its own [Hop99]. Borders, and seams where texture coordinates, colours or
-/// materials meet, keep their course. Parts and holes stay, so that more triangles may be left than were wanted. The
-/// result need not be closed, and may intersect itself. It does not depend on the number of threads. O(n log n).
+/// Returns the same surface with at most so many triangles, for each number in `most`, which fall. Edges collapse in
+/// the order of their quadric errors [GH97], and each corner keeps a look of its own [Hop99]. Borders, and seams where
+/// texture coordinates, colours or materials meet, keep their course. Parts and holes stay, so that more triangles may
+/// be left than were wanted. The result need not be closed, and may intersect itself. It does not depend on the number
+/// of threads. O(n log n).
 [[nodiscard]] std::vector<SceneLeaf> with_fewer_triangles(const SceneLeaf& leaf, std::span<const std::uint64_t> most);
 
 }  // namespace bp

@@ -19,7 +19,7 @@ class LeafMesh {
     std::array<float, 3> normal{};
     std::array<float, 2> uv{};
     LinearColor color;
-    /// Whether a picture shows no edge between both; normals have no say.
+    /// Returns whether a picture shows no edge between both; normals have no say.
     [[nodiscard]] bool joins(const Look& other) const {
       return part == other.part && uv == other.uv && color == other.color;
     }
@@ -50,7 +50,7 @@ class LeafMesh {
   /// Returns the corners at a point, each once.
   [[nodiscard]] std::vector<Index> corners_of(Index point) const;
 
-  /// What becomes of the corner at an end of an edge that collapses.
+  /// A corner at an end of an edge that collapses, and what becomes of it.
   struct Change {
     Index corner = 0;
     Index into = 0;  ///< another corner takes its place; else the corner itself
