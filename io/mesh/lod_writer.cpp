@@ -138,8 +138,7 @@ class GlbBuilder {
   Json& node(std::size_t i) { return json()["nodes"][i]; }
   void use(const char* extension) { data_.use(extension, false); }
 
-  /// Adds triangles of the scene, less the origin and a point near them, which is the node's translation. Where floats
-  /// hold the coordinates to a unit of the leaf, that point is zero.
+  /// Adds triangles of the scene, less the origin and, far from it, a point near them, which is the node's translation.
   std::size_t add_scene(const NamedMesh& named, const LeafLooks& looks, UpAxis up) {
     const SceneLeaf& leaf = *named.scene;
     const Vec3d offset = offset_of(leaf);
@@ -269,13 +268,16 @@ class GlbBuilder {
   }
 
   [[nodiscard]] Vec3d offset_of(const SceneLeaf& leaf) const {
-    constexpr double kFloatBits = 0x1p24;
+    constexpr double kSizes = 8;  // so far from the origin float32 still has steps of a 2,000,000th of the scene
     const Vec3d low = leaf.bounds.min - origin_, high = leaf.bounds.max - origin_;
     double farthest = 0;
     for (std::size_t i = 0; i < 3; ++i) farthest = std::max({farthest, std::abs(low[i]), std::abs(high[i])});
-    if (farthest <= kFloatBits * leaf.unit) return {};
+    if (farthest <= kSizes * leaf.bounds.longest_side()) return {};
+    int exponent = 0;
+    (void)std::frexp(leaf.bounds.longest_side(), &exponent);
+    const double step = std::ldexp(1.0, exponent);  // a point of few bits
     Vec3d offset;
-    for (std::size_t i = 0; i < 3; ++i) offset[i] = std::nearbyint((low[i] + high[i]) / 2);
+    for (std::size_t i = 0; i < 3; ++i) offset[i] = std::nearbyint((low[i] + high[i]) / 2 / step) * step;
     return offset;
   }
 

@@ -3,10 +3,11 @@
 #include <string>
 
 #include "io/files/file.h"
-#include "io/mesh/leaf_writer.h"
+#include "io/mesh/leaf_looks.h"
 #include "io/mesh/mesh_writer.h"
 #include "io/mesh/tile_compression.h"
 #include "lib/mesh/lattice_mesh.h"
+#include "lib/pass/leaf/scene_leaf.h"
 
 /// Levels of detail as GLB, without loss: a reader that works in double finds frame.world(v) exactly, in scene units,
 /// and mostly without a transform of the node (mesh_writer.h). Same meshes, same bytes; the caller commits. Vertices

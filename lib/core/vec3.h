@@ -29,6 +29,12 @@ namespace bp {
   const double l = length(v);
   return l > 0 ? (1 / l) * v : otherwise;
 }
+/// Returns `v` over the size of its largest component, so that squares neither vanish nor overflow; zero stays zero.
+[[nodiscard]] inline Vec3d with_largest_one(const Vec3d& v) {
+  double largest = 0;
+  for (const double x : v) largest = x > largest ? x : -x > largest ? -x : largest;
+  return largest > 0 ? Vec3d{v[0] / largest, v[1] / largest, v[2] / largest} : v;
+}
 [[nodiscard]] inline double area_of(const TriangleD& t) {
   return length(cross(t[1] - t[0], t[2] - t[0])) / 2;
 }

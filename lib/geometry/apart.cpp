@@ -41,7 +41,8 @@ class Pair {
   static std::array<Vec3d, 3> edges_of(const TriangleD& t) { return {t[1] - t[0], t[2] - t[1], t[0] - t[2]}; }
 
   /// Returns whether the triangles lie beyond two planes across the direction, so far apart.
-  [[nodiscard]] bool parts(const Vec3d& direction) const {
+  [[nodiscard]] bool parts(const Vec3d& across) const {
+    const Vec3d direction = with_largest_one(across);
     const double size = length(direction);
     if (!(size > 0)) return false;
     const auto [a_low, a_high] = extent(a_, direction);

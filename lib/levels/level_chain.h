@@ -22,6 +22,8 @@ struct VoxelizedScene {
 /// Replaces `scene.solid`, and grows `scene.header.bricks` to hold its bricks.
 void put_solid(VoxelizedScene& scene, std::unique_ptr<BrickShelf> solid);
 
+constexpr const char* kFromScene = "scene";  ///< LevelFacts::stopped_by, where nothing was closed or meshed
+
 /// The facts about a level that lists, reports and notes tell.
 struct LevelFacts {
   LodTarget target;
@@ -33,7 +35,7 @@ struct LevelFacts {
   std::uint64_t faces_dense = 0;  ///< triangles of the dense surface of the closing
   int attempts = 0;
   bool reached = true;          ///< as in LodLevel
-  std::string stopped_by;       ///< as in LevelCounts
+  std::string stopped_by;       ///< as in LevelCounts; kFromScene: the level is triangles of the scene
   std::vector<TriedWay> tried;  ///< as in LodLevel
 };
 [[nodiscard]] LevelFacts facts_of(const LodLevel& level, const LodTarget& target);

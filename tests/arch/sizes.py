@@ -13,7 +13,8 @@ FILE, FUNCTION, FOLDER = 400, 40, 27
 # A kernel and what it calls on the device belong in one file, and in one piece: registers and inlining depend on it.
 LONG_FILES = {"gpu/kernels/bit_kernels.cu", "gpu/kernels/row_kernels.cu", "tests/backend/hierarchical_kernels.cu"}
 TABLES = {"text_of", "with_fields"}  # one case after the other, no step depends on another
-FULL_FOLDERS = {"tests/golden/cases", "docs/lab"}  # one file for each behaviour; pages that are only added to
+# One file for each behaviour; pages that are only added to; decisions, which are found by their numbers.
+FULL_FOLDERS = {"tests/golden/cases", "docs/lab", "docs/decisions"}
 SOURCES = (".h", ".cpp", ".cu", ".cuh", ".py", ".sh", ".cmake")
 
 

@@ -138,11 +138,6 @@ void check_profile(const Args& args, const BuildOptions& o) {
   if (o.is_cage()) refuse({"--mode", "--appearance", "--enclose", "--error", "--scale", "--field"});
   if (o.profile == LodProfile::collision && o.proxy.mode != MeshMode::bounding)
     fail(ErrorCode::bad_argument, "--profile collision needs --mode bounding");
-  if (o.proxy.visual && (o.profile != LodProfile::gltf || !can_read_again(o)))
-    fail(ErrorCode::bad_argument, "--mode visual needs --profile gltf, and scenes that are files");
-  if (o.proxy.visual && (args.given("--error") || args.given("--enclose")))
-    fail(ErrorCode::bad_argument, "--mode visual takes a number of faces, and encloses nothing; leave {} out",
-         args.given("--error") ? "--error" : "--enclose");
   if (o.proxy.mode == MeshMode::fit && args.given("--enclose"))
     fail(ErrorCode::bad_argument, "a fit encloses nothing and is not tightened; --enclose has no meaning");
   if (o.leaves && !can_read_again(o))
@@ -150,6 +145,18 @@ void check_profile(const Args& args, const BuildOptions& o) {
   const bool scene = o.proxy.enclose.kind == EncloseOption::Kind::scene;
   if (scene && !can_read_again(o))
     fail(ErrorCode::bad_argument, "--enclose scene: a scene from a pipe cannot be read again; give it as a file");
+}
+
+/// Refuses what --mode visual cannot do.
+void check_visual(const Args& args, const BuildOptions& o) {
+  if (!o.proxy.visual) return;
+  if (o.profile != LodProfile::gltf) fail(ErrorCode::bad_argument, "--mode visual needs --profile gltf");
+  if (o.obj) fail(ErrorCode::bad_argument, "--mode visual writes GLB; give -o a folder");
+  if (!can_read_again(o))
+    fail(ErrorCode::bad_argument, "--mode visual: a scene from a pipe cannot be read again; give it as a file");
+  for (const char* const name : {"--error", "--enclose", "--field"})
+    if (args.given(name))
+      fail(ErrorCode::bad_argument, "--mode visual takes a number of faces, and encloses nothing; leave {} out", name);
 }
 
 /// Sets the options of profiles that have only one level, which nobody looks at.
@@ -334,7 +341,7 @@ BuildOptions parse_build_options(Args& args) {
   set_one_level(o);
   check_levels(o);
   take_obj_name(args, o);
-  if (o.proxy.visual && o.obj) fail(ErrorCode::bad_argument, "--mode visual writes GLB; give -o a folder");
+  check_visual(args, o);
   check_output(o);
   check_jobs(o);
   check_name(o);

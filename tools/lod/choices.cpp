@@ -29,7 +29,7 @@ LevelRequest request_for(const BuildOptions& o, std::uint64_t triangles, double 
   if (o.profile == LodProfile::collision) defaults = {kPerCollisionFace, kMostCollisionFaces};
   if (o.proxy.visual) defaults.triangles_per_face = 1;  // a small scene is its own finest level
   if (o.profile == LodProfile::cage) defaults = {kPerCageFace, kMostCageFaces};
-  defaults.by_voxels = o.profile != LodProfile::cage && (o.voxels.voxel || o.voxels.resolution);
+  defaults.by_voxels = !o.proxy.visual && o.profile != LodProfile::cage && (o.voxels.voxel || o.voxels.resolution);
   return with_defaults(request, triangles, defaults);
 }
 

@@ -268,6 +268,8 @@ std::string text_of(const Build& build, const Scene& scene, const Plan& plan) {
   if (plan.leaf_bytes > 0)
     out += fmt::format("leaves\tabout {} of the files, {} triangles and more\n",
                        size_text(std::uint64_t(plan.leaf_bytes)), scene.counts.triangles);
+  if (build.options.proxy.visual)
+    out += "visual\tlevels are triangles of the scene where these look nearer than the fits below\n";
   out += "level\tvoxel\tscale\thalo\ttiles\tnumbers\tfaces\n";
   for (std::size_t i = 0; i < plan.levels.size(); ++i) out += row_of(plan.levels[i], i);
   for (const FoundJobs& f : plan.kept) out += fmt::format("kept\t{}: {} of {}\n", f.what, f.kept, f.jobs);

@@ -37,6 +37,10 @@ bool is_convex(const LevelFacts& level) {
 
 std::string faces_note(const LevelFacts& level, bool asked, std::uint64_t triangles) {
   const std::uint64_t budget = level.target.faces;
+  if (level.stopped_by == kFromScene)
+    return asked && level.faces >= triangles && clearly_fewer(level.faces, budget)
+               ? fmt::format("{} faces instead of {}: the scene has no more", level.faces, budget)
+               : "";
   FaceAdvice advice;
   advice.exact = level.error_world < kExactVox * level.voxel;
   if (level.scale_world < level.voxel) advice.scale.clear();  // a smaller scale would close nothing

@@ -4,8 +4,9 @@
 #include <string>
 
 #include "io/mesh/detail/glb_looks.h"
-#include "io/mesh/leaf_writer.h"
+#include "io/mesh/leaf_looks.h"
 #include "lib/core/up_axis.h"
+#include "lib/pass/leaf/scene_leaf.h"
 
 namespace bp {
 

@@ -14,7 +14,7 @@ class GlbLooks {
 
   explicit GlbLooks(GlbData& data) : data_(data) {}
 
-  /// Each returns the number of an element, which is added unless the same one is there.
+  /// Each returns the number of an element, which is added unless the same one is there; bytes are always added.
   std::size_t add_material(const GltfOutJson& material);
   /// `wrap`: beyond the image's edge. EXT_texture_webp is used for an image of that type.
   std::size_t add_texture(std::size_t image, const Wrap& wrap);

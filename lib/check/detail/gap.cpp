@@ -81,13 +81,10 @@ Bounds3d box_around(const TriangleD& t, double by) {
   return box;
 }
 
-}  // namespace
-
-namespace {
-
-/// Returns how far apart two planes across n are, between which nothing of the triangles is; below 0 if there are none.
-/// Points are measured from p. Wherever p is, the planes are this far apart.
-double between(const TriangleD& a, const TriangleD& b, const Vec3d& p, const Vec3d& n) {
+/// Returns how far apart two planes across a direction are, between which nothing of the triangles is; below 0 if there
+/// are none. Points are measured from p. Wherever p is, the planes are this far apart.
+double between(const TriangleD& a, const TriangleD& b, const Vec3d& p, const Vec3d& across) {
+  const Vec3d n = with_largest_one(across);
   const double size = length(n);
   if (!(size > 0)) return -HUGE_VAL;
   double a_low = HUGE_VAL, a_high = -HUGE_VAL, b_low = HUGE_VAL, b_high = -HUGE_VAL;

@@ -49,7 +49,7 @@ ResultKey TileMaker::key() const {
   add_voxels(hash, level_.surface, reach(), origin);
   if (params_.scene != nullptr) {
     const std::vector<TriangleD> scene = scene_nearby();
-    hash.add(std::as_bytes(std::span(scene)), params_.rounding.share, params_.rounding.offset);
+    hash.add(std::as_bytes(std::span(scene)), params_.rounding.share, params_.rounding.offset, grown_world());
   }
   if (params_.add_to_key) params_.add_to_key(coord_, hash);
   return hash.key();

@@ -42,7 +42,6 @@ struct Entry {
   double cost = 0;
   Index u = 0, v = 0;
   std::uint32_t stamp_u = 0, stamp_v = 0;  ///< of the ends when it was rated
-  bool is_possible = false;                ///< the cost is that of a place that was possible then
   friend bool operator>(const Entry& a, const Entry& b) {
     return std::tie(a.cost, a.u, a.v) > std::tie(b.cost, b.u, b.v);
   }
@@ -70,11 +69,14 @@ class EdgeCollapses {
   }
 
   SceneLeaf run(std::uint64_t triangles) {
-    for (bool has_changed = true; has_changed && mesh_.face_count() > triangles;) {
-      const std::size_t before = mesh_.face_count();
-      rate_all();
-      while (!order_.empty() && mesh_.face_count() > triangles) take_next();
-      has_changed = mesh_.face_count() < before;  // some edges that were not possible may be now
+    while (mesh_.face_count() > triangles) {
+      if (order_.empty()) {
+        if (mesh_.face_count() == rated_faces_) break;
+        rated_faces_ = mesh_.face_count();
+        rate_all();  // edges that were not possible may be now
+        if (order_.empty()) break;
+      }
+      take_next();
     }
     return mesh_.leaf(whole_);
   }
@@ -135,7 +137,7 @@ class EdgeCollapses {
       if (v == last || (once && v < u)) continue;
       last = v;
       const Index a = std::min(u, v), b = std::max(u, v);
-      order_.push({places(a, b).front().cost, a, b, stamps_[a], stamps_[b], false});
+      order_.push({places(a, b).front().cost, a, b, stamps_[a], stamps_[b]});
     }
   }
 
@@ -167,7 +169,7 @@ class EdgeCollapses {
       const std::vector<Change> changes = changes_of(corners, place.share);
       if (turns_faces(e.u, e.v, mesh_.at(e.u) + place.to, changes)) continue;
       if (place.cost > e.cost && !order_.empty() && place.cost > order_.top().cost)
-        return order_.push({place.cost, e.u, e.v, e.stamp_u, e.stamp_v, true});
+        return order_.push({place.cost, e.u, e.v, e.stamp_u, e.stamp_v});
       return collapse(e.u, e.v, place, changes);
     }
   }
@@ -301,6 +303,7 @@ class EdgeCollapses {
   LeafMesh mesh_;
   std::vector<Quadric> quadrics_;  // by point, relative to it
   std::vector<std::uint32_t> stamps_;
+  std::size_t rated_faces_ = 0;  // when all edges were rated the last time
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> order_;
 };
 

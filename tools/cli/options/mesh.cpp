@@ -106,7 +106,7 @@ void ProxyOptions::add_of_scene(Args& args) {
 void ProxyOptions::check() {
   visual = level_mode_ == LevelMode::visual;
   if (level_mode_ != LevelMode::bounding) mode = MeshMode::fit;
-  enclose = parse_enclose(enclose_words_);
+  if (!enclose_words_.empty()) enclose = parse_enclose(enclose_words_);  // those of a stream
 }
 
 }  // namespace bp

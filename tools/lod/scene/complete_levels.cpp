@@ -99,6 +99,7 @@ MadeChain make_chain(Build& build) {
     own.emplace(build, chain.scene, targets_of(request));
     request.faces = own->open();
     request.levels = request.faces.size();
+    request.is_chosen = false;  // SceneLevels knows which levels are worth having
   }
   if (level_count(request) > 0) {
     build.report.begin("measure the scene");

@@ -8,16 +8,17 @@
 #include "lib/core/error.h"
 #include "lib/geometry/surface_distance.h"
 #include "lib/pass/leaf/fewer_triangles.h"
+#include "tools/cli/names.h"
 #include "tools/lod/bake_levels.h"
-#include "tools/lod/choices.h"
 #include "tools/run/enclosed_triangles_limit.h"
+#include "tools/run/provenance.h"
 
 namespace bp {
 
 namespace {
 
 /// A level that shows less than this share of its pixels otherwise than the scene needs no fit beside it.
-constexpr double kLooksTheSame = 0.01;
+constexpr double kLooksTheSame = 0.02;
 
 std::vector<TriangleD> triangles_of(const SceneLeaf& leaf) {
   std::vector<TriangleD> all;
@@ -41,12 +42,14 @@ std::vector<TriangleD> triangles_of(const LatticeMesh& mesh) {
   return all;
 }
 
-/// Returns the whole scene as one piece, in a unit in which float32 holds its vertices from the middle.
+/// Returns the whole scene as one piece. The unit is so small that numbers of 32 bits hold what floats hold.
 SceneLeaf whole_scene(const SceneLooks& looks, const Bounds3d& bounds) {
-  constexpr int kFloatBits = 24;
+  constexpr int kBits = 30;
   int exponent = 0;
   (void)std::frexp(bounds.longest_side() / 2, &exponent);
-  return cut_leaf(looks, bounds, std::ldexp(1.0, exponent - kFloatBits));
+  SceneLeaf leaf = cut_leaf(looks, bounds, std::ldexp(1.0, exponent - kBits));
+  for (double& x : leaf.origin) x = std::nearbyint(x / leaf.unit) * leaf.unit;  // what vertices are relative to
+  return leaf;
 }
 
 void require_memory(const Build& build, std::uint64_t triangles) {
@@ -72,8 +75,11 @@ SceneLevels::SceneLevels(Build& build, const LodScene& scene, const std::vector<
   const Bounds3d& bounds = scene.size.bounds;
   const SceneLeaf whole = whole_scene(*read_looks(build, scene, part_of(build.budget.work, 0.4)), bounds);
   const std::vector<TriangleD> all = triangles_of(whole);
+  if (all.empty()) return;  // no triangle has an area
   const TriangleBvh tree(all);
-  views_ = std::make_unique<DepthViews>(all, bounds);
+  views_ = std::make_unique<SurfaceViews>(all, bounds);
+  std::vector<TriangleD> shown;
+  for (const std::uint32_t i : views_->shown()) shown.push_back(all[i]);
   std::vector<std::uint64_t> most;
   for (const LodTarget& target : targets) most.push_back(target.faces);
   std::vector<SceneLeaf> leaves = with_fewer_triangles(whole, most);
@@ -86,7 +92,7 @@ SceneLevels::SceneLevels(Build& build, const LodScene& scene, const std::vector<
     const double tolerance = bounds.diagonal() / 1000;
     level.difference = views_->difference(own);
     level.error_world = std::max(largest_distance(own, tree, tolerance).at_most,
-                                 largest_distance(all, TriangleBvh(own), tolerance).at_most);
+                                 shown.empty() ? 0 : largest_distance(shown, TriangleBvh(own), tolerance).at_most);
   }
 }
 
@@ -97,43 +103,71 @@ std::vector<std::uint64_t> SceneLevels::open() const {
   return faces;
 }
 
-CompleteLevels SceneLevels::with(CompleteLevels fits) const {
-  CompleteLevels all;
-  std::uint64_t faces = UINT64_MAX;
-  double error = 0;
+/// Returns for each target that is met the one that looks nearer.
+std::vector<SceneLevels::Candidate> SceneLevels::candidates(const CompleteLevels& fits) const {
+  std::vector<Candidate> best;
   for (std::size_t i = 0; i < levels_.size(); ++i) {
     const Level& level = levels_[i];
+    const Candidate own{i, {}, level.leaf != nullptr ? level.leaf->triangles() : 0, level.difference};
     const auto fit = std::find_if(fits.facts.begin(), fits.facts.end(),
                                   [&](const LevelFacts& f) { return f.target.faces == level.target.faces; });
-    const bool has_fit = fit != fits.facts.end();
-    if (level.leaf == nullptr && !has_fit) continue;
-    LodLevel* const fitted = has_fit ? &fits.levels[std::size_t(fit - fits.facts.begin())] : nullptr;
-    const bool is_fit =
-        level.leaf == nullptr || (has_fit && views_->difference(triangles_of(fitted->mesh)) < level.difference);
-    LevelFacts facts;
-    if (is_fit) facts = std::move(*fit);
-    if (!is_fit) {
-      facts.target = level.target;
-      facts.faces = level.leaf->triangles();
-      facts.error_world = level.error_world;
-      facts.voxel = scene_.voxels.header.frame.voxel;
+    if (fit == fits.facts.end()) {
+      if (level.leaf != nullptr) best.push_back(own);
+      continue;
     }
-    if (facts.faces >= faces) continue;
-    faces = facts.faces;
-    facts.error_world = error = std::max(error, facts.error_world);
-    all.facts.push_back(std::move(facts));
-    all.levels.push_back(is_fit ? std::move(*fitted) : told(i));
-    all.scenes.push_back(is_fit ? nullptr : level.leaf);
+    const auto at = std::size_t(fit - fits.facts.begin());
+    const double difference = views_ ? views_->difference(triangles_of(fits.levels[at].mesh)) : 0;
+    const bool is_own = level.leaf != nullptr && (level.difference <= difference || !fit->reached);
+    best.push_back(is_own ? own : Candidate{i, at, fit->faces, difference});
+  }
+  return best;
+}
+
+CompleteLevels SceneLevels::with(CompleteLevels fits) const {
+  const std::vector<Candidate> best = candidates(fits);
+  CompleteLevels all;
+  all.left_out = std::move(fits.left_out);
+  std::erase_if(all.left_out, [&](const LeftOut& out) {
+    const auto meets = [&](const Candidate& c) { return levels_[c.number].target.faces == out.target.faces; };
+    return std::any_of(best.begin(), best.end(), meets);
+  });
+  double error = 0;
+  for (std::size_t i = 0; i < best.size(); ++i) {
+    const auto& [number, fit, faces, difference] = best[i];
+    const LodTarget& target = levels_[number].target;
+    const LevelFacts facts = fit ? fits.facts[*fit] : facts_of(number);
+    const std::uint64_t before = all.facts.empty() ? UINT64_MAX : all.facts.back().faces;
+    const bool is_worse = views_ && i + 1 < best.size() && best[i + 1].difference < difference;
+    if (is_worse || faces >= before) {
+      const std::uint64_t after = is_worse ? best[i + 1].faces : 0;
+      all.left_out.push_back({target, is_worse ? 0 : before, faces, facts.error_world, after});
+      continue;
+    }
+    all.levels.push_back(fit ? std::move(fits.levels[*fit]) : told(target, all.levels.size()));
+    all.scenes.push_back(fit ? nullptr : levels_[number].leaf);
+    all.facts.push_back(facts);
+    all.facts.back().error_world = error = std::max(error, facts.error_world);
   }
   return all;
 }
 
+LevelFacts SceneLevels::facts_of(std::size_t number) const {
+  LevelFacts facts;
+  facts.target = levels_[number].target;
+  facts.stopped_by = kFromScene;
+  facts.faces = levels_[number].leaf->triangles();
+  facts.error_world = levels_[number].error_world;
+  facts.voxel = scene_.voxels.header.frame.voxel;
+  return facts;
+}
+
 /// Returns what a level from the scene tells besides its triangles.
-LodLevel SceneLevels::told(std::size_t number) const {
+LodLevel SceneLevels::told(const LodTarget& target, std::size_t number) const {
   LodLevel level;
   level.mesh.frame = scene_.voxels.header.frame;
-  const OptionText text =
-      option_text(build_.options, scene_.enclosed, levels_[number].target, number, 0, level.mesh.frame);
+  OptionText text;
+  text.add("level", number).add("mode", build_.options.mode_name()).add("faces", target.faces).add("from", "scene");
+  text.add("up", name_of(level.mesh.frame.up));
   level.mesh.provenance = {make_provenance("bplod", text, scene_.voxels.counts.input_hash)};
   return level;
 }

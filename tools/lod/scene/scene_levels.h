@@ -1,8 +1,9 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <vector>
 
-#include "lib/image/depth_views.h"
+#include "lib/image/surface_views.h"
 #include "lib/pass/leaf/scene_leaf.h"
 #include "tools/lod/scene/lod_scene.h"
 
@@ -19,24 +20,33 @@ class SceneLevels {
   /// Returns the faces of the targets that a fit may look nearer for: there is no level yet, or it shows more than a
   /// hundredth of the pixels otherwise than the scene.
   [[nodiscard]] std::vector<std::uint64_t> open() const;
-  /// Returns a level for each target that is met: the fit where that looks nearer. Levels with no fewer faces than the
-  /// one before are left out. The error of a level from the scene is the largest distance between both, from each to
-  /// the other one; where it is less than that of the finer level, that stands for both.
+  /// Returns a level for each target that is met: the fit where that looks nearer. Left out are levels with no fewer
+  /// faces than the one before, and levels that look farther off than the next one. The error of a level from the scene
+  /// is the largest distance from it to the scene, and from what the views show of the scene to it; where it is less
+  /// than that of the finer level, that stands for both.
   [[nodiscard]] CompleteLevels with(CompleteLevels fits) const;
 
  private:
   struct Level {
     LodTarget target;
     std::shared_ptr<const SceneLeaf> leaf;  // null: the triangles cannot meet the target
-    double difference = 0;                  // DepthViews::difference()
+    double difference = 0;                  // SurfaceViews::difference()
     double error_world = 0;
   };
-  [[nodiscard]] LodLevel told(std::size_t number) const;
+  struct Candidate {
+    std::size_t number = 0;          // of the target
+    std::optional<std::size_t> fit;  // number of the fit that is taken; none: the level is from the scene
+    std::uint64_t faces = 0;
+    double difference = 0;
+  };
+  [[nodiscard]] std::vector<Candidate> candidates(const CompleteLevels& fits) const;
+  [[nodiscard]] LodLevel told(const LodTarget& target, std::size_t number) const;
+  [[nodiscard]] LevelFacts facts_of(std::size_t number) const;
 
   const Build& build_;
   const LodScene& scene_;
   std::vector<Level> levels_;
-  std::unique_ptr<DepthViews> views_;
+  std::unique_ptr<SurfaceViews> views_;
 };
 
 }  // namespace bp

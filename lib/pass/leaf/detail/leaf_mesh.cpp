@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 namespace bp {
 
@@ -47,31 +48,32 @@ LeafMesh::LeafMesh(const SceneLeaf& leaf) {
   for (Index p = 0; p < points; ++p) part_fans(p);
 }
 
-/// Gives each fan of faces that are joined by edges, but the first one, a point of its own.
+/// Gives each fan of faces that are joined by edges, but the first one, a point of its own. O(n log n).
 void LeafMesh::part_fans(Index point) {
-  std::vector<Index> left = faces_of(point);
-  for (bool is_first = true; !left.empty(); is_first = false) {
-    std::vector<Index> fan{left.front()};
-    left.erase(left.begin());
-    for (std::size_t i = 0; i < fan.size(); ++i) {
-      const auto joins = [&](Index f) {
-        for (std::size_t k = 0; k < 3; ++k) {
-          if (point_of(f, k) != point && place_in(fan[i], point_of(f, k)) < 3) return true;
-        }
-        return false;
-      };
-      for (const Index f : left) {
-        if (joins(f)) fan.push_back(f);
-      }
-      std::erase_if(left, [&](Index f) { return std::find(fan.begin(), fan.end(), f) != fan.end(); });
-    }
-    if (is_first) {
-      points_[point].faces = fan;
-      std::sort(points_[point].faces.begin(), points_[point].faces.end());
-    } else {
-      give_point(point, fan);
-    }
+  const std::vector<Index> faces = faces_of(point);
+  std::vector<std::pair<Index, Index>> edges;  // other end, and number of a face
+  for (Index i = 0; i < faces.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k)
+      if (point_of(faces[i], k) != point) edges.emplace_back(point_of(faces[i], k), i);
   }
+  std::sort(edges.begin(), edges.end());
+  std::vector<Index> first(faces.size());  // a face of the same fan that comes before; itself: none does
+  std::iota(first.begin(), first.end(), Index(0));
+  const auto first_of = [&](Index i) {
+    while (first[i] != i) i = first[i] = first[first[i]];
+    return i;
+  };
+  for (std::size_t e = 1; e < edges.size(); ++e) {
+    if (edges[e].first != edges[e - 1].first) continue;
+    const Index x = first_of(edges[e].second), y = first_of(edges[e - 1].second);
+    first[std::max(x, y)] = std::min(x, y);
+  }
+  std::map<Index, std::vector<Index>> fans;
+  for (Index i = 0; i < faces.size(); ++i) fans[first_of(i)].push_back(faces[i]);
+  for (const auto& [i, fan] : fans) {
+    if (i > 0) give_point(point, fan);
+  }
+  if (fans.size() > 1) points_[point].faces = fans.begin()->second;
 }
 
 /// Moves the fan's corners from a point to a new one at the same place. A corner that other faces have, too, is copied.

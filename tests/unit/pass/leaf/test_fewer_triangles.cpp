@@ -139,7 +139,7 @@ TEST_CASE("several numbers of triangles are met by one order of collapses", "[qu
     CHECK(all[i].triangles() <= most[i]);
     CHECK(all[i].triangles() + 2 > most[i]);
   }
-  const SceneLeaf alone = fewer(leaf, 300);
-  CHECK(alone.parts[0].vertices == all[1].parts[0].vertices);
-  CHECK(alone.parts[0].triangles == all[1].parts[0].triangles);
+  const SceneLeaf alone = fewer(leaf, 50);
+  CHECK(alone.parts[0].vertices == all[2].parts[0].vertices);
+  CHECK(alone.parts[0].triangles == all[2].parts[0].triangles);
 }

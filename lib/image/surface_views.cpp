@@ -1,4 +1,4 @@
-#include "lib/image/depth_views.h"
+#include "lib/image/surface_views.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,13 +36,30 @@ struct Axes {
   }
 };
 
-/// Draws into depths.
+/// Returns the normals of the triangles; zeros for one without area.
+std::vector<std::array<float, 3>> normals_of(std::span<const TriangleD> triangles) {
+  std::vector<std::array<float, 3>> normals;
+  normals.reserve(triangles.size());
+  for (const TriangleD& t : triangles) {
+    const Vec3d n = unit(cross(t[1] - t[0], t[2] - t[0]), {});
+    normals.push_back({float(n[0]), float(n[1]), float(n[2])});
+  }
+  return normals;
+}
+
+/// Returns the cosine between two surfaces that are seen from both sides.
+double cosine(const std::array<float, 3>& a, const std::array<float, 3>& b) {
+  return std::abs(double(a[0]) * b[0] + double(a[1]) * b[1] + double(a[2]) * b[2]);
+}
+
+/// Draws into pixels with a depth and the number of a triangle. The first one of triangles at one depth stays.
+template <class Pixel>
 class DepthCanvas {
  public:
-  DepthCanvas(std::vector<float>& depths, int side) : depths_(depths), side_(side) {}
+  DepthCanvas(std::vector<Pixel>& pixels, int side) : pixels_(pixels), side_(side) {}
 
   /// Corners: x and y in pixels, and depth.
-  void draw(const std::array<Vec3d, 3>& t) {
+  void draw(const std::array<Vec3d, 3>& t, std::uint32_t number) {
     const auto& [a, b, c] = t;
     const double area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
     if (area == 0 || !std::isfinite(area)) return;
@@ -54,8 +71,9 @@ class DepthCanvas {
         const double u = ((b[0] - px) * (c[1] - py) - (c[0] - px) * (b[1] - py)) / area;
         const double v = ((c[0] - px) * (a[1] - py) - (a[0] - px) * (c[1] - py)) / area;
         if (u < 0 || v < 0 || u + v > 1) continue;
-        float& depth = depths_[std::size_t(y) * std::size_t(side_) + std::size_t(x)];
-        depth = std::min(depth, float(u * a[2] + v * b[2] + (1 - u - v) * c[2]));
+        Pixel& pixel = pixels_[std::size_t(y) * std::size_t(side_) + std::size_t(x)];
+        const auto depth = float(u * a[2] + v * b[2] + (1 - u - v) * c[2]);
+        if (depth < pixel.depth) pixel = {depth, number};
       }
     }
   }
@@ -63,46 +81,51 @@ class DepthCanvas {
  private:
   [[nodiscard]] int first(double x) const { return int(std::clamp(std::ceil(x - 0.5), 0.0, double(side_))); }
   [[nodiscard]] int last(double x) const { return int(std::clamp(std::floor(x - 0.5), -1.0, double(side_ - 1))); }
-  std::vector<float>& depths_;
+  std::vector<Pixel>& pixels_;
   int side_;
 };
 
 }  // namespace
 
-DepthViews::DepthViews(std::span<const TriangleD> triangles, const Bounds3d& bounds) : bounds_(bounds), views_(kViews) {
+SurfaceViews::SurfaceViews(std::span<const TriangleD> triangles, const Bounds3d& bounds)
+    : bounds_(bounds), normals_(normals_of(triangles)), views_(kViews) {
   parallel_for(std::int64_t(kViews),
                [&](std::int64_t i) { views_[std::size_t(i)] = drawn(triangles, std::size_t(i)); });
 }
 
-DepthViews::Depths DepthViews::drawn(std::span<const TriangleD> triangles, std::size_t view) const {
-  Depths depths(std::size_t(kSide) * kSide, kNothing);
-  DepthCanvas canvas(depths, kSide);
+SurfaceViews::Pixels SurfaceViews::drawn(std::span<const TriangleD> triangles, std::size_t view) const {
+  Pixels all(std::size_t(kSide) * kSide, {kNothing, 0});
+  DepthCanvas canvas(all, kSide);
   const Axes axes(view);
   const Vec3d middle = 0.5 * (bounds_.min + bounds_.max);
   const double pixels = kSide / (kMargin * std::max(bounds_.diagonal(), std::numeric_limits<double>::min()));
-  for (const TriangleD& t : triangles) {
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
     std::array<Vec3d, 3> seen;
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3d p = t[k] - middle;
+      const Vec3d p = triangles[i][k] - middle;
       seen[k] = {kSide / 2.0 + pixels * dot(p, axes.right), kSide / 2.0 + pixels * dot(p, axes.down),
                  pixels * dot(p, axes.away)};
     }
-    canvas.draw(seen);
+    canvas.draw(seen, std::uint32_t(i));
   }
-  return depths;
+  return all;
 }
 
-double DepthViews::difference(std::span<const TriangleD> others) const {
+double SurfaceViews::difference(std::span<const TriangleD> others) const {
   std::vector<double> different(kViews), shown(kViews);
+  const std::vector<std::array<float, 3>> normals = normals_of(others);
   parallel_for(std::int64_t(kViews), [&](std::int64_t i) {
-    const Depths& own = views_[std::size_t(i)];
-    const Depths other = drawn(others, std::size_t(i));
-    double& sum = different[std::size_t(i)];
+    const Pixels& own = views_[std::size_t(i)];
+    const Pixels other = drawn(others, std::size_t(i));
     for (std::size_t p = 0; p < own.size(); ++p) {
-      const bool here = own[p] < kNothing, there = other[p] < kNothing;
+      const bool here = own[p].depth < kNothing, there = other[p].depth < kNothing;
       shown[std::size_t(i)] += here || there;
-      sum += here && there ? std::min(1.0, std::abs(double(own[p]) - other[p]) / (kFullDepth * kSide / kMargin))
-                           : double(here != there);
+      double part = here != there;
+      if (here && there) {
+        const double apart = std::abs(double(own[p].depth) - other[p].depth) / (kFullDepth * kSide / kMargin);
+        part = std::min(1.0, std::max(apart, 1 - cosine(normals_[own[p].triangle], normals[other[p].triangle])));
+      }
+      different[std::size_t(i)] += part;
     }
   });
   double sum = 0, count = 0;
@@ -112,6 +135,17 @@ double DepthViews::difference(std::span<const TriangleD> others) const {
     ++count;
   }
   return count > 0 ? sum / count : 0;
+}
+
+std::vector<std::uint32_t> SurfaceViews::shown() const {
+  std::vector<char> is_shown(normals_.size(), 0);
+  for (const Pixels& view : views_)
+    for (const Pixel& pixel : view)
+      if (pixel.depth < kNothing) is_shown[pixel.triangle] = 1;
+  std::vector<std::uint32_t> all;
+  for (std::uint32_t i = 0; i < is_shown.size(); ++i)
+    if (is_shown[i]) all.push_back(i);
+  return all;
 }
 
 }  // namespace bp
