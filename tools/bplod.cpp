@@ -66,7 +66,7 @@ void build_chain(const bp::BuildOptions& o) {
   const bp::LevelFacts& finest = made.facts.front();
   const bool asked = asks_for_faces(request_of(o));
   build.note(bp::heavier_note(finest, asked, scene.size.triangles));
-  if (made.scenes.empty() || made.scenes.front() == nullptr) {
+  if (made.scene_of(0) == nullptr) {
     const std::string joined =
         bp::joined_note(finest, made.levels.front().counts.levels.front().measures.shells, parts);
     build.note(joined.empty() && !asked ? bp::closed_note(finest) : joined);
@@ -76,7 +76,7 @@ void build_chain(const bp::BuildOptions& o) {
   std::vector<bp::LevelRow> rows;
   for (const bp::WrittenFile& file : files) {
     rows.push_back(row_of(file, made.facts, out));
-    if (o.proxy.visual) rows.back().more["from"] = made.scenes[file.level] ? "scene" : "fit";
+    if (o.proxy.visual) rows.back().more["from"] = made.scene_of(file.level) != nullptr ? "scene" : "fit";
     build.note(file.note);
   }
   if (origin != bp::Vec3d{}) build.report.counts["origin"] = origin;

@@ -1,6 +1,8 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 
 #include "io/mesh/tile_compression.h"
@@ -10,6 +12,12 @@ namespace bp {
 
 /// Returns the file of a material's image in the leaf's folder; empty: it has none.
 using LeafImageName = std::function<std::string(std::uint32_t image)>;
+
+/// Returns the type of a file of TextureSet::file(), by its first byte: "image/jpeg", "image/webp" or "image/png".
+[[nodiscard]] inline std::string image_type(std::span<const std::byte> file) {
+  const int first = file.empty() ? 0 : std::to_integer<int>(file[0]);
+  return first == 0xFF ? "image/jpeg" : first == 'R' ? "image/webp" : "image/png";
+}
 
 /// Images and colours of a leaf.
 struct LeafLooks {

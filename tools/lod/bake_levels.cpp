@@ -159,7 +159,7 @@ void bake_levels(Build& build, const LodScene& scene, CompleteLevels& made) {
   build.report.begin("textures");
   const std::unique_ptr<SceneLooks> looks = read_looks(build, scene, part_of(build.budget.work, 0.6));
   for (std::size_t i = 0; i < made.levels.size(); ++i) {
-    if (i < made.scenes.size() && made.scenes[i]) continue;  // it shows the scene's own images
+    if (made.scene_of(i) != nullptr) continue;  // it shows the scene's own images
     LodLevel& level = made.levels[i];
     const LevelLengths lengths{level.error_world, made.facts[i].target.error_world, level.scale_world};
     level.mesh.texture = level_texture(build, scene, level.mesh, lengths, *looks, part_of(build.budget.work, 0.4));

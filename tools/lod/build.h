@@ -44,7 +44,12 @@ struct CompleteLevels {
   std::vector<LodLevel> levels;   ///< finest first
   std::vector<LevelFacts> facts;  ///< of each level
   std::vector<LeftOut> left_out;
-  std::vector<std::shared_ptr<const SceneLeaf>> scenes;  ///< shown in place of a level; null, or no element: the level
+  std::vector<std::shared_ptr<const SceneLeaf>> scenes;  ///< shown in place of levels; null, or no element: the level
+
+  /// Returns what is shown in place of a level; null: the level itself.
+  [[nodiscard]] const SceneLeaf* scene_of(std::size_t level) const {
+    return level < scenes.size() ? scenes[level].get() : nullptr;
+  }
 };
 
 /// Tells the notes of levels that are one mesh each; `first` is the number of the first one.

@@ -19,10 +19,10 @@ namespace bp {
 
 namespace {
 
-/// Tells the format of an image by its first bytes.
-const char* extension_of(std::span<const std::byte> file) {
-  const auto at = [&](std::size_t i) { return i < file.size() ? std::to_integer<int>(file[i]) : 0; };
-  return at(0) == 0xFF ? "jpg" : at(0) == 'R' ? "webp" : "png";
+/// Returns the ending of an image's file.
+std::string extension_of(std::span<const std::byte> file) {
+  const std::string type = image_type(file);
+  return type == "image/jpeg" ? "jpg" : type.substr(type.find('/') + 1);
 }
 
 /// Names image files after their contents, so that a changed image gets another name.

@@ -16,10 +16,8 @@ namespace {
 
 std::vector<NamedMesh> named(const std::string& name, const CompleteLevels& made) {
   std::vector<NamedMesh> meshes;
-  for (std::size_t i = 0; i < made.levels.size(); ++i) {
-    const SceneLeaf* const scene = i < made.scenes.size() ? made.scenes[i].get() : nullptr;
-    meshes.push_back({level_name(name, i), &made.levels[i].mesh, scene});
-  }
+  for (std::size_t i = 0; i < made.levels.size(); ++i)
+    meshes.push_back({level_name(name, i), &made.levels[i].mesh, made.scene_of(i)});
   return meshes;
 }
 

@@ -76,12 +76,6 @@ class LeafPrimitive {
   std::vector<std::uint32_t> order_;
 };
 
-/// Returns the type of an image file by its first bytes.
-std::string type_of(std::span<const std::byte> file) {
-  const int first = std::to_integer<int>(file[0]);
-  return first == 0xFF ? "image/jpeg" : first == 'R' ? "image/webp" : "image/png";
-}
-
 bool have_one_color(const LeafPart& part) {
   return std::all_of(part.vertices.begin(), part.vertices.end(),
                      [&](const LeafVertex& v) { return v.color == part.vertices.front().color; });
@@ -152,7 +146,8 @@ std::optional<std::size_t> GlbLeaves::image_of(std::uint32_t image) {
     const std::string name = looks_.name_of(image);
     if (!name.empty()) found->second = all_.add_image(name);
   } else if (const std::vector<std::byte> file = looks_.images->file(image); !file.empty()) {
-    found->second = all_.add_image(std::string(reinterpret_cast<const char*>(file.data()), file.size()), type_of(file));
+    found->second =
+        all_.add_image(std::string(reinterpret_cast<const char*>(file.data()), file.size()), image_type(file));
   }
   return found->second;
 }

@@ -1,7 +1,8 @@
 # A box of 1 m at UTM coordinates, and the same with a triangle far away. The tools keep the distance by which reading in
 # single precision may be off. A proxy of the box as read in double does not, and nothing is proven.
 box() {  # FORMAT alone|stray
-  python3 - "$@" <<'PY'
+  PYTHONPATH=$BP_ROOT/tests/golden PYTHONDONTWRITEBYTECODE=1 python3 - "$@" <<'PY'
+from dxf import print_dxf
 import sys
 kind, stray = sys.argv[1], sys.argv[2] == "stray"
 v = [(448000.3 + a, 5412345.3 + b, 33.3 + c) for a in (0, 1) for b in (0, 1) for c in (0, 1)]
@@ -33,12 +34,7 @@ if kind == "dae":
           'url="#s"/></scene></COLLADA>' % (3 * len(v), " ".join(repr(c) for p in v for c in p), len(v), len(faces),
                                             " ".join(str(i) for f in faces for i in f)))
 if kind == "dxf":
-    print("0\nSECTION\n2\nENTITIES")
-    for f in faces:
-        print("0\n3DFACE\n8\n0")
-        for k, i in enumerate(f + (f[2],)):
-            print("%d\n%r\n%d\n%r\n%d\n%r" % (10 + k, v[i][0], 20 + k, v[i][1], 30 + k, v[i][2]))
-    print("0\nENDSEC\n0\nEOF")
+    print_dxf(v, faces)
 PY
 }
 for with in alone stray; do

@@ -1,7 +1,8 @@
 # Scenes that are read with rounding: in single precision (DXF), and with a node that turns (glTF). Whatever ends with 0
 # has a proof.
 source_scene() {  # FORMAT X
-  python3 - "$@" <<'PY'
+  PYTHONPATH=$BP_ROOT/tests/golden PYTHONDONTWRITEBYTECODE=1 python3 - "$@" <<'PY'
+from dxf import print_dxf
 import json, math, struct, base64, sys
 kind, x0 = sys.argv[1], float(sys.argv[2])
 box = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
@@ -15,12 +16,7 @@ for low, size, slant in (((0.1, 0.2, 0.3), (3.3, 1.1, 0.7), 0), ((0.7, 0.4, 1), 
     v += corners(low, size, slant)
     faces += [tuple(n + i for i in t) for a, b, c, e in box for t in ((a, b, c), (a, c, e))]
 if kind == "dxf":
-    print("0\nSECTION\n2\nENTITIES")
-    for f in faces:
-        print("0\n3DFACE\n8\n0")
-        for k, i in enumerate(f + (f[2],)):
-            print("%d\n%r\n%d\n%r\n%d\n%r" % (10 + k, v[i][0], 20 + k, v[i][1], 30 + k, v[i][2]))
-    print("0\nENDSEC\n0\nEOF")
+    print_dxf(v, faces)
 else:
     flat = struct.pack("<%df" % (3 * len(v)), *(c for p in v for c in p))
     index = struct.pack("<%dH" % (3 * len(faces)), *(i for f in faces for i in f))

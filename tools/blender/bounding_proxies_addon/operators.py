@@ -286,15 +286,10 @@ class MakeCage(Making, bpy.types.Operator):
 
 
 CLASSES = (MakeCollision, MakeHulls, MakeOccluder, MakeLevels, MakeCage, Check)
-
-
-def register() -> None:
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
+register, _unregister = bpy.utils.register_classes_factory(CLASSES)
 
 
 def unregister() -> None:
     for job in running:
         job.cancel()
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+    _unregister()

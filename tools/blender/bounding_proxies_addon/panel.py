@@ -97,13 +97,4 @@ class BOUNDING_PROXIES_PT_proxies(_Panel, bpy.types.Panel):
 
 CLASSES = (BOUNDING_PROXIES_PT_collision, BOUNDING_PROXIES_PT_cage, BOUNDING_PROXIES_PT_levels, BOUNDING_PROXIES_PT_occluder,
            BOUNDING_PROXIES_PT_grid, BOUNDING_PROXIES_PT_proxies)
-
-
-def register() -> None:
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-
-
-def unregister() -> None:
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

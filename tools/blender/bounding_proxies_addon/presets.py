@@ -29,13 +29,4 @@ class AddPreset(AddPresetBase, bpy.types.Operator):
 
 
 CLASSES = (AddPreset, BOUNDING_PROXIES_PT_presets)
-
-
-def register() -> None:
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-
-
-def unregister() -> None:
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

@@ -8,6 +8,7 @@
 #include "lib/core/error.h"
 #include "lib/geometry/surface_distance.h"
 #include "lib/pass/leaf/fewer_triangles.h"
+#include "lib/pass/mesh/surface_around.h"
 #include "tools/cli/names.h"
 #include "tools/lod/bake_levels.h"
 #include "tools/run/enclosed_triangles_limit.h"
@@ -31,14 +32,6 @@ std::vector<TriangleD> triangles_of(const SceneLeaf& leaf) {
     };
     for (const auto& t : part.triangles) all.push_back({at(t[0]), at(t[1]), at(t[2])});
   }
-  return all;
-}
-
-std::vector<TriangleD> triangles_of(const LatticeMesh& mesh) {
-  std::vector<TriangleD> all;
-  all.reserve(mesh.triangles.size());
-  const auto at = [&](std::uint32_t v) { return mesh.frame.world(mesh.vertices[v]); };
-  for (const auto& t : mesh.triangles) all.push_back({at(t[0]), at(t[1]), at(t[2])});
   return all;
 }
 
@@ -116,7 +109,7 @@ std::vector<SceneLevels::Candidate> SceneLevels::candidates(const CompleteLevels
       continue;
     }
     const auto at = std::size_t(fit - fits.facts.begin());
-    const double difference = views_ ? views_->difference(triangles_of(fits.levels[at].mesh)) : 0;
+    const double difference = views_ ? views_->difference(world_triangles(fits.levels[at].mesh)) : 0;
     const bool is_own = level.leaf != nullptr && (level.difference <= difference || !fit->reached);
     best.push_back(is_own ? own : Candidate{i, at, fit->faces, difference});
   }

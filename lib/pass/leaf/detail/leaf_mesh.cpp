@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
+
+#include "lib/core/disjoint_sets.h"
 
 namespace bp {
 
@@ -57,19 +58,11 @@ void LeafMesh::part_fans(Index point) {
       if (point_of(faces[i], k) != point) edges.emplace_back(point_of(faces[i], k), i);
   }
   std::sort(edges.begin(), edges.end());
-  std::vector<Index> first(faces.size());  // a face of the same fan that comes before; itself: none does
-  std::iota(first.begin(), first.end(), Index(0));
-  const auto first_of = [&](Index i) {
-    while (first[i] != i) i = first[i] = first[first[i]];
-    return i;
-  };
-  for (std::size_t e = 1; e < edges.size(); ++e) {
-    if (edges[e].first != edges[e - 1].first) continue;
-    const Index x = first_of(edges[e].second), y = first_of(edges[e - 1].second);
-    first[std::max(x, y)] = std::min(x, y);
-  }
+  DisjointSets joined(faces.size());
+  for (std::size_t e = 1; e < edges.size(); ++e)
+    if (edges[e].first == edges[e - 1].first) joined.unite(edges[e].second, edges[e - 1].second);
   std::map<Index, std::vector<Index>> fans;
-  for (Index i = 0; i < faces.size(); ++i) fans[first_of(i)].push_back(faces[i]);
+  for (Index i = 0; i < faces.size(); ++i) fans[joined.find(i)].push_back(faces[i]);
   for (const auto& [i, fan] : fans) {
     if (i > 0) give_point(point, fan);
   }
