@@ -10,7 +10,7 @@
 
 namespace bp {
 
-/// Adds pieces of a scene to a GLB, each with its own materials. Both sides of triangles are shown.
+/// Adds pieces of a scene to a GLB, each with its own materials.
 class GlbLeaves {
  public:
   using Position = std::array<float, 3>;
@@ -30,8 +30,8 @@ class GlbLeaves {
     bool has_image = false;
   };
   GltfOutJson primitive(const LeafPart& part, const Place& place);
-  Mapped add_material(const TextureMaterial& material, std::array<double, 4> factor);
-  std::optional<std::size_t> add_map(const TextureMap& map);
+  Mapped add_material(const TextureMaterial& material, std::array<double, 4> factor, LeafSides sides);
+  std::optional<GltfOutJson> add_map(const TextureMap& map);
   std::optional<std::size_t> image_of(std::uint32_t image);
 
   GlbData& data_;

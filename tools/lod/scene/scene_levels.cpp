@@ -7,7 +7,9 @@
 
 #include "lib/core/error.h"
 #include "lib/geometry/surface_distance.h"
+#include "lib/geometry/triangle_parts.h"
 #include "lib/pass/leaf/fewer_triangles.h"
+#include "lib/pass/leaf/leaf_paint.h"
 #include "lib/pass/mesh/surface_around.h"
 #include "tools/cli/names.h"
 #include "tools/lod/bake_levels.h"
@@ -35,6 +37,38 @@ std::vector<TriangleD> triangles_of(const SceneLeaf& leaf) {
   return all;
 }
 
+/// Cuts long, thin triangles, so that their boxes overlap less: else a search among those of a fan visits all of them.
+/// There are at most about kPieces for each triangle.
+std::vector<TriangleD> in_pieces(const std::vector<TriangleD>& triangles) {
+  constexpr double kPieces = 4, kThin = 1.0 / 16;  // area over the longest edge squared
+  Bounds3d bounds;
+  double length = 0;
+  const auto longest = [](const TriangleD& t) {
+    const std::size_t apex = apex_of(t);
+    return std::sqrt(length_squared(t[(apex + 1) % 3], t[(apex + 2) % 3]));
+  };
+  const auto is_thin = [&](const TriangleD& t, double edge) { return area_of(t) < kThin * edge * edge; };
+  for (const TriangleD& t : triangles) {
+    for (const Vec3d& p : t) bounds.add(p);
+    if (const double edge = longest(t); is_thin(t, edge)) length += edge;
+  }
+  const double most = std::max(bounds.diagonal() / 64, length / (kPieces * double(triangles.size() + 1)));
+  std::vector<TriangleD> pieces, stack;
+  for (const TriangleD& t : triangles) {
+    stack.push_back(t);
+    while (!stack.empty()) {
+      const TriangleD piece = stack.back();
+      stack.pop_back();
+      if (const double edge = longest(piece); edge > most && is_thin(piece, edge)) {
+        for (const TriangleD& half : halves(piece)) stack.push_back(half);
+      } else {
+        pieces.push_back(piece);
+      }
+    }
+  }
+  return pieces;
+}
+
 /// Returns the whole scene as one piece. The unit is so small that numbers of 32 bits hold what floats hold.
 SceneLeaf whole_scene(const SceneLooks& looks, const Bounds3d& bounds) {
   constexpr int kBits = 30;
@@ -45,9 +79,14 @@ SceneLeaf whole_scene(const SceneLooks& looks, const Bounds3d& bounds) {
   return leaf;
 }
 
-void require_memory(const Build& build, std::uint64_t triangles) {
+/// Checks the memory of the work, of its results, and of the images' files, which are copied into that of a level.
+void require_memory(const Build& build, const LodScene& scene, const std::vector<LodTarget>& targets) {
+  constexpr std::uint64_t kResultBytesPerTriangle = 300;  // a vertex for each corner, here and in the file
   const MemoryShare memory = build.context().memory;
-  const std::uint64_t needed = triangles * (kLeafBytesPerTriangle + kCollapseBytesPerTriangle);
+  const std::uint64_t triangles = scene.size.triangles;
+  std::uint64_t needed = triangles * (kLeafBytesPerTriangle + kCollapseBytesPerTriangle);
+  for (const LodTarget& target : targets) needed += kResultBytesPerTriangle * std::min(target.faces, triangles);
+  if (scene.textures) needed += 2 * scene.textures->file_bytes();
   if (needed <= memory.bytes) return;
   throw NeedsMemory(fmt::format("levels from {} triangles of the scene", triangles), needed, memory.bytes,
                     memory.limit_with(needed - memory.bytes));
@@ -64,13 +103,19 @@ SceneLevels::SceneLevels(Build& build, const LodScene& scene, const std::vector<
     return;
   }
   build.report.begin("levels from the scene");
-  require_memory(build, scene.size.triangles);
+  require_memory(build, scene, targets);
   const Bounds3d& bounds = scene.size.bounds;
   const SceneLeaf whole = whole_scene(*read_looks(build, scene, part_of(build.budget.work, 0.4)), bounds);
+  const LeafImages images(whole, scene.textures.get(), part_of(build.budget.work, 0.2));
+  for (const auto& [image, fault] : images.broken()) {
+    build.note(fault + "; levels from the scene leave it out");
+    broken_.insert(image);
+  }
   const std::vector<TriangleD> all = triangles_of(whole);
   if (all.empty()) return;  // no triangle has an area
-  const TriangleBvh tree(all);
-  views_ = std::make_unique<SurfaceViews>(all, bounds);
+  const TriangleBvh tree(in_pieces(all));
+  const bool has_colors = build.options.colors() && scene.has_colors();
+  views_ = std::make_unique<SurfaceViews>(all, bounds, has_colors ? paint_of(whole, images) : SurfaceViews::ColorAt());
   std::vector<TriangleD> shown;
   for (const std::uint32_t i : views_->shown()) shown.push_back(all[i]);
   std::vector<std::uint64_t> most;
@@ -83,9 +128,10 @@ SceneLevels::SceneLevels(Build& build, const LodScene& scene, const std::vector<
     if (level.leaf->triangles() == all.size()) continue;  // the scene itself
     const std::vector<TriangleD> own = triangles_of(*level.leaf);
     const double tolerance = bounds.diagonal() / 1000;
-    level.difference = views_->difference(own);
-    level.error_world = std::max(largest_distance(own, tree, tolerance).at_most,
-                                 shown.empty() ? 0 : largest_distance(shown, TriangleBvh(own), tolerance).at_most);
+    level.difference = views_->difference(own, paint_of(*level.leaf, images));
+    level.error_world =
+        std::max(largest_distance(own, tree, tolerance).at_most,
+                 shown.empty() ? 0 : largest_distance(shown, TriangleBvh(in_pieces(own)), tolerance).at_most);
   }
 }
 
@@ -120,6 +166,7 @@ CompleteLevels SceneLevels::with(CompleteLevels fits) const {
   const std::vector<Candidate> best = candidates(fits);
   CompleteLevels all;
   all.left_out = std::move(fits.left_out);
+  all.broken = broken_;
   std::erase_if(all.left_out, [&](const LeftOut& out) {
     const auto meets = [&](const Candidate& c) { return levels_[c.number].target.faces == out.target.faces; };
     return std::any_of(best.begin(), best.end(), meets);

@@ -1,6 +1,7 @@
 #pragma once
 #include <memory>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "lib/image/surface_views.h"
@@ -47,6 +48,7 @@ class SceneLevels {
   const LodScene& scene_;
   std::vector<Level> levels_;
   std::unique_ptr<SurfaceViews> views_;
+  std::set<std::uint32_t> broken_;
 };
 
 }  // namespace bp
