@@ -7,7 +7,6 @@
 
 #include "lib/core/error.h"
 #include "lib/geometry/surface_distance.h"
-#include "lib/geometry/triangle_parts.h"
 #include "lib/pass/leaf/fewer_triangles.h"
 #include "lib/pass/leaf/leaf_paint.h"
 #include "lib/pass/mesh/surface_around.h"
@@ -35,38 +34,6 @@ std::vector<TriangleD> triangles_of(const SceneLeaf& leaf) {
     for (const auto& t : part.triangles) all.push_back({at(t[0]), at(t[1]), at(t[2])});
   }
   return all;
-}
-
-/// Cuts long, thin triangles, so that their boxes overlap less: else a search among those of a fan visits all of them.
-/// There are at most about kPieces for each triangle.
-std::vector<TriangleD> in_pieces(const std::vector<TriangleD>& triangles) {
-  constexpr double kPieces = 4, kThin = 1.0 / 16;  // area over the longest edge squared
-  Bounds3d bounds;
-  double length = 0;
-  const auto longest = [](const TriangleD& t) {
-    const std::size_t apex = apex_of(t);
-    return std::sqrt(length_squared(t[(apex + 1) % 3], t[(apex + 2) % 3]));
-  };
-  const auto is_thin = [&](const TriangleD& t, double edge) { return area_of(t) < kThin * edge * edge; };
-  for (const TriangleD& t : triangles) {
-    for (const Vec3d& p : t) bounds.add(p);
-    if (const double edge = longest(t); is_thin(t, edge)) length += edge;
-  }
-  const double most = std::max(bounds.diagonal() / 64, length / (kPieces * double(triangles.size() + 1)));
-  std::vector<TriangleD> pieces, stack;
-  for (const TriangleD& t : triangles) {
-    stack.push_back(t);
-    while (!stack.empty()) {
-      const TriangleD piece = stack.back();
-      stack.pop_back();
-      if (const double edge = longest(piece); edge > most && is_thin(piece, edge)) {
-        for (const TriangleD& half : halves(piece)) stack.push_back(half);
-      } else {
-        pieces.push_back(piece);
-      }
-    }
-  }
-  return pieces;
 }
 
 /// Returns the whole scene as one piece. The unit is so small that numbers of 32 bits hold what floats hold.
@@ -113,7 +80,7 @@ SceneLevels::SceneLevels(Build& build, const LodScene& scene, const std::vector<
   }
   const std::vector<TriangleD> all = triangles_of(whole);
   if (all.empty()) return;  // no triangle has an area
-  const TriangleBvh tree(in_pieces(all));
+  const TriangleBvh tree(all);
   const bool has_colors = build.options.colors() && scene.has_colors();
   views_ = std::make_unique<SurfaceViews>(all, bounds, has_colors ? paint_of(whole, images) : SurfaceViews::ColorAt());
   std::vector<TriangleD> shown;
@@ -129,9 +96,8 @@ SceneLevels::SceneLevels(Build& build, const LodScene& scene, const std::vector<
     const std::vector<TriangleD> own = triangles_of(*level.leaf);
     const double tolerance = bounds.diagonal() / 1000;
     level.difference = views_->difference(own, paint_of(*level.leaf, images));
-    level.error_world =
-        std::max(largest_distance(own, tree, tolerance).at_most,
-                 shown.empty() ? 0 : largest_distance(shown, TriangleBvh(in_pieces(own)), tolerance).at_most);
+    level.error_world = std::max(largest_distance(own, tree, tolerance).at_most,
+                                 shown.empty() ? 0 : largest_distance(shown, TriangleBvh(own), tolerance).at_most);
   }
 }
 
