@@ -20,6 +20,7 @@ using Change = LeafMesh::Change;
 constexpr double kShort = 1e-3;
 /// A new place costs less than this share of the better end's. Between the ends thin tubes would shrink.
 constexpr double kWorthMoving = 0.5;
+constexpr double kSharpCosine = 0.1;  // between faces at a fold that may be held: about a right angle
 /// A face turns by less than 78 degrees in one collapse.
 constexpr double kLeastCosine = 0.2;
 
@@ -66,8 +67,8 @@ double turn_of(const std::array<float, 2>& a, const std::array<float, 2>& b, con
 
 class EdgeCollapses {
  public:
-  explicit EdgeCollapses(const SceneLeaf& leaf)
-      : whole_(leaf), mesh_(leaf), quadrics_(mesh_.point_count()), stamps_(mesh_.point_count(), 0) {
+  EdgeCollapses(const SceneLeaf& leaf, LeafFolds folds)
+      : whole_(leaf), folds_(folds), mesh_(leaf), quadrics_(mesh_.point_count()), stamps_(mesh_.point_count(), 0) {
     for (Index p = 0; p < mesh_.point_count(); ++p) {
       for (const Index f : mesh_.faces_of(p)) add_planes(p, f);
     }
@@ -111,23 +112,32 @@ class EdgeCollapses {
   }
   void hold_edge(Index p, Index other, Index f, const Vec3d& along, const Vec3d& n) {
     const double squared = dot(along, along);
-    if (squared > 0 && is_outline(p, other, f)) quadrics_[p].add_plane(unit(cross(along, n), n), 0, squared);
+    const double weight = weight_of_edge(p, other, f);
+    if (weight > 0 && squared > 0) quadrics_[p].add_plane(unit(cross(along, n), n), 0, weight * squared);
   }
-  /// Returns whether an edge of the face is a border, or a seam: a plane through it holds its course.
-  [[nodiscard]] bool is_outline(Index p, Index other, Index f) const {
+  /// Returns the weight of a plane through an edge of the face, which holds its course: 1 for a border and a seam, and
+  /// a part of that for a fold that is held. A border is a fold by half a turn.
+  [[nodiscard]] double weight_of_edge(Index p, Index other, Index f) const {
     const Look& own = mesh_.corner(mesh_.face(f)[mesh_.place_in(f, p)]).look;
     const Look& far = mesh_.corner(mesh_.face(f)[mesh_.place_in(f, other)]).look;
+    double cosine = -1;
     bool is_border = true;
     // The end with fewer faces tells, since the other one may have thousands.
     const Index end = mesh_.faces_of(p).size() < mesh_.faces_of(other).size() ? p : other;
     for (const Index g : mesh_.faces_of(end)) {
       const std::size_t here = mesh_.place_in(g, p), there = mesh_.place_in(g, other);
       if (g == f || here == 3 || there == 3) continue;
+      cosine = is_border ? dot(normal_of(f), normal_of(g)) : std::min(cosine, dot(normal_of(f), normal_of(g)));
       is_border = false;
       if (!mesh_.corner(mesh_.face(g)[here]).look.joins(own) || !mesh_.corner(mesh_.face(g)[there]).look.joins(far))
-        return true;
+        return 1;
     }
-    return is_border;
+    if (is_border) return 1;
+    return folds_ == LeafFolds::held && cosine < kSharpCosine ? (1 - cosine) / 2 : 0;
+  }
+  [[nodiscard]] Vec3d normal_of(Index f) const {
+    const Vec3d& a = mesh_.at(mesh_.point_of(f, 0));
+    return unit(cross(mesh_.at(mesh_.point_of(f, 1)) - a, mesh_.at(mesh_.point_of(f, 2)) - a), {});
   }
 
   // --- the order
@@ -309,6 +319,7 @@ class EdgeCollapses {
   }
 
   const SceneLeaf& whole_;
+  const LeafFolds folds_;
   LeafMesh mesh_;
   std::vector<Quadric> quadrics_;  // by point, relative to it
   std::vector<std::uint32_t> stamps_;
@@ -318,7 +329,8 @@ class EdgeCollapses {
 
 }  // namespace
 
-std::vector<SceneLeaf> with_fewer_triangles(const SceneLeaf& leaf, std::span<const std::uint64_t> most) {
+std::vector<SceneLeaf> with_fewer_triangles(const SceneLeaf& leaf, std::span<const std::uint64_t> most,
+                                            LeafFolds folds) {
   std::vector<SceneLeaf> all;
   std::optional<EdgeCollapses> collapses;
   for (const std::uint64_t triangles : most) {
@@ -326,7 +338,7 @@ std::vector<SceneLeaf> with_fewer_triangles(const SceneLeaf& leaf, std::span<con
       all.push_back(leaf);
       continue;
     }
-    if (!collapses) collapses.emplace(leaf);
+    if (!collapses) collapses.emplace(leaf, folds);
     all.push_back(collapses->run(triangles));
   }
   return all;

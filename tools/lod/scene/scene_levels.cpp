@@ -8,7 +8,6 @@
 #include "lib/core/error.h"
 #include "lib/geometry/surface_distance.h"
 #include "lib/pass/leaf/fewer_triangles.h"
-#include "lib/pass/leaf/leaf_paint.h"
 #include "lib/pass/mesh/surface_around.h"
 #include "tools/cli/names.h"
 #include "tools/lod/bake_levels.h"
@@ -44,6 +43,11 @@ SceneLeaf whole_scene(const SceneLooks& looks, const Bounds3d& bounds) {
   SceneLeaf leaf = cut_leaf(looks, bounds, std::ldexp(1.0, exponent - kBits));
   for (double& x : leaf.origin) x = std::nearbyint(x / leaf.unit) * leaf.unit;  // what vertices are relative to
   return leaf;
+}
+
+/// Returns whether a level has all triangles of the scene.
+bool is_whole(const std::shared_ptr<const SceneLeaf>& level, const SceneLeaf& scene) {
+  return level != nullptr && level->triangles() == scene.triangles();
 }
 
 /// Checks the memory of the work, of its results, and of the images' files, which are copied into that of a level.
@@ -87,18 +91,28 @@ SceneLevels::SceneLevels(Build& build, const LodScene& scene, const std::vector<
   for (const std::uint32_t i : views_->shown()) shown.push_back(all[i]);
   std::vector<std::uint64_t> most;
   for (const LodTarget& target : targets) most.push_back(target.faces);
-  std::vector<SceneLeaf> leaves = with_fewer_triangles(whole, most);
-  for (std::size_t i = 0; i < leaves.size(); ++i) {
-    if (leaves[i].triangles() > most[i]) continue;
-    Level& level = levels_[i];
-    level.leaf = std::make_shared<const SceneLeaf>(std::move(leaves[i]));
-    if (level.leaf->triangles() == all.size()) continue;  // the scene itself
+  for (const LeafFolds folds : {LeafFolds::plain, LeafFolds::held}) {
+    std::vector<SceneLeaf> leaves = with_fewer_triangles(whole, most, folds);
+    for (std::size_t i = 0; i < leaves.size(); ++i) {
+      if (leaves[i].triangles() > most[i] || is_whole(levels_[i].leaf, whole)) continue;
+      offer(levels_[i], std::move(leaves[i]), images);
+    }
+  }
+  for (Level& level : levels_) {
+    if (level.leaf == nullptr || is_whole(level.leaf, whole)) continue;
     const std::vector<TriangleD> own = triangles_of(*level.leaf);
     const double tolerance = bounds.diagonal() / 1000;
-    level.difference = views_->difference(own, paint_of(*level.leaf, images));
     level.error_world = std::max(largest_distance(own, tree, tolerance).at_most,
                                  shown.empty() ? 0 : largest_distance(shown, TriangleBvh(own), tolerance).at_most);
   }
+}
+
+/// Gives a level these triangles unless it has some that look nearer.
+void SceneLevels::offer(Level& level, SceneLeaf&& leaf, const LeafImages& images) const {
+  const double difference = views_->difference(triangles_of(leaf), paint_of(leaf, images));
+  if (level.leaf != nullptr && level.difference <= difference) return;
+  level.leaf = std::make_shared<const SceneLeaf>(std::move(leaf));
+  level.difference = difference;
 }
 
 std::vector<std::uint64_t> SceneLevels::open() const {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lib/image/surface_views.h"
+#include "lib/pass/leaf/leaf_paint.h"
 #include "lib/pass/leaf/scene_leaf.h"
 #include "tools/lod/scene/lod_scene.h"
 
@@ -40,6 +41,7 @@ class SceneLevels {
     std::uint64_t faces = 0;
     double difference = 0;
   };
+  void offer(Level& level, SceneLeaf&& leaf, const LeafImages& images) const;
   [[nodiscard]] std::vector<Candidate> candidates(const CompleteLevels& fits) const;
   [[nodiscard]] LodLevel told(const LodTarget& target, std::size_t number) const;
   [[nodiscard]] LevelFacts facts_of(std::size_t number) const;

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <set>
+#include <utility>
 
 #include "lib/core/vec3.h"
 #include "lib/pass/leaf/fewer_triangles.h"
@@ -136,7 +138,15 @@ TEST_CASE("a thin board whose rim is of another material becomes a sheet", "[qui
 TEST_CASE("sides of a sheet that look different are shown each from its own side", "[quick]") {
   LeafPart board;
   add_box(board, {0, 0, 0}, {10 * kStep, 6 * kStep, 10});
-  for (LeafVertex& v : board.vertices) v.uv = {float(v.at[0]) / kStep, v.at[2] == 0 ? 0.0F : 1.0F};
+  const std::vector<LeafVertex> corners = std::exchange(board.vertices, {});
+  for (std::size_t i = 0; i < board.triangles.size();
+       ++i) {  // the first two sides, and the rim, have images of their own
+    for (std::uint32_t& corner : board.triangles[i]) {
+      board.vertices.push_back(corners[corner]);
+      board.vertices.back().uv = {float(corners[corner].at[0]) / kStep, float(std::min<std::size_t>(i / 2, 2))};
+      corner = std::uint32_t(board.vertices.size() - 1);
+    }
+  }
   const SceneLeaf few = fewer(leaf_of({board}), 4);
   REQUIRE(few.triangles() == 4);
   for (const LeafPart& part : few.parts) CHECK(part.sides == LeafSides::one);
