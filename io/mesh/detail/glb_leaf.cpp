@@ -22,14 +22,18 @@ class LeafPrimitive {
     order_ = optimize_order(triangles_, part.vertices.size());
   }
 
-  [[nodiscard]] Json json(const GlbLeaves::Place& place, bool textured, bool colored) {
+  [[nodiscard]] Json json(const GlbLeaves::Place& place, std::size_t places, bool colored) {
     Json attributes{{"POSITION", add_positions(place)}, {"NORMAL", add_normals()}};
-    const bool has_second = has_places(&LeafVertex::second_uv);
-    if (textured || has_second || has_places(&LeafVertex::uv)) attributes["TEXCOORD_0"] = add_uv(&LeafVertex::uv);
-    if (has_second) attributes["TEXCOORD_1"] = add_uv(&LeafVertex::second_uv);
+    if (places > 0) attributes["TEXCOORD_0"] = add_uv(&LeafVertex::uv);
+    if (places > 1) attributes["TEXCOORD_1"] = add_uv(&LeafVertex::second_uv);
     if (colored) attributes["COLOR_0"] = add_colors();
     const std::size_t indices = data_.add_indices(triangles_, order_.size());
     return {{"attributes", std::move(attributes)}, {"indices", indices}};
+  }
+
+  /// Returns how many sets of places the vertices have.
+  [[nodiscard]] std::size_t places() const {
+    return has_places(&LeafVertex::second_uv) ? 2 : has_places(&LeafVertex::uv) ? 1 : 0;
   }
 
  private:
@@ -110,7 +114,8 @@ Json GlbLeaves::primitive(const LeafPart& part, const Place& place) {
     factor = {c.r / 65535.0, c.g / 65535.0, c.b / 65535.0, 1};
   }
   const Mapped mapped = add_material(material, factor, part.sides);
-  Json json = LeafPrimitive(part, up_, data_).json(place, mapped.has_image, !has_one);
+  LeafPrimitive all(part, up_, data_);
+  Json json = all.json(place, std::max(mapped.places, looks_.spare_places ? all.places() : 0), !has_one);
   json["material"] = mapped.material;
   return json;
 }
@@ -126,6 +131,9 @@ GlbLeaves::Mapped GlbLeaves::add_material(const TextureMaterial& material, std::
   if (factor != std::array<double, 4>{1, 1, 1, 1}) pbr["baseColorFactor"] = factor;
   const auto rough = add_map(surface.roughness), normal = add_map(surface.normal), light = add_map(surface.emission);
   const auto shade = add_map(details.occlusion);
+  const std::array maps{&rough, &normal, &light, &shade};
+  const bool has_second =
+      std::any_of(maps.begin(), maps.end(), [](const auto* map) { return *map && (*map)->contains("texCoord"); });
   if (rough) pbr["metallicRoughnessTexture"] = *rough;
   const char* const unnamed = image ? "the scene's texture" : "the scene's colors";
   Json json{{"name", details.name.empty() ? unnamed : details.name}, {"pbrMetallicRoughness", std::move(pbr)}};
@@ -150,7 +158,8 @@ GlbLeaves::Mapped GlbLeaves::add_material(const TextureMaterial& material, std::
     json["extensions"] = Json::parse(details.extensions);
     for (const auto& [name, extension] : json["extensions"].items()) data_.use(name, false);
   }
-  return {all_.add_material(std::move(json)), image || rough || normal || shade || light};
+  const bool has_image = image || rough || normal || shade || light;
+  return {all_.add_material(std::move(json)), has_second ? std::size_t(2) : has_image ? 1 : 0};
 }
 
 /// Returns the reference to an image; none if it is not shown.

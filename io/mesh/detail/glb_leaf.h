@@ -27,7 +27,7 @@ class GlbLeaves {
  private:
   struct Mapped {
     std::size_t material = 0;
-    bool has_image = false;
+    std::size_t places = 0;  ///< sets of places that its images need
   };
   GltfOutJson primitive(const LeafPart& part, const Place& place);
   Mapped add_material(const TextureMaterial& material, std::array<double, 4> factor, LeafSides sides);
