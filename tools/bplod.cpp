@@ -45,7 +45,9 @@ std::vector<bp::WrittenFile> write_files(bp::Build& build, const bp::MadeChain& 
   }
   build.report.begin("write");
   if (o.obj) return bp::write_obj_levels(o, levels, origin, out);
-  const bp::LeafLooks looks{chain.scene.textures.get(), {}, o.colors() && chain.scene.has_colors()};
+  bp::LeafLooks looks{chain.scene.textures.get(), {}, o.colors() && chain.scene.has_colors()};
+  looks.broken = chain.made.broken;
+  looks.spare_places = true;
   return bp::write_profile(o, chain.made, chain.scene.voxels.header.bounds.diagonal(), origin, looks, out);
 }
 
@@ -62,6 +64,7 @@ void build_chain(const bp::BuildOptions& o) {
   const bp::Vec3d origin = bp::origin_of(o.proxy.origin, header.frame, header.bounds);
   for (std::size_t i = made.levels.size(); i < most; ++i)  // there may be as many
     out.leave_out(bp::level_name(o.name, i) + ".glb");
+  if (o.profile == bp::LodProfile::gltf) bp::take_away_longer_list(o, most, out);
   build.progress.end();
   const bp::LevelFacts& finest = made.facts.front();
   const bool asked = asks_for_faces(request_of(o));

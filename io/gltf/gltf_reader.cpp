@@ -37,7 +37,7 @@ class SceneBuilder {
         colors_(options.colors),
         textures_(options.textures.get()),
         surface_(options.surface),
-        materials_(doc_, file->name(), textures_, surface_),
+        materials_(doc_, file->name(), options),
         walls_only_(options.walls_only),
         pose_(options.pose.get()),
         options_(options),

@@ -13,14 +13,19 @@ namespace bp {
   return number == 33071 ? TextureWrap::clamp : number == 33648 ? TextureWrap::mirror : TextureWrap::repeat;
 }
 
-/// Returns a sampler that filters near and far.
-[[nodiscard]] inline GltfOutJson gltf_sampler(const std::array<TextureWrap, 2>& wrap) {
+/// Returns the number of a filter; 0 for an unknown one.
+[[nodiscard]] inline std::uint16_t filter_of_gltf(std::uint64_t number) {
+  return number == 9728 || number == 9729 || (number >= 9984 && number <= 9987) ? std::uint16_t(number) : 0;
+}
+
+/// Returns a sampler. It filters near and far where `filters` does not tell.
+[[nodiscard]] inline GltfOutJson gltf_sampler(const std::array<TextureWrap, 2>& wrap, const TextureFilters& filters) {
   const auto number = [](TextureWrap w) {
     return w == TextureWrap::clamp ? 33071 : w == TextureWrap::mirror ? 33648 : 10497;
   };
   constexpr int kLinear = 9729, kLinearMipmapLinear = 9987;
-  return {{"magFilter", kLinear},
-          {"minFilter", kLinearMipmapLinear},
+  return {{"magFilter", filters[1] != 0 ? filters[1] : kLinear},
+          {"minFilter", filters[0] != 0 ? filters[0] : kLinearMipmapLinear},
           {"wrapS", number(wrap[0])},
           {"wrapT", number(wrap[1])}};
 }

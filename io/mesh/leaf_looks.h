@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <set>
 #include <span>
 #include <string>
 
@@ -25,6 +26,8 @@ struct LeafLooks {
   LeafImageName name_of;               ///< null: images are part of the file
   bool colors = true;                  ///< false: the leaf is grey
   TileCompression compression = TileCompression::meshopt;
+  bool spare_places = false;            ///< places that no image uses are kept, for those of an engine
+  std::set<std::uint32_t> broken = {};  ///< images that are left out
 };
 
 }  // namespace bp

@@ -9,7 +9,7 @@
 namespace bp {
 
 /// Returns a leaf as the content of a tile: as tile_glb(), but positions are float32, and images lie in files of their
-/// own, which leaves share. Both sides of triangles are shown. Same leaf, same bytes.
+/// own, which leaves share. Same leaf, same bytes.
 [[nodiscard]] std::string leaf_glb(const std::string& name, const SceneLeaf& leaf, const LeafLooks& looks, UpAxis up,
                                    const std::vector<Provenance>& provenance);
 

@@ -165,8 +165,7 @@ class InstancedSource final : public RawSource {
                        [](const Primitive& p) { return p.has_image; });
   }
   void rewind() override {
-    node_ = 0;
-    instances_ = 0;
+    node_ = instances_ = 0;
     rounding_ = {};
     bad_faces_ = scene_.bad_faces;
     enter_node();
@@ -333,15 +332,16 @@ void InstancedSource::add_triangle(std::vector<TriangleD>& out, std::vector<Tria
 }
 
 TriangleTexture InstancedSource::texture_of(const Primitive& p, const std::array<std::uint64_t, 3>& corners) {
-  TriangleTexture t;
-  t.material = p.material;
-  const std::array<double, 6>& m = p.uv_transform;
-  for (std::size_t k = 0; k < 3 && p.uv; ++k) {
-    const std::array<double, 2> uv = elements_.vector<2>(*p.uv, corners[k]);
-    t.uv[k] = {float(m[0] * uv[0] + m[1] * uv[1] + m[2]), float(m[3] * uv[0] + m[4] * uv[1] + m[5])};
+  TriangleTexture t{.material = p.material};
+  const auto place = [&](const Accessor& places, std::uint64_t vertex, const std::array<double, 6>& m) {
+    const std::array<double, 2> uv = elements_.vector<2>(places, vertex);
+    return std::array{float(m[0] * uv[0] + m[1] * uv[1] + m[2]), float(m[3] * uv[0] + m[4] * uv[1] + m[5])};
+  };
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (p.uv) t.uv[k] = place(*p.uv, corners[k], p.uv_transform);
+    if (p.second_uv) t.second_uv[k] = place(*p.second_uv, corners[k], p.second_uv_transform);
+    if (p.normals) t.normals[k] = pack_normal(transform_.normal(elements_.vector<3>(*p.normals, corners[k])));
   }
-  for (std::size_t k = 0; k < 3 && p.normals; ++k)
-    t.normals[k] = pack_normal(transform_.normal(elements_.vector<3>(*p.normals, corners[k])));
   return t;
 }
 

@@ -49,6 +49,8 @@ struct Primitive {
   std::optional<Accessor> uv;                 ///< one for each position, two components
   /// Maps texture coordinates to those of the image: u is the first three numbers times (u, v, 1), v the other three.
   std::array<double, 6> uv_transform{1, 0, 0, 0, 1, 0};
+  std::optional<Accessor> second_uv;  ///< further places, if SceneOptions::details asks for them
+  std::array<double, 6> second_uv_transform{1, 0, 0, 0, 1, 0};
   std::uint32_t material = TriangleTexture::kNoMaterial;
   bool has_image = false;           ///< an image of colours, at `uv`
   std::optional<Accessor> normals;  ///< one for each position, three components

@@ -29,6 +29,7 @@ class ObjSource final : public PolygonSource {
         pool_(options.memory_bytes, temp_dir_of(options)),
         materials_(options.document),
         walls_only_(options.walls_only),
+        details_(options.details),
         parts_(options.parts, options.part_names) {
     if (options.colors) vertex_colors_.emplace(options.memory_bytes / 2, temp_dir_of(options));
     if (options.textures) places_.emplace(options.memory_bytes / 2, temp_dir_of(options));
@@ -92,7 +93,7 @@ class ObjSource final : public PolygonSource {
   std::uint32_t texture_ = TriangleTexture::kNoMaterial;  // of material_name_
   LinearColor material_;
   bool has_colors_ = false, has_textures_ = false;
-  const bool walls_only_;
+  const bool walls_only_, details_;
   const PartFilter parts_;
   struct {
     bool object = false, group = false, material = false;
@@ -216,7 +217,7 @@ void ObjSource::use_material(char key, const std::string& name) {
   if (!vertex_colors_ && !walls_only_) return;
   if (key == 'm') return load_materials(name);
   material_name_ = name;
-  if (textures_) texture_ = materials_.texture(name, *textures_, normals_.has_value());
+  if (textures_) texture_ = materials_.texture(name, *textures_, normals_.has_value(), details_);
   has_textures_ = has_textures_ || (textures_ && materials_.has_image(name));
   passed_over_ = walls_only_ && materials_.see_through(name);
   if (!vertex_colors_) return;

@@ -33,6 +33,7 @@ struct SceneOptions {
   bool colors = false;                                    ///< colours are read; else all triangles are white
   std::shared_ptr<TextureTable> textures{};               ///< images are read, and noted here; null: none
   bool surface = false;                     ///< with textures: normals, and how materials respond to light, are read
+  bool details = false;                     ///< with `surface`: names, sidedness and second places are read, too
   std::shared_ptr<const ScenePose> pose{};  ///< glTF only; null: as the file shows it
   std::size_t level = 0;                    ///< level of glTF's MSFT_lod; 0 is the finest
   /// Delivers triangles without area, too: segments and points, which are no part of a surface but have a place. Code

@@ -32,10 +32,16 @@ enum class AlphaMode : std::uint8_t { opaque, mask, blend };
 
 constexpr std::uint32_t kNoTextureImage = ~std::uint32_t(0);
 
-/// An image of something other than colour. It is placed as the image of the material's colours is.
+/// Numbers of glTF's minFilter and magFilter; 0: the scene does not tell.
+using TextureFilters = std::array<std::uint16_t, 2>;
+
+/// An image of something other than colour. It is placed as the image of the material's colours is, unless
+/// SceneOptions::details asks for second places.
 struct TextureMap {
   std::uint32_t image = kNoTextureImage;
   std::array<TextureWrap, 2> wrap{};
+  TextureFilters filters{};
+  bool in_second_places = false;  ///< it lies at TriangleTexture::second_uv
   [[nodiscard]] bool is_there() const { return image != kNoTextureImage; }
   friend bool operator==(const TextureMap&, const TextureMap&) = default;
 };
@@ -50,6 +56,17 @@ struct TextureSurface {
   friend bool operator==(const TextureSurface&, const TextureSurface&) = default;
 };
 
+/// The rest of what a scene says about a material. Only faces of the scene keep it, so it is read if
+/// SceneOptions::details asks for it.
+struct MaterialDetails {
+  std::string name;
+  bool double_sided = true;
+  TextureMap occlusion;  ///< red: the share of the surrounding light that arrives
+  float occlusion_strength = 1;
+  std::string extensions;  ///< glTF's extensions of the material that name no image, as a JSON object; empty: none
+  friend bool operator==(const MaterialDetails&, const MaterialDetails&) = default;
+};
+
 /// How a triangle shows an image.
 struct TextureMaterial {
   static constexpr std::uint32_t kNoImage = kNoTextureImage;
@@ -60,9 +77,11 @@ struct TextureMaterial {
   /// true: the image is missing, so the triangle's colour is used; false: both are multiplied
   bool replaces_color = false;
   TextureSurface surface{};  ///< only `emission` is set unless SceneOptions::surface asks for all
+  TextureFilters filters{};  ///< of `image`
+  MaterialDetails details{};
   /// Returns all images that it shows, kNoImage where there is none.
-  [[nodiscard]] std::array<std::uint32_t, 4> images() const {
-    return {image, surface.normal.image, surface.roughness.image, surface.emission.image};
+  [[nodiscard]] std::array<std::uint32_t, 5> images() const {
+    return {image, surface.normal.image, surface.roughness.image, surface.emission.image, details.occlusion.image};
   }
 };
 
@@ -73,6 +92,8 @@ struct TriangleTexture {
   std::array<std::array<float, 2>, 3> uv{};
   std::uint32_t material = kNoMaterial;   ///< number in the scene's TextureSet
   std::array<PackedNormal, 3> normals{};  ///< at the corners, if SceneOptions::surface asks for them
+  std::array<std::array<float, 2>, 3>
+      second_uv{};  ///< more places at the corners, if SceneOptions::details asks for them
 };
 
 /// Materials and images of scenes. Their numbers stay when a scene is read again.

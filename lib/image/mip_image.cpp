@@ -111,6 +111,13 @@ MipImage::MipImage(TextureImage image, Kind kind) : kind_(kind) {
   while (levels_.back().width > 1 || levels_.back().height > 1) levels_.push_back(halved(levels_.back(), kind_));
 }
 
+void MipImage::keep_up_to(int side) {
+  const auto first = std::find_if(levels_.begin(), levels_.end() - 1, [side](const TextureImage& level) {
+    return std::max(level.width, level.height) <= side;
+  });
+  levels_.erase(levels_.begin(), first);
+}
+
 std::uint64_t MipImage::bytes() const {
   std::uint64_t texels = 0;
   for (const TextureImage& level : levels_) texels += level.texels.size();

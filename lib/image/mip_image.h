@@ -19,6 +19,8 @@ class MipImage {
   [[nodiscard]] int width() const { return levels_.front().width; }
   [[nodiscard]] int height() const { return levels_.front().height; }
   [[nodiscard]] std::uint64_t bytes() const;
+  /// Forgets the image and its copies that are wider or higher than `side`, but for the smallest.
+  void keep_up_to(int side);
   /// Returns the mean around (u, v), which may be any numbers, over about `texels` texels along each side.
   [[nodiscard]] LinearTexel at(double u, double v, double texels, const std::array<TextureWrap, 2>& wrap) const;
 

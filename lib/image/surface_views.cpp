@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "lib/core/parallel.h"
 #include "lib/core/vec3.h"
@@ -14,6 +15,8 @@ namespace {
 constexpr float kNothing = std::numeric_limits<float>::infinity();
 constexpr double kMargin = 1.125;       // of the bounds' diagonal, that a view shows
 constexpr double kFullDepth = 1.0 / 8;  // of the diagonal
+/// Pixels along the square that a colour is the mean of: details that are smaller may move.
+constexpr double kColorPixels = 3;
 
 /// Returns the direction of a view: six along the axes, eight along diagonals.
 Vec3d direction(std::size_t view) {
@@ -52,27 +55,52 @@ double cosine(const std::array<float, 3>& a, const std::array<float, 3>& b) {
   return std::abs(double(a[0]) * b[0] + double(a[1]) * b[1] + double(a[2]) * b[2]);
 }
 
+/// A triangle as a view shows it: x and y in pixels, and depth.
+using SeenTriangle = std::array<Vec3d, 3>;
+
+/// Returns the shares of the corners at a pixel's middle; less than 0 outside, and none for a triangle without area.
+std::optional<std::array<double, 3>> shares_at(const SeenTriangle& t, int x, int y) {
+  const auto& [a, b, c] = t;
+  const double area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
+  if (area == 0 || !std::isfinite(area)) return {};
+  const double px = x + 0.5, py = y + 0.5;
+  const double u = ((b[0] - px) * (c[1] - py) - (c[0] - px) * (b[1] - py)) / area;
+  const double v = ((c[0] - px) * (a[1] - py) - (a[0] - px) * (c[1] - py)) / area;
+  return std::array{u, v, 1 - u - v};
+}
+
+/// Returns the least and the largest x of a triangle on a line.
+std::array<double, 2> span_of(const SeenTriangle& t, double y) {
+  std::array<double, 2> span{HUGE_VAL, -HUGE_VAL};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3d &p = t[k], &q = t[(k + 1) % 3];
+    if (std::min(p[1], q[1]) > y || std::max(p[1], q[1]) < y) continue;
+    const double part = p[1] == q[1] ? 0 : (y - p[1]) / (q[1] - p[1]);
+    for (const double x : {p[0] + part * (q[0] - p[0]), p[1] == q[1] ? q[0] : p[0] + part * (q[0] - p[0])})
+      span = {std::min(span[0], x), std::max(span[1], x)};
+  }
+  return span;
+}
+
 /// Draws into pixels with a depth and the number of a triangle. The first one of triangles at one depth stays.
 template <class Pixel>
 class DepthCanvas {
  public:
   DepthCanvas(std::vector<Pixel>& pixels, int side) : pixels_(pixels), side_(side) {}
 
-  /// Corners: x and y in pixels, and depth.
-  void draw(const std::array<Vec3d, 3>& t, std::uint32_t number) {
-    const auto& [a, b, c] = t;
-    const double area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
-    if (area == 0 || !std::isfinite(area)) return;
-    const int left = first(std::min({a[0], b[0], c[0]})), right = last(std::max({a[0], b[0], c[0]}));
-    const int top = first(std::min({a[1], b[1], c[1]})), bottom = last(std::max({a[1], b[1], c[1]}));
+  /// O(rows and pixels of the triangle).
+  void draw(const SeenTriangle& t, std::uint32_t number) {
+    const int top = first(std::min({t[0][1], t[1][1], t[2][1]})), bottom = last(std::max({t[0][1], t[1][1], t[2][1]}));
     for (int y = top; y <= bottom; ++y) {
-      for (int x = left; x <= right; ++x) {
-        const double px = x + 0.5, py = y + 0.5;
-        const double u = ((b[0] - px) * (c[1] - py) - (c[0] - px) * (b[1] - py)) / area;
-        const double v = ((c[0] - px) * (a[1] - py) - (a[0] - px) * (c[1] - py)) / area;
+      const std::array<double, 2> span = span_of(t, y + 0.5);
+      const int right = last(span[1] + 1);  // a pixel more on both sides, since the span is rounded
+      for (int x = first(span[0] - 1); x <= right; ++x) {
+        const auto shares = shares_at(t, x, y);
+        if (!shares) return;
+        const auto& [u, v, w] = *shares;
         if (u < 0 || v < 0 || u + v > 1) continue;
         Pixel& pixel = pixels_[std::size_t(y) * std::size_t(side_) + std::size_t(x)];
-        const auto depth = float(u * a[2] + v * b[2] + (1 - u - v) * c[2]);
+        const auto depth = float(u * t[0][2] + v * t[1][2] + w * t[2][2]);
         if (depth < pixel.depth) pixel = {depth, number};
       }
     }
@@ -85,45 +113,89 @@ class DepthCanvas {
   int side_;
 };
 
+/// Returns how far two colours are apart: 1 for black and white.
+double apart_of(const SurfaceViews::Color& a, const SurfaceViews::Color& b) {
+  int most = 0;
+  for (std::size_t i = 0; i < 3; ++i) most = std::max(most, std::abs(int(a[i]) - int(b[i])));
+  return most / 255.0;
+}
+
+/// Moves triangles into a view.
+class Projection {
+ public:
+  Projection(std::size_t view, const Bounds3d& bounds, double pixels)
+      : axes_(view), middle_(0.5 * (bounds.min + bounds.max)), pixels_(pixels) {}
+  [[nodiscard]] SeenTriangle operator()(const TriangleD& t) const {
+    SeenTriangle seen;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3d p = t[k] - middle_;
+      seen[k] = {SurfaceViews::kSide / 2.0 + pixels_ * dot(p, axes_.right),
+                 SurfaceViews::kSide / 2.0 + pixels_ * dot(p, axes_.down), pixels_ * dot(p, axes_.away)};
+    }
+    return seen;
+  }
+
+ private:
+  const Axes axes_;
+  const Vec3d middle_;
+  const double pixels_;
+};
+
 }  // namespace
 
-SurfaceViews::SurfaceViews(std::span<const TriangleD> triangles, const Bounds3d& bounds)
-    : bounds_(bounds), normals_(normals_of(triangles)), views_(kViews) {
-  parallel_for(std::int64_t(kViews),
-               [&](std::int64_t i) { views_[std::size_t(i)] = drawn(triangles, std::size_t(i)); });
+SurfaceViews::SurfaceViews(std::span<const TriangleD> triangles, const Bounds3d& bounds, const ColorAt& color)
+    : bounds_(bounds), normals_(normals_of(triangles)), views_(kViews), colors_(kViews) {
+  parallel_for(std::int64_t(kViews), [&](std::int64_t i) {
+    const auto view = std::size_t(i);
+    views_[view] = drawn(triangles, view);
+    if (color) colors_[view] = colors_of(triangles, view, views_[view], color);
+  });
+}
+
+double SurfaceViews::pixels_per_unit() const {
+  return kSide / (kMargin * std::max(bounds_.diagonal(), std::numeric_limits<double>::min()));
 }
 
 SurfaceViews::Pixels SurfaceViews::drawn(std::span<const TriangleD> triangles, std::size_t view) const {
   Pixels all(std::size_t(kSide) * kSide, {kNothing, 0});
   DepthCanvas canvas(all, kSide);
-  const Axes axes(view);
-  const Vec3d middle = 0.5 * (bounds_.min + bounds_.max);
-  const double pixels = kSide / (kMargin * std::max(bounds_.diagonal(), std::numeric_limits<double>::min()));
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    std::array<Vec3d, 3> seen;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3d p = triangles[i][k] - middle;
-      seen[k] = {kSide / 2.0 + pixels * dot(p, axes.right), kSide / 2.0 + pixels * dot(p, axes.down),
-                 pixels * dot(p, axes.away)};
-    }
-    canvas.draw(seen, std::uint32_t(i));
+  const Projection projection(view, bounds_, pixels_per_unit());
+  for (std::size_t i = 0; i < triangles.size(); ++i) canvas.draw(projection(triangles[i]), std::uint32_t(i));
+  return all;
+}
+
+SurfaceViews::Colors SurfaceViews::colors_of(std::span<const TriangleD> triangles, std::size_t view,
+                                             const Pixels& pixels, const ColorAt& color) const {
+  Colors all(pixels.size());
+  const Projection projection(view, bounds_, pixels_per_unit());
+  const double side = kColorPixels / pixels_per_unit();
+  for (std::size_t p = 0; p < pixels.size(); ++p) {
+    if (!(pixels[p].depth < kNothing)) continue;
+    const std::uint32_t i = pixels[p].triangle;
+    const auto shares = shares_at(projection(triangles[i]), int(p % kSide), int(p / kSide));
+    if (shares) all[p] = color(i, *shares, side);
   }
   return all;
 }
 
-double SurfaceViews::difference(std::span<const TriangleD> others) const {
+double SurfaceViews::difference(std::span<const TriangleD> others, const ColorAt& color) const {
   std::vector<double> different(kViews), shown(kViews);
   const std::vector<std::array<float, 3>> normals = normals_of(others);
   parallel_for(std::int64_t(kViews), [&](std::int64_t i) {
     const Pixels& own = views_[std::size_t(i)];
     const Pixels other = drawn(others, std::size_t(i));
+    const Colors& painted = colors_[std::size_t(i)];
+    Colors other_painted;
+    if (color && !painted.empty()) other_painted = colors_of(others, std::size_t(i), other, color);
     for (std::size_t p = 0; p < own.size(); ++p) {
       const bool here = own[p].depth < kNothing, there = other[p].depth < kNothing;
       shown[std::size_t(i)] += here || there;
       double part = here != there;
       if (here && there) {
         const double apart = std::abs(double(own[p].depth) - other[p].depth) / (kFullDepth * kSide / kMargin);
-        part = std::min(1.0, std::max(apart, 1 - cosine(normals_[own[p].triangle], normals[other[p].triangle])));
+        part = std::max(apart, 1 - cosine(normals_[own[p].triangle], normals[other[p].triangle]));
+        if (!other_painted.empty()) part = std::max(part, apart_of(painted[p], other_painted[p]));
+        part = std::min(1.0, part);
       }
       different[std::size_t(i)] += part;
     }

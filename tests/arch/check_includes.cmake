@@ -35,7 +35,7 @@ set(rules
   "lib/pass/mesh:lib/core lib/exact lib/store lib/geometry lib/grid lib/volume lib/voxel lib/mesh lib/enclosed lib/surface lib/simplify lib/hulls lib/tighten lib/quads lib/fit lib/pass lib/pass/voxelize"
   "lib/pass/color:lib/core lib/store lib/grid lib/volume lib/voxel lib/mesh lib/pass"
   "lib/pass/bake:lib/core lib/store lib/geometry lib/mesh lib/atlas lib/image"
-  "lib/pass/leaf:lib/core lib/geometry lib/mesh lib/tileset lib/pass/bake"
+  "lib/pass/leaf:lib/core lib/image lib/geometry lib/mesh lib/tileset lib/pass/bake"
   "lib/pass/hide:lib/core lib/grid lib/volume lib/pass/close lib/pass/mesh"
   "lib/pass/measure:lib/core lib/geometry lib/grid lib/volume lib/pass"
   "lib/live:lib/core lib/grid lib/volume lib/device lib/pass lib/pass/close lib/pass/measure"

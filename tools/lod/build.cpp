@@ -80,7 +80,8 @@ void Build::place() {
 SceneOptions Build::scene_options(bool beside) const {
   SceneOptions scene{options.voxels.format, budget.reader, options.common.temp};
   scene.map = placed.map;
-  scene.surface = options.full() || options.leaves || options.proxy.visual;
+  scene.details = options.leaves || options.proxy.visual;
+  scene.surface = options.full() || scene.details;
   scene.walls_only = options.profile == LodProfile::occluder, scene.keep_degenerate = true;
   scene.document = document_budget(unpinned(options.common.memory_bytes, pinned_bytes(backends)), kVoxelProgram,
                                    beside ? 2 : options.voxels.scenes.size(), may_read_again(options));

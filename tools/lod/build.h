@@ -1,6 +1,7 @@
 #pragma once
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,7 @@ struct CompleteLevels {
   std::vector<LodLevel> levels;   ///< finest first
   std::vector<LevelFacts> facts;  ///< of each level
   std::vector<LeftOut> left_out;
+  std::set<std::uint32_t> broken;                        ///< images that scenes leave out
   std::vector<std::shared_ptr<const SceneLeaf>> scenes;  ///< shown in place of levels; null, or no element: the level
 
   /// Returns what is shown in place of a level; null: the level itself.

@@ -22,6 +22,7 @@
 #include "tools/lod/tile_build.h"
 #include "tools/notes/estimate.h"
 #include "tools/notes/up_note.h"
+#include "tools/run/enclosed_triangles_limit.h"
 
 namespace bp {
 
@@ -247,6 +248,23 @@ std::string occluder_text(const BuildOptions& o, const Plan& plan) {
                            kMostOccluderFaces);
 }
 
+/// Returns what levels to look at are chosen from. Only the images of a run tell what looks nearer.
+std::string visual_text(const Scene& scene, const Plan& plan) {
+  const std::uint64_t triangles = scene.counts.triangles;
+  std::string out = "level\tfaces\tfrom\n";
+  for (std::size_t i = 0; i < plan.levels.size(); ++i) {
+    const std::uint64_t faces = plan.levels[i].faces;
+    const bool is_scene = faces >= triangles && triangles <= kMostEnclosedTriangles;
+    const char* const from = is_scene ? "the scene itself"
+                             : triangles > kMostEnclosedTriangles
+                                 ? "a fit"
+                                 : "the scene's triangles, or a fit if it looks nearer";
+    out += fmt::format("{}\t{}\t{}\n", i, is_scene ? fmt::format("{}", triangles) : fmt::format("at most {}", faces),
+                       from);
+  }
+  return out;
+}
+
 std::string text_of(const Build& build, const Scene& scene, const Plan& plan) {
   const Vec3d &lo = scene.bounds.min, &hi = scene.bounds.max;
   std::string out = fmt::format("scene\t{} from {:.6g} {:.6g} {:.6g} to {:.6g} {:.6g} {:.6g}\n",
@@ -268,8 +286,7 @@ std::string text_of(const Build& build, const Scene& scene, const Plan& plan) {
   if (plan.leaf_bytes > 0)
     out += fmt::format("leaves\tabout {} of the files, {} triangles and more\n",
                        size_text(std::uint64_t(plan.leaf_bytes)), scene.counts.triangles);
-  if (build.options.proxy.visual)
-    out += "visual\tlevels are triangles of the scene where these look nearer than the fits below\n";
+  if (build.options.proxy.visual) return out + visual_text(scene, plan);
   out += "level\tvoxel\tscale\thalo\ttiles\tnumbers\tfaces\n";
   for (std::size_t i = 0; i < plan.levels.size(); ++i) out += row_of(plan.levels[i], i);
   for (const FoundJobs& f : plan.kept) out += fmt::format("kept\t{}: {} of {}\n", f.what, f.kept, f.jobs);

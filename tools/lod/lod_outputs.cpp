@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 
 #include "io/files/final_names.h"
 #include "io/mesh/lod_writer.h"
@@ -141,6 +142,22 @@ std::vector<WrittenFile> write_profile(const BuildOptions& options, const Comple
       return write_cage_profile(options.name, made.levels.front().mesh, origin, out);
   }
   return {};
+}
+
+void take_away_longer_list(const BuildOptions& options, std::size_t levels, OutputFolder& out) {
+  for (std::size_t i = levels;; ++i) {
+    const std::string name = level_name(options.name, i) + ".glb", head = head_of(options.out + "/" + name);
+    if (!head.starts_with("glTF") || head.find("\"generator\":\"bplod ") == std::string::npos) return;
+    out.take_away(name);
+  }
+}
+
+std::string head_of(const std::string& path) {
+  std::string text(std::size_t(1) << 16, '\0');
+  std::ifstream in(path, std::ios::binary);
+  in.read(text.data(), std::streamsize(text.size()));
+  text.resize(std::size_t(in.gcount()));
+  return text;
 }
 
 WholeLevels encoded(const BuildOptions& options, const CompleteLevels& made, std::size_t first) {

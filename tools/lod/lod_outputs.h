@@ -66,6 +66,12 @@ std::vector<WrittenFile> write_profile(const BuildOptions& options, const Comple
 /// Encodes the levels of a tileset that are one mesh each. `first`: the number of the first one.
 [[nodiscard]] WholeLevels encoded(const BuildOptions& options, const CompleteLevels& made, std::size_t first);
 
+/// Returns the first 64 KiB of a file; empty if it cannot be read.
+[[nodiscard]] std::string head_of(const std::string& path);
+/// Makes --overwrite remove the levels of an earlier, longer list of this name: files that bplod made, whose numbers
+/// follow on `levels`.
+void take_away_longer_list(const BuildOptions& options, std::size_t levels, OutputFolder& out);
+
 /// Returns the files that levels as OBJ (BuildOptions::obj) may have: each level has a material and images. An image is
 /// JPEG, or PNG if it has holes.
 [[nodiscard]] std::vector<std::string> obj_files(const BuildOptions& options, std::size_t levels);

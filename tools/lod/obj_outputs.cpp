@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <set>
 
 #include "io/image/image_reader.h"
@@ -41,29 +40,34 @@ std::vector<std::string> files_beside(const std::string& material, std::size_t k
   return files;
 }
 
-std::string head_of(const std::string& path) {
-  std::string text(std::size_t(1) << 16, '\0');
-  std::ifstream in(path, std::ios::binary);
-  in.read(text.data(), std::streamsize(text.size()));
-  text.resize(std::size_t(in.gcount()));
-  return text;
-}
+constexpr const char* kOwnHead = "# made by bplod ";
 
 /// Returns the MTL that an existing level of bplod names, after the line that names it; empty if there is none.
 std::string material_before(const std::string& obj, const std::string& folder, const std::string& mtl) {
   const std::string head = head_of(obj), line = "mtllib " + mtl + "\n";
-  const bool ours = head.starts_with("# made by bplod ") && head.find("\n" + line) != std::string::npos;
+  const bool ours = head.starts_with(kOwnHead) && head.find("\n" + line) != std::string::npos;
   return ours ? line + head_of(folder + "/" + mtl) : "";
 }
 
 /// Makes --overwrite remove files that an earlier level named and that this run does not write.
+void leave_out_earlier(const BuildOptions& o, const std::string& name, const std::set<std::string>& written,
+                       OutputFolder& out) {
+  const std::string material = material_name(name);
+  const std::string before = material_before(o.out + "/" + name + ".obj", o.out, material + ".mtl");
+  for (const std::string& file : files_beside(material, kImages.size())) {
+    if (!written.contains(file) && before.find(" " + file + "\n") != std::string::npos) out.take_away(file);
+  }
+}
+
+/// Makes --overwrite remove them for all levels, and the levels of an earlier, longer list.
 void leave_out_earlier(const BuildOptions& o, const std::set<std::string>& written, OutputFolder& out) {
-  for (std::size_t i = 0; i < level_count(request_of(o)); ++i) {
-    const std::string name = name_of_level(o, i), material = material_name(name);
-    const std::string before = material_before(o.out + "/" + name + ".obj", o.out, material + ".mtl");
-    for (const std::string& file : files_beside(material, kImages.size())) {
-      if (!written.contains(file) && before.find(" " + file + "\n") != std::string::npos) out.take_away(file);
-    }
+  const std::size_t count = level_count(request_of(o));
+  for (std::size_t i = 0; i < count; ++i) leave_out_earlier(o, name_of_level(o, i), written, out);
+  for (std::size_t i = count == 1 ? 0 : count;; ++i) {
+    const std::string name = level_name(o.name, i);
+    if (!head_of(o.out + "/" + name + ".obj").starts_with(kOwnHead)) return;
+    leave_out_earlier(o, name, written, out);
+    out.take_away(name + ".obj");
   }
 }
 

@@ -6,9 +6,13 @@ namespace bp {
 /// Reads the materials of a document. Throws bad_input where they are broken.
 class GltfMaterials {
  public:
-  /// Keeps references. `textures`: null if images are not asked for; `surface`: as SceneOptions::surface.
-  GltfMaterials(GltfDocument& doc, std::string file, TextureTable* textures, bool surface)
-      : doc_(doc), file_(std::move(file)), textures_(textures), surface_(surface) {}
+  /// Keeps references. Images are read if SceneOptions::textures is set.
+  GltfMaterials(GltfDocument& doc, std::string file, const SceneOptions& options)
+      : doc_(doc),
+        file_(std::move(file)),
+        textures_(options.textures.get()),
+        surface_(options.surface),
+        details_(options.surface && options.details) {}
 
   /// Returns linear red, green, blue and alpha that multiply image and vertex colours. Unless surfaces are asked for,
   /// the light of a material without images is added.
@@ -18,21 +22,30 @@ class GltfMaterials {
   void add_texture(std::uint64_t material, const GltfObject& attributes, Primitive& primitive);
 
  private:
+  /// Images whose coordinates count for those of a material.
+  struct Leaders {
+    std::optional<GltfObject> first, second;
+  };
   [[nodiscard]] std::optional<GltfObject> base_texture(const GltfObject& material) const;
-  void add_places(const GltfObject& info, const GltfObject& attributes, Primitive& primitive);
-  std::uint32_t texture_material(std::uint64_t i, const GltfObject& material, const std::optional<GltfObject>& base);
-  [[nodiscard]] TextureSurface surface_of(const GltfObject& material, const std::optional<GltfObject>& places);
-  /// Returns the image whose coordinates count for all images of a material without an image of colours.
-  [[nodiscard]] std::optional<GltfObject> first_other(const GltfObject& material) const;
-  void add_light(const GltfObject& material, const std::optional<GltfObject>& places, TextureSurface& s);
-  TextureMap map_of(const GltfObject& info, const std::optional<GltfObject>& places);
-  [[nodiscard]] std::array<TextureWrap, 2> wrap_of(const GltfObject& texture) const;
+  [[nodiscard]] Leaders leaders_of(const GltfObject& material, const std::optional<GltfObject>& base) const;
+  [[nodiscard]] std::optional<Accessor> places_of(const GltfObject& info, const GltfObject& attributes,
+                                                  const Primitive& primitive, std::array<double, 6>& transform);
+  [[nodiscard]] std::optional<Accessor> set_of_places(std::uint64_t set, const GltfObject& attributes,
+                                                      const Primitive& primitive);
+  void add_spare_places(const Leaders& leaders, const GltfObject& attributes, Primitive& primitive);
+  std::uint32_t texture_material(std::uint64_t i, const GltfObject& material, const std::optional<GltfObject>& base,
+                                 const Leaders& leaders);
+  [[nodiscard]] TextureSurface surface_of(const GltfObject& material, const Leaders& leaders);
+  [[nodiscard]] MaterialDetails details_of(const GltfObject& material, const Leaders& leaders);
+  void add_light(const GltfObject& material, const Leaders& leaders, TextureSurface& s);
+  TextureMap map_of(const GltfObject& info, const Leaders& leaders);
+  [[nodiscard]] TextureMap texture_of(const GltfObject& info);
   std::uint32_t image_of(const GltfObject& texture);
 
   GltfDocument& doc_;
   const std::string file_;
   TextureTable* const textures_;
-  const bool surface_;
+  const bool surface_, details_;
 };
 
 }  // namespace bp

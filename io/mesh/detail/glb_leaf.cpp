@@ -22,12 +22,18 @@ class LeafPrimitive {
     order_ = optimize_order(triangles_, part.vertices.size());
   }
 
-  [[nodiscard]] Json json(const GlbLeaves::Place& place, bool textured, bool colored) {
+  [[nodiscard]] Json json(const GlbLeaves::Place& place, std::size_t places, bool colored) {
     Json attributes{{"POSITION", add_positions(place)}, {"NORMAL", add_normals()}};
-    if (textured) attributes["TEXCOORD_0"] = add_uv();
+    if (places > 0) attributes["TEXCOORD_0"] = add_uv(&LeafVertex::uv);
+    if (places > 1) attributes["TEXCOORD_1"] = add_uv(&LeafVertex::second_uv);
     if (colored) attributes["COLOR_0"] = add_colors();
     const std::size_t indices = data_.add_indices(triangles_, order_.size());
     return {{"attributes", std::move(attributes)}, {"indices", indices}};
+  }
+
+  /// Returns how many sets of places the vertices have.
+  [[nodiscard]] std::size_t places() const {
+    return has_places(&LeafVertex::second_uv) ? 2 : has_places(&LeafVertex::uv) ? 1 : 0;
   }
 
  private:
@@ -54,9 +60,14 @@ class LeafPrimitive {
     for (const std::uint32_t i : order_) normals.push_back(turn_(part_.vertices[i].normal));
     return data_.add_normals(normals);
   }
-  std::size_t add_uv() {
+  using Places = std::array<float, 2> LeafVertex::*;
+  [[nodiscard]] bool has_places(Places places) const {
+    return std::any_of(part_.vertices.begin(), part_.vertices.end(),
+                       [&](const LeafVertex& v) { return v.*places != std::array<float, 2>{}; });
+  }
+  std::size_t add_uv(Places places) {
     std::string bytes;
-    for (const std::uint32_t i : order_) append(bytes, part_.vertices[i].uv);
+    for (const std::uint32_t i : order_) append(bytes, part_.vertices[i].*places);
     return data_.add_attributes(bytes, 8, {{"componentType", kGltfFloat}, {"count", order_.size()}, {"type", "VEC2"}});
   }
   std::size_t add_colors() {
@@ -102,44 +113,66 @@ Json GlbLeaves::primitive(const LeafPart& part, const Place& place) {
     const LinearColor c = part.vertices.front().color;
     factor = {c.r / 65535.0, c.g / 65535.0, c.b / 65535.0, 1};
   }
-  const Mapped mapped = add_material(material, factor);
-  Json json = LeafPrimitive(part, up_, data_).json(place, mapped.has_image, !has_one);
+  const Mapped mapped = add_material(material, factor, part.sides);
+  LeafPrimitive all(part, up_, data_);
+  Json json = all.json(place, std::max(mapped.places, looks_.spare_places ? all.places() : 0), !has_one);
   json["material"] = mapped.material;
   return json;
 }
 
-GlbLeaves::Mapped GlbLeaves::add_material(const TextureMaterial& material, std::array<double, 4> factor) {
+GlbLeaves::Mapped GlbLeaves::add_material(const TextureMaterial& material, std::array<double, 4> factor,
+                                          LeafSides sides) {
+  const MaterialDetails& details = material.details;
   const TextureSurface& surface = material.surface;
   Json pbr{{"metallicFactor", surface.metal_factor}, {"roughnessFactor", surface.roughness_factor}};
   const auto image = image_of(material.image);
-  if (image) pbr["baseColorTexture"] = {{"index", all_.add_texture(*image, material.wrap)}};
+  if (image) pbr["baseColorTexture"] = {{"index", all_.add_texture(*image, material.wrap, material.filters)}};
   if (material.alpha_mode != AlphaMode::opaque) factor[3] = std::clamp(double(material.alpha), 0.0, 1.0);
   if (factor != std::array<double, 4>{1, 1, 1, 1}) pbr["baseColorFactor"] = factor;
   const auto rough = add_map(surface.roughness), normal = add_map(surface.normal), light = add_map(surface.emission);
-  if (rough) pbr["metallicRoughnessTexture"] = {{"index", *rough}};
-  Json json{{"name", image ? "the scene's texture" : "the scene's colors"},
-            {"pbrMetallicRoughness", std::move(pbr)},
-            {"doubleSided", true}};
+  const auto shade = add_map(details.occlusion);
+  const std::array maps{&rough, &normal, &light, &shade};
+  const bool has_second =
+      std::any_of(maps.begin(), maps.end(), [](const auto* map) { return *map && (*map)->contains("texCoord"); });
+  if (rough) pbr["metallicRoughnessTexture"] = *rough;
+  const char* const unnamed = image ? "the scene's texture" : "the scene's colors";
+  Json json{{"name", details.name.empty() ? unnamed : details.name}, {"pbrMetallicRoughness", std::move(pbr)}};
+  if (sides == LeafSides::both || (sides == LeafSides::as_material && details.double_sided)) json["doubleSided"] = true;
   if (material.alpha_mode == AlphaMode::mask) {
     json["alphaMode"] = "MASK";
     json["alphaCutoff"] = material.cutoff;
   } else if (material.alpha_mode == AlphaMode::blend) {
     json["alphaMode"] = "BLEND";
   }
-  if (normal) json["normalTexture"] = {{"index", *normal}, {"scale", surface.normal_scale}};
-  if (light) json["emissiveTexture"] = {{"index", *light}};
+  if (normal) {
+    json["normalTexture"] = *normal;
+    json["normalTexture"]["scale"] = surface.normal_scale;
+  }
+  if (shade) {
+    json["occlusionTexture"] = *shade;
+    json["occlusionTexture"]["strength"] = details.occlusion_strength;
+  }
+  if (light) json["emissiveTexture"] = *light;
   if (surface.emission_factor != std::array<float, 3>{}) json["emissiveFactor"] = surface.emission_factor;
-  return {all_.add_material(std::move(json)), image || rough || normal || light};
+  if (!details.extensions.empty()) {
+    json["extensions"] = Json::parse(details.extensions);
+    for (const auto& [name, extension] : json["extensions"].items()) data_.use(name, false);
+  }
+  const bool has_image = image || rough || normal || shade || light;
+  return {all_.add_material(std::move(json)), has_second ? std::size_t(2) : has_image ? 1 : 0};
 }
 
-std::optional<std::size_t> GlbLeaves::add_map(const TextureMap& map) {
+/// Returns the reference to an image; none if it is not shown.
+std::optional<Json> GlbLeaves::add_map(const TextureMap& map) {
   const auto image = looks_.colors ? image_of(map.image) : std::nullopt;
   if (!image) return {};
-  return all_.add_texture(*image, map.wrap);
+  Json json{{"index", all_.add_texture(*image, map.wrap, map.filters)}};
+  if (map.in_second_places) json["texCoord"] = 1;
+  return json;
 }
 
 std::optional<std::size_t> GlbLeaves::image_of(std::uint32_t image) {
-  if (image == kNoTextureImage || looks_.images == nullptr) return {};
+  if (image == kNoTextureImage || looks_.images == nullptr || looks_.broken.contains(image)) return {};
   const auto [found, is_new] = images_.try_emplace(image);
   if (!is_new) return found->second;
   if (looks_.name_of) {

@@ -10,7 +10,7 @@
 
 namespace bp {
 
-/// Adds pieces of a scene to a GLB, each with its own materials. Both sides of triangles are shown.
+/// Adds pieces of a scene to a GLB, each with its own materials.
 class GlbLeaves {
  public:
   using Position = std::array<float, 3>;
@@ -27,11 +27,11 @@ class GlbLeaves {
  private:
   struct Mapped {
     std::size_t material = 0;
-    bool has_image = false;
+    std::size_t places = 0;  ///< sets of places that its images need
   };
   GltfOutJson primitive(const LeafPart& part, const Place& place);
-  Mapped add_material(const TextureMaterial& material, std::array<double, 4> factor);
-  std::optional<std::size_t> add_map(const TextureMap& map);
+  Mapped add_material(const TextureMaterial& material, std::array<double, 4> factor, LeafSides sides);
+  std::optional<GltfOutJson> add_map(const TextureMap& map);
   std::optional<std::size_t> image_of(std::uint32_t image);
 
   GlbData& data_;

@@ -28,8 +28,8 @@ std::size_t GlbLooks::add_material(const Json& material) {
   return number_of(materials_, material);
 }
 
-std::size_t GlbLooks::add_texture(std::size_t image, const Wrap& wrap) {
-  Json texture{{"sampler", number_of(samplers_, gltf_sampler(wrap))}};
+std::size_t GlbLooks::add_texture(std::size_t image, const Wrap& wrap, const TextureFilters& filters) {
+  Json texture{{"sampler", number_of(samplers_, gltf_sampler(wrap, filters))}};
   if (is_webp(images_[image])) {
     has_webp_ = true;
     texture["extensions"] = {{"EXT_texture_webp", {{"source", image}}}};

@@ -17,7 +17,7 @@ class GlbLooks {
   /// Each returns the number of an element, which is added unless the same one is there; bytes are always added.
   std::size_t add_material(const GltfOutJson& material);
   /// `wrap`: beyond the image's edge. EXT_texture_webp is used for an image of that type.
-  std::size_t add_texture(std::size_t image, const Wrap& wrap);
+  std::size_t add_texture(std::size_t image, const Wrap& wrap, const TextureFilters& filters = {});
   std::size_t add_image(const std::string& uri);
   /// The bytes become part of the file. `type`: "image/png".
   std::size_t add_image(const std::string& bytes, const std::string& type);

@@ -249,7 +249,7 @@ TextureSurface MtlMaterials::surface_of(const Material& material, TextureTable& 
   return s;
 }
 
-std::uint32_t MtlMaterials::texture(const std::string& material, TextureTable& textures, bool surface) {
+std::uint32_t MtlMaterials::texture(const std::string& material, TextureTable& textures, bool surface, bool details) {
   const auto found = materials_.find(material);
   if (found == materials_.end()) return TriangleTexture::kNoMaterial;
   Material& m = found->second;
@@ -257,7 +257,8 @@ std::uint32_t MtlMaterials::texture(const std::string& material, TextureTable& t
   TextureMaterial t;
   if (surface) t.surface = surface_of(m, textures);
   if (!surface && m.has_image()) add_light(m, textures, t.surface);
-  if (m.maps().color.image.empty() && t.surface == TextureSurface{}) {
+  if (details) t.details.name = material;
+  if (m.maps().color.image.empty() && t.surface == TextureSurface{} && !details) {
     m.number = TriangleTexture::kNoMaterial;
     return *m.number;
   }
@@ -269,7 +270,7 @@ std::uint32_t MtlMaterials::texture(const std::string& material, TextureTable& t
   t.alpha_mode = m.see_through ? AlphaMode::blend : AlphaMode::opaque;
   if (map.clamp) t.wrap = {TextureWrap::clamp, TextureWrap::clamp};
   std::string key = fmt::format("{} {} {} {}", path, map.clamp, m.see_through, m.alpha);
-  if (t.surface != TextureSurface{}) key += fmt::format(" {} {}", *m.file, material);
+  if (details || t.surface != TextureSurface{}) key += fmt::format(" {} {}", *m.file, material);
   m.number = textures.add_material(key, t);
   return *m.number;
 }

@@ -36,8 +36,8 @@ class MtlMaterials {
   /// Returns the place in the image for texture coordinates of a face (vt).
   [[nodiscard]] std::array<float, 2> place(const std::string& material, double u, double v) const;
   /// Adds the material's images to `textures`, and their faults; returns its number, TriangleTexture::kNoMaterial if it
-  /// has no image.
-  [[nodiscard]] std::uint32_t texture(const std::string& material, TextureTable& textures, bool surface);
+  /// has no image and no `details` are asked for (SceneOptions).
+  [[nodiscard]] std::uint32_t texture(const std::string& material, TextureTable& textures, bool surface, bool details);
   /// Returns whether the material has an image of colours or light (map_Kd, map_Ke).
   [[nodiscard]] bool has_image(const std::string& material) const;
   /// Returns whether the material is transparent; false if there is none of this name.

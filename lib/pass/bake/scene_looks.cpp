@@ -42,16 +42,31 @@ class TexelSizes {
   double total_ = 0;
 };
 
+void pack_map(std::string& all, const TextureMap& map, const TextureSet& images) {
+  pack(all, map.wrap[0]);
+  pack(all, map.wrap[1]);
+  pack(all, map.is_there());
+  if (!map.is_there()) return;
+  for (const std::uint64_t word : content_hash(images.file(map.image)).words) pack(all, word);
+  if (!map.in_second_places && map.filters == TextureFilters{}) return;
+  pack(all, map.in_second_places);
+  for (const std::uint16_t filter : map.filters) pack(all, filter);
+}
+
 void pack_surface(std::string& all, const TextureSurface& surface, const TextureSet& images) {
-  for (const TextureMap* map : {&surface.normal, &surface.roughness, &surface.emission}) {
-    pack(all, map->wrap[0]);
-    pack(all, map->wrap[1]);
-    pack(all, map->is_there());
-    if (!map->is_there()) continue;
-    for (const std::uint64_t word : content_hash(images.file(map->image)).words) pack(all, word);
-  }
+  for (const TextureMap* map : {&surface.normal, &surface.roughness, &surface.emission}) pack_map(all, *map, images);
   for (const float x : {surface.normal_scale, surface.roughness_factor, surface.metal_factor}) pack(all, x);
   for (const float x : surface.emission_factor) pack(all, x);
+}
+
+void pack_details(std::string& all, const TextureMaterial& material, const TextureSet& images) {
+  const MaterialDetails& details = material.details;
+  pack(all, details.name);
+  pack(all, details.extensions);
+  pack(all, details.double_sided);
+  pack_map(all, details.occlusion, images);
+  pack(all, details.occlusion_strength);
+  for (const std::uint16_t filter : material.filters) pack(all, filter);
 }
 
 }  // namespace
@@ -108,6 +123,7 @@ void SceneLooks::note_image(std::uint32_t material) {
   pack(all, m.cutoff);
   pack(all, m.replaces_color);
   if (m.surface != TextureSurface{}) pack_surface(all, m.surface, *images_);
+  if (m.details != MaterialDetails{} || m.filters != TextureFilters{}) pack_details(all, m, *images_);
   for (const std::uint32_t image : m.images()) {
     if (image == TextureMaterial::kNoImage) continue;
     const std::array<int, 2> size = images_->size(image);
@@ -138,6 +154,8 @@ void SceneLooks::add_triangles_to(KeyHash& hash, const Bounds3d& box) const {
     one.add(std::as_bytes(std::span(t.colors)));
     if (t.texture.material != TriangleTexture::kNoMaterial) {
       one.add(std::as_bytes(std::span(t.texture.uv)));
+      if (t.texture.second_uv != decltype(t.texture.second_uv){})
+        one.add(std::as_bytes(std::span(t.texture.second_uv)));
       one.add(std::as_bytes(std::span(materials_[t.texture.material].key.words)));
     }
     if (t.texture.normals != decltype(t.texture.normals){}) one.add(std::as_bytes(std::span(t.texture.normals)));

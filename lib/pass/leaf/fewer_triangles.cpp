@@ -18,6 +18,9 @@ using Change = LeafMesh::Change;
 
 /// Where costs are equal, as in a plane, a short edge collapses first: this times its length counts as a distance.
 constexpr double kShort = 1e-3;
+/// A new place costs less than this share of the better end's. Between the ends thin tubes would shrink.
+constexpr double kWorthMoving = 0.5;
+constexpr double kSharpCosine = 0.1;  // between faces at a fold that may be held: about a right angle
 /// A face turns by less than 78 degrees in one collapse.
 constexpr double kLeastCosine = 0.2;
 
@@ -31,7 +34,10 @@ Look between(const Look& a, const Look& b, double t) {
   }
   for (float& x : out.normal)
     x = length > 1e-6 ? float(x / std::sqrt(length)) : a.normal[std::size_t(&x - &out.normal[0])];
-  for (std::size_t i = 0; i < 2; ++i) out.uv[i] = float(mix(a.uv[i], b.uv[i]));
+  for (std::size_t i = 0; i < 2; ++i) {
+    out.uv[i] = float(mix(a.uv[i], b.uv[i]));
+    out.second_uv[i] = float(mix(a.second_uv[i], b.second_uv[i]));
+  }
   const auto mixed = [&](std::uint16_t x, std::uint16_t y) { return std::uint16_t(mix(x, y) + 0.5); };
   out.color = {mixed(a.color.r, b.color.r), mixed(a.color.g, b.color.g), mixed(a.color.b, b.color.b)};
   return out;
@@ -61,8 +67,8 @@ double turn_of(const std::array<float, 2>& a, const std::array<float, 2>& b, con
 
 class EdgeCollapses {
  public:
-  explicit EdgeCollapses(const SceneLeaf& leaf)
-      : whole_(leaf), mesh_(leaf), quadrics_(mesh_.point_count()), stamps_(mesh_.point_count(), 0) {
+  EdgeCollapses(const SceneLeaf& leaf, LeafFolds folds)
+      : whole_(leaf), folds_(folds), mesh_(leaf), quadrics_(mesh_.point_count()), stamps_(mesh_.point_count(), 0) {
     for (Index p = 0; p < mesh_.point_count(); ++p) {
       for (const Index f : mesh_.faces_of(p)) add_planes(p, f);
     }
@@ -82,6 +88,13 @@ class EdgeCollapses {
   }
 
  private:
+  /// The corners at both ends of an edge: pairs that a face has, and others.
+  struct Corners {
+    std::vector<std::pair<Index, Index>> pairs;
+    std::vector<Index> others_u, others_v;
+    bool holds_u = false, holds_v = false;  ///< a seam goes on from the end elsewhere, so that this must not move
+  };
+
   // --- quadrics
 
   /// Adds the plane of a face around a point, and those that hold its borders and seams.
@@ -98,27 +111,29 @@ class EdgeCollapses {
     hold_edge(p, b, f, to_b, n);
   }
   void hold_edge(Index p, Index other, Index f, const Vec3d& along, const Vec3d& n) {
-    const double weight = weight_of_edge(p, other, f);
     const double squared = dot(along, along);
+    const double weight = weight_of_edge(p, other, f);
     if (weight > 0 && squared > 0) quadrics_[p].add_plane(unit(cross(along, n), n), 0, weight * squared);
   }
-  /// Returns the weight of the plane through an edge of the face, which holds the outline that the edge may be: as much
-  /// as the surface folds there; a border is a fold by half a turn.
+  /// Returns the weight of a plane through an edge of the face, which holds its course: 1 for a border and a seam, and
+  /// a part of that for a fold that is held. A border is a fold by half a turn.
   [[nodiscard]] double weight_of_edge(Index p, Index other, Index f) const {
     const Look& own = mesh_.corner(mesh_.face(f)[mesh_.place_in(f, p)]).look;
     const Look& far = mesh_.corner(mesh_.face(f)[mesh_.place_in(f, other)]).look;
-    double cosine = 1, seam = 0;
+    double cosine = -1;
     bool is_border = true;
-    for (const Index g : mesh_.faces_of(p)) {
-      const std::size_t there = mesh_.place_in(g, other);
-      if (g == f || there == 3) continue;
+    // The end with fewer faces tells, since the other one may have thousands.
+    const Index end = mesh_.faces_of(p).size() < mesh_.faces_of(other).size() ? p : other;
+    for (const Index g : mesh_.faces_of(end)) {
+      const std::size_t here = mesh_.place_in(g, p), there = mesh_.place_in(g, other);
+      if (g == f || here == 3 || there == 3) continue;
+      cosine = is_border ? dot(normal_of(f), normal_of(g)) : std::min(cosine, dot(normal_of(f), normal_of(g)));
       is_border = false;
-      cosine = std::min(cosine, dot(normal_of(f), normal_of(g)));
-      const bool joins = mesh_.corner(mesh_.face(g)[mesh_.place_in(g, p)]).look.joins(own) &&
-                         mesh_.corner(mesh_.face(g)[there]).look.joins(far);
-      if (!joins) seam = 1;
+      if (!mesh_.corner(mesh_.face(g)[here]).look.joins(own) || !mesh_.corner(mesh_.face(g)[there]).look.joins(far))
+        return 1;
     }
-    return std::max(seam, is_border ? 1 : (1 - cosine) / 2);
+    if (is_border) return 1;
+    return folds_ == LeafFolds::held && cosine < kSharpCosine ? (1 - cosine) / 2 : 0;
   }
   [[nodiscard]] Vec3d normal_of(Index f) const {
     const Vec3d& a = mesh_.at(mesh_.point_of(f, 0));
@@ -149,9 +164,13 @@ class EdgeCollapses {
     const double squared = dot(d, d), extra = kShort * kShort * squared * q.weight;
     const Vec3d best = minimum(q, 0.5 * d);
     const double share = squared > 0 ? std::clamp(dot(best, d) / squared, 0.0, 1.0) : 0;
-    std::vector<Place> all{{0, best, share}, {0, {}, 0}, {0, d, 1}, {0, 0.5 * d, 0.5}};
-    for (Place& p : all) p.cost = std::max(q.value(p.to), 0.0) + extra;
-    std::stable_sort(all.begin(), all.end(), [](const Place& a, const Place& b) { return a.cost < b.cost; });
+    const auto rated = [&](const Vec3d& to, double part) {
+      return Place{std::max(q.value(to), 0.0) + extra, to, part};
+    };
+    std::vector<Place> all{rated({}, 0), rated(d, 1)};
+    if (all[1].cost < all[0].cost) std::swap(all[0], all[1]);
+    if (const Place between = rated(best, share); between.cost < kWorthMoving * all[0].cost)
+      all.insert(all.begin(), between);
     return all;
   }
 
@@ -162,16 +181,21 @@ class EdgeCollapses {
     if (!keeps_parts(e.u, e.v)) return;
     const Corners corners = corners_of_edge(e.u, e.v);
     for (const Place& place : places(e.u, e.v)) {
-      const bool is_held = (corners.holds_u && place.share > 0) || (corners.holds_v && place.share < 1) ||
-                           ((corners.holds_u || corners.holds_v) &&
-                            place.to != (place.share > 0 ? mesh_.at(e.v) - mesh_.at(e.u) : Vec3d{}));
-      if (is_held) continue;
+      if (is_held(corners, place, mesh_.at(e.v) - mesh_.at(e.u))) continue;
       const std::vector<Change> changes = changes_of(corners, place.share);
       if (turns_faces(e.u, e.v, mesh_.at(e.u) + place.to, changes)) continue;
       if (place.cost > e.cost && !order_.empty() && place.cost > order_.top().cost)
         return order_.push({place.cost, e.u, e.v, e.stamp_u, e.stamp_v});
       return collapse(e.u, e.v, place, changes);
     }
+  }
+
+  /// Returns whether a seam forbids the place. Between two seams is a strip, such as the rim of a board: it may vanish
+  /// into either of them, which the planes of the seams rate by its width.
+  [[nodiscard]] static bool is_held(const Corners& corners, const Place& place, const Vec3d& edge) {
+    if (!corners.holds_u && !corners.holds_v) return false;
+    if (place.to != (place.share > 0 ? edge : Vec3d{})) return true;
+    return corners.holds_u != corners.holds_v && (corners.holds_u ? place.share > 0 : place.share < 1);
   }
 
   void collapse(Index u, Index v, const Place& place, const std::vector<Change>& changes) {
@@ -220,12 +244,6 @@ class EdgeCollapses {
     return false;
   }
 
-  /// The corners at both ends of an edge: pairs that a face has, and others.
-  struct Corners {
-    std::vector<std::pair<Index, Index>> pairs;
-    std::vector<Index> others_u, others_v;
-    bool holds_u = false, holds_v = false;  ///< a seam goes on from the end elsewhere, so that this must not move
-  };
   [[nodiscard]] Corners corners_of_edge(Index u, Index v) const {
     Corners out;
     for (const Index f : mesh_.faces_of(u)) {
@@ -265,6 +283,7 @@ class EdgeCollapses {
           if (!mesh_.corner(first ? u : v).look.joins(look)) continue;
           const Look moved = between(mesh_.corner(u).look, mesh_.corner(v).look, share);
           look.uv = moved.uv;
+          look.second_uv = moved.second_uv;
           look.color = moved.color;
           break;
         }
@@ -300,6 +319,7 @@ class EdgeCollapses {
   }
 
   const SceneLeaf& whole_;
+  const LeafFolds folds_;
   LeafMesh mesh_;
   std::vector<Quadric> quadrics_;  // by point, relative to it
   std::vector<std::uint32_t> stamps_;
@@ -309,7 +329,8 @@ class EdgeCollapses {
 
 }  // namespace
 
-std::vector<SceneLeaf> with_fewer_triangles(const SceneLeaf& leaf, std::span<const std::uint64_t> most) {
+std::vector<SceneLeaf> with_fewer_triangles(const SceneLeaf& leaf, std::span<const std::uint64_t> most,
+                                            LeafFolds folds) {
   std::vector<SceneLeaf> all;
   std::optional<EdgeCollapses> collapses;
   for (const std::uint64_t triangles : most) {
@@ -317,7 +338,7 @@ std::vector<SceneLeaf> with_fewer_triangles(const SceneLeaf& leaf, std::span<con
       all.push_back(leaf);
       continue;
     }
-    if (!collapses) collapses.emplace(leaf);
+    if (!collapses) collapses.emplace(leaf, folds);
     all.push_back(collapses->run(triangles));
   }
   return all;

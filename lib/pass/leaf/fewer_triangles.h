@@ -9,12 +9,17 @@ namespace bp {
 /// Memory of with_fewer_triangles(), but for its results, for each triangle of the leaf.
 constexpr std::uint64_t kCollapseBytesPerTriangle = 700;
 
+/// The treatment of folds: none, or planes hold those of a right angle and sharper. They hold boxes in shape, and make
+/// what has many of them, such as bent pipes, coarser.
+enum class LeafFolds { plain, held };
+
 /// Returns the same surface with at most so many triangles, for each number in `most`, which fall. Edges collapse in
 /// the order of their quadric errors [GH97], and each corner keeps a look of its own [Hop99]. Borders, and seams where
 /// texture coordinates, colours or materials meet, keep their course. Parts and holes stay, so that more triangles may
 /// be left than were wanted. The result need not be closed, and may intersect itself. It does not depend on the number
 /// of threads. O(n log n); of a point with k faces, O(k) at
 /// each collapse there.
-[[nodiscard]] std::vector<SceneLeaf> with_fewer_triangles(const SceneLeaf& leaf, std::span<const std::uint64_t> most);
+[[nodiscard]] std::vector<SceneLeaf> with_fewer_triangles(const SceneLeaf& leaf, std::span<const std::uint64_t> most,
+                                                          LeafFolds folds = LeafFolds::plain);
 
 }  // namespace bp

@@ -36,13 +36,16 @@ Bounds3d grown(const Bounds3d& box) {
 std::vector<TexturedTriangle> triangles_in(const SceneLooks& looks, const Bounds3d& box) {
   std::vector<TexturedTriangle> all;
   looks.visit(box, [&](const TexturedTriangle& t) { all.push_back(t); });
-  const auto bits = [](const TriangleTexture& t) {
-    return std::bit_cast<std::array<std::array<std::uint32_t, 2>, 3>>(t.uv);
+  const auto bits = [](const std::array<std::array<float, 2>, 3>& uv) {
+    return std::bit_cast<std::array<std::array<std::uint32_t, 2>, 3>>(uv);
   };
   const auto key = [&](const TriangleTexture& t) { return looks.key_of(t.material); };
   std::sort(all.begin(), all.end(), [&](const TexturedTriangle& a, const TexturedTriangle& b) {
-    return std::tuple(a.corners, key(a.texture), a.colors, bits(a.texture), a.texture.normals) <
-           std::tuple(b.corners, key(b.texture), b.colors, bits(b.texture), b.texture.normals);
+    const auto sorted_by = [&](const TexturedTriangle& t) {
+      return std::tuple(t.corners, key(t.texture), t.colors, bits(t.texture.uv), t.texture.normals,
+                        bits(t.texture.second_uv));
+    };
+    return sorted_by(a) < sorted_by(b);
   });
   return all;
 }
@@ -56,7 +59,8 @@ struct GrowingPart {
       const auto mix = [&h](std::uint64_t x) { h = (h ^ x) * 0x9E3779B97F4A7C15, h ^= h >> 29; };
       for (const std::int32_t x : v.at) mix(std::uint32_t(x));
       for (const float x : v.normal) mix(std::bit_cast<std::uint32_t>(x));
-      for (const float x : v.uv) mix(std::bit_cast<std::uint32_t>(x));
+      for (const auto* uv : {&v.uv, &v.second_uv})
+        for (const float x : *uv) mix(std::bit_cast<std::uint32_t>(x));
       mix(std::uint64_t(v.color.r) << 32 | std::uint64_t(v.color.g) << 16 | v.color.b);
       return std::size_t(h);
     }
@@ -102,9 +106,13 @@ class LeafCutter {
       triangle[k] = {t.corners[k],
                      own ? unpack_normal(t.texture.normals[k]) : normals[k],
                      {},
+                     {},
                      {double(t.colors[k].r), double(t.colors[k].g), double(t.colors[k].b)}};
-      for (std::size_t i = 0; i < 2 && textured; ++i)
-        triangle[k].uv[i] = std::isfinite(t.texture.uv[k][i]) ? double(t.texture.uv[k][i]) : 0;
+      for (std::size_t i = 0; i < 2 && textured; ++i) {
+        const auto finite = [](float x) { return std::isfinite(x) ? double(x) : 0; };
+        triangle[k].uv[i] = finite(t.texture.uv[k][i]);
+        triangle[k].second_uv[i] = finite(t.texture.second_uv[k][i]);
+      }
     }
     const std::vector<CutPoint> polygon = cut_triangle(triangle, box_);
     if (polygon.empty()) return;
@@ -149,6 +157,7 @@ class LeafCutter {
       v.normal[i] = float(l > 0 ? p.normal[i] / l : double(i == 2));
     }
     v.uv = {float(p.uv[0]), float(p.uv[1])};
+    v.second_uv = {float(p.second_uv[0]), float(p.second_uv[1])};
     const auto rounded = [](double c) { return std::uint16_t(std::clamp(c, 0.0, 65535.0) + 0.5); };
     v.color = {rounded(p.color[0]), rounded(p.color[1]), rounded(p.color[2])};
     return v;

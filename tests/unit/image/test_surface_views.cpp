@@ -55,6 +55,26 @@ TEST_CASE("a surface that stands otherwise counts where its depth is about the s
   CHECK(views.difference(stairs) > 4 * views.difference(rectangle(0, 1, 1, 0.51)));
 }
 
+TEST_CASE("colours count in proportion if both surfaces have some", "[quick]") {
+  const std::vector<TriangleD> scene = rectangle(0, 1, 1, 0.5);
+  const auto grey = [](int level) {
+    return [level](std::uint32_t, const std::array<double, 3>&, double) {
+      return SurfaceViews::Color{std::uint8_t(level), std::uint8_t(level), std::uint8_t(level)};
+    };
+  };
+  const SurfaceViews views(scene, unit_box(), grey(100));
+  CHECK(views.difference(scene, grey(100)) == 0);
+  CHECK(views.difference(scene, grey(151)) == Approx(0.2));
+  CHECK(views.difference(scene) == 0);
+  // A gradient: the shares of the corners are those of the place that a pixel shows.
+  const auto ramp = [&](std::uint32_t i, const std::array<double, 3>& shares, double) {
+    double x = 0;
+    for (std::size_t k = 0; k < 3; ++k) x += shares[k] * scene[i][k][0];
+    return SurfaceViews::Color{std::uint8_t(255 * x), 0, 0};
+  };
+  CHECK(SurfaceViews(scene, unit_box(), ramp).difference(scene, grey(0)) == Approx(0.5).margin(0.02));
+}
+
 TEST_CASE("what lies behind others is not shown", "[quick]") {
   std::vector<TriangleD> scene = rectangle(0, 1, 1, 0);
   const std::vector<TriangleD> above = rectangle(0, 1, 1, 1), inside = rectangle(0.4, 0.45, 0.05, 0.5);

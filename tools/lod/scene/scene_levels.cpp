@@ -45,9 +45,19 @@ SceneLeaf whole_scene(const SceneLooks& looks, const Bounds3d& bounds) {
   return leaf;
 }
 
-void require_memory(const Build& build, std::uint64_t triangles) {
+/// Returns whether a level has all triangles of the scene.
+bool is_whole(const std::shared_ptr<const SceneLeaf>& level, const SceneLeaf& scene) {
+  return level != nullptr && level->triangles() == scene.triangles();
+}
+
+/// Checks the memory of the work, of its results, and of the images' files, which are copied into that of a level.
+void require_memory(const Build& build, const LodScene& scene, const std::vector<LodTarget>& targets) {
+  constexpr std::uint64_t kResultBytesPerTriangle = 300;  // a vertex for each corner, here and in the file
   const MemoryShare memory = build.context().memory;
-  const std::uint64_t needed = triangles * (kLeafBytesPerTriangle + kCollapseBytesPerTriangle);
+  const std::uint64_t triangles = scene.size.triangles;
+  std::uint64_t needed = triangles * (kLeafBytesPerTriangle + kCollapseBytesPerTriangle);
+  for (const LodTarget& target : targets) needed += kResultBytesPerTriangle * std::min(target.faces, triangles);
+  if (scene.textures) needed += 2 * scene.textures->file_bytes();
   if (needed <= memory.bytes) return;
   throw NeedsMemory(fmt::format("levels from {} triangles of the scene", triangles), needed, memory.bytes,
                     memory.limit_with(needed - memory.bytes));
@@ -64,29 +74,45 @@ SceneLevels::SceneLevels(Build& build, const LodScene& scene, const std::vector<
     return;
   }
   build.report.begin("levels from the scene");
-  require_memory(build, scene.size.triangles);
+  require_memory(build, scene, targets);
   const Bounds3d& bounds = scene.size.bounds;
   const SceneLeaf whole = whole_scene(*read_looks(build, scene, part_of(build.budget.work, 0.4)), bounds);
+  const LeafImages images(whole, scene.textures.get(), part_of(build.budget.work, 0.2));
+  for (const auto& [image, fault] : images.broken()) {
+    build.note(fault + "; levels from the scene leave it out");
+    broken_.insert(image);
+  }
   const std::vector<TriangleD> all = triangles_of(whole);
   if (all.empty()) return;  // no triangle has an area
   const TriangleBvh tree(all);
-  views_ = std::make_unique<SurfaceViews>(all, bounds);
+  const bool has_colors = build.options.colors() && scene.has_colors();
+  views_ = std::make_unique<SurfaceViews>(all, bounds, has_colors ? paint_of(whole, images) : SurfaceViews::ColorAt());
   std::vector<TriangleD> shown;
   for (const std::uint32_t i : views_->shown()) shown.push_back(all[i]);
   std::vector<std::uint64_t> most;
   for (const LodTarget& target : targets) most.push_back(target.faces);
-  std::vector<SceneLeaf> leaves = with_fewer_triangles(whole, most);
-  for (std::size_t i = 0; i < leaves.size(); ++i) {
-    if (leaves[i].triangles() > most[i]) continue;
-    Level& level = levels_[i];
-    level.leaf = std::make_shared<const SceneLeaf>(std::move(leaves[i]));
-    if (level.leaf->triangles() == all.size()) continue;  // the scene itself
+  for (const LeafFolds folds : {LeafFolds::plain, LeafFolds::held}) {
+    std::vector<SceneLeaf> leaves = with_fewer_triangles(whole, most, folds);
+    for (std::size_t i = 0; i < leaves.size(); ++i) {
+      if (leaves[i].triangles() > most[i] || is_whole(levels_[i].leaf, whole)) continue;
+      offer(levels_[i], std::move(leaves[i]), images);
+    }
+  }
+  for (Level& level : levels_) {
+    if (level.leaf == nullptr || is_whole(level.leaf, whole)) continue;
     const std::vector<TriangleD> own = triangles_of(*level.leaf);
     const double tolerance = bounds.diagonal() / 1000;
-    level.difference = views_->difference(own);
     level.error_world = std::max(largest_distance(own, tree, tolerance).at_most,
                                  shown.empty() ? 0 : largest_distance(shown, TriangleBvh(own), tolerance).at_most);
   }
+}
+
+/// Gives a level these triangles unless it has some that look nearer.
+void SceneLevels::offer(Level& level, SceneLeaf&& leaf, const LeafImages& images) const {
+  const double difference = views_->difference(triangles_of(leaf), paint_of(leaf, images));
+  if (level.leaf != nullptr && level.difference <= difference) return;
+  level.leaf = std::make_shared<const SceneLeaf>(std::move(leaf));
+  level.difference = difference;
 }
 
 std::vector<std::uint64_t> SceneLevels::open() const {
@@ -120,6 +146,7 @@ CompleteLevels SceneLevels::with(CompleteLevels fits) const {
   const std::vector<Candidate> best = candidates(fits);
   CompleteLevels all;
   all.left_out = std::move(fits.left_out);
+  all.broken = broken_;
   std::erase_if(all.left_out, [&](const LeftOut& out) {
     const auto meets = [&](const Candidate& c) { return levels_[c.number].target.faces == out.target.faces; };
     return std::any_of(best.begin(), best.end(), meets);

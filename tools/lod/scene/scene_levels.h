@@ -1,9 +1,11 @@
 #pragma once
 #include <memory>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "lib/image/surface_views.h"
+#include "lib/pass/leaf/leaf_paint.h"
 #include "lib/pass/leaf/scene_leaf.h"
 #include "tools/lod/scene/lod_scene.h"
 
@@ -39,6 +41,7 @@ class SceneLevels {
     std::uint64_t faces = 0;
     double difference = 0;
   };
+  void offer(Level& level, SceneLeaf&& leaf, const LeafImages& images) const;
   [[nodiscard]] std::vector<Candidate> candidates(const CompleteLevels& fits) const;
   [[nodiscard]] LodLevel told(const LodTarget& target, std::size_t number) const;
   [[nodiscard]] LevelFacts facts_of(std::size_t number) const;
@@ -47,6 +50,7 @@ class SceneLevels {
   const LodScene& scene_;
   std::vector<Level> levels_;
   std::unique_ptr<SurfaceViews> views_;
+  std::set<std::uint32_t> broken_;
 };
 
 }  // namespace bp

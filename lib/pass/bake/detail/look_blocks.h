@@ -31,7 +31,7 @@ class LookBlocks {
   /// The most triangles of a block: so few that its hierarchy is built without other threads.
   static constexpr std::size_t kTriangles = 2048;
   /// The most bytes of a triangle in use.
-  static constexpr std::uint64_t kBytesEach = sizeof(TriangleBvh::Item) + 2 * 56 + 64;
+  static constexpr std::uint64_t kBytesEach = sizeof(TriangleBvh::Item) + 2 * 80 + 64;
 
   explicit LookBlocks(std::unique_ptr<Scratch> store) : store_(std::move(store)) {}
 

@@ -173,9 +173,12 @@ Look SceneEye::at(const LookBlock& block, std::uint32_t item, const Vec3d& p, do
   };
   look.color = {mean(&LinearColor::r), mean(&LinearColor::g), mean(&LinearColor::b)};
   const TriangleTexture& texture = block.texture(item);
-  Spot spot{part, {}, size};
+  Spot spot{part, {}, {}, size};
   for (std::size_t k = 0; k < 3; ++k) {
-    for (std::size_t i = 0; i < 2; ++i) spot.uv[i] += part[k] * double(texture.uv[k][i]);
+    for (std::size_t i = 0; i < 2; ++i) {
+      spot.uv[i] += part[k] * double(texture.uv[k][i]);
+      spot.second_uv[i] += part[k] * double(texture.second_uv[k][i]);
+    }
   }
   if (surfaces_) add_surface(block, item, spot, look);
   if (texture.material == TriangleTexture::kNoMaterial) return look;
@@ -200,7 +203,8 @@ LinearTexel SceneEye::numbers_at(const TextureMap& map, const TriangleD& t, cons
   const MipImage* const seen = image(map.image, kind);
   if (seen == nullptr) return {1, 1, 1, 1};
   const double texels = spot.size * texels_per_unit(t, texture, {seen->width(), seen->height()});
-  return seen->at(spot.uv[0], spot.uv[1], texels, map.wrap);
+  const std::array<double, 2>& uv = map.in_second_places ? spot.second_uv : spot.uv;
+  return seen->at(uv[0], uv[1], texels, map.wrap);
 }
 
 /// Returns no light if the image is broken.

@@ -48,7 +48,7 @@ class SceneEye {
   /// The place at which an image is looked at.
   struct Spot {
     std::array<double, 3> part{};  ///< shares of the triangle's corners
-    std::array<double, 2> uv{};
+    std::array<double, 2> uv{}, second_uv{};
     double size = 0;  ///< scene units
   };
   void add_surface(const LookBlock& block, std::uint32_t item, const Spot& spot, Look& look);

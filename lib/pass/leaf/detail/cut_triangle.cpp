@@ -35,7 +35,7 @@ CutPoint crossing(const Segment& s, std::size_t axis, double face) {
   const double run = s.b.at[axis] - s.a.at[axis];
   const double part = run != 0 ? std::clamp((face - s.a.at[axis]) / run, 0.0, 1.0) : 0;
   CutPoint p{between(s.a.at, s.b.at, part), between(s.a.normal, s.b.normal, part), between(s.a.uv, s.b.uv, part),
-             between(s.a.color, s.b.color, part)};
+             between(s.a.second_uv, s.b.second_uv, part), between(s.a.color, s.b.color, part)};
   p.at[axis] = face;
   return p;
 }

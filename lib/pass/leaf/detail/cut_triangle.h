@@ -9,7 +9,7 @@ namespace bp {
 struct CutPoint {
   Vec3d at{};
   std::array<double, 3> normal{};
-  std::array<double, 2> uv{};
+  std::array<double, 2> uv{}, second_uv{};
   std::array<double, 3> color{};  ///< linear light, 0 to 65535
 };
 

@@ -37,7 +37,7 @@ LeafMesh::LeafMesh(const SceneLeaf& leaf) {
     for (const LeafVertex& v : leaf.parts[part].vertices) {
       const Index point = numbers[corners_.size()];
       points_[point].at = {double(v.at[0]), double(v.at[1]), double(v.at[2])};
-      corners_.push_back({point, {part, v.normal, v.uv, v.color}});
+      corners_.push_back({point, {part, v.normal, v.uv, v.color, v.second_uv}});
     }
     for (const auto& t : leaf.parts[part].triangles) faces_.push_back({first + t[0], first + t[1], first + t[2]});
   }
@@ -45,6 +45,7 @@ LeafMesh::LeafMesh(const SceneLeaf& leaf) {
     for (std::size_t k = 0; k < 3; ++k) points_[point_of(f, k)].faces.push_back(f);
   }
   is_alive_.assign(faces_.size(), 1);
+  for (const LeafPart& part : leaf.parts) sides_.resize(sides_.size() + part.triangles.size(), part.sides);
   alive_ = faces_.size();
   for (Index p = 0; p < points; ++p) part_fans(p);
 }
@@ -118,8 +119,28 @@ void LeafMesh::erase_doubles(Index point) {
   for (const Index f : std::vector<Index>(faces_of(point))) {
     std::array<Index, 4> key{point_of(f, 0), point_of(f, 1), point_of(f, 2), corner(faces_[f][0]).look.part};
     std::sort(key.begin(), key.begin() + 3);
-    if (!seen.emplace(key, f).second) erase(f);
+    const auto [other, is_new] = seen.emplace(key, f);
+    if (is_new) continue;
+    const Index g = other->second;
+    if (!turns_like(f, g) && !joins(f, g)) {
+      sides_[f] = sides_[g] = LeafSides::one;
+      continue;
+    }
+    if (!turns_like(f, g)) sides_[g] = LeafSides::both;
+    erase(f);
   }
+}
+
+/// Returns whether two faces with the same points look alike.
+bool LeafMesh::joins(Index f, Index g) const {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (!corner(faces_[f][k]).look.joins(corner(faces_[g][place_in(g, point_of(f, k))]).look)) return false;
+  return true;
+}
+
+/// Returns whether two faces with the same points have them in the same order.
+bool LeafMesh::turns_like(Index f, Index g) const {
+  return point_of(g, (place_in(g, point_of(f, 0)) + 1) % 3) == point_of(f, 1);
 }
 
 void LeafMesh::collapse(Index u, Index v, const Vec3d& to, const std::vector<Change>& changes) {
@@ -142,19 +163,20 @@ SceneLeaf LeafMesh::leaf(const SceneLeaf& whole) const {
   SceneLeaf out;
   out.origin = whole.origin;
   out.unit = whole.unit;
-  std::vector<LeafPart> parts(whole.parts.size());
-  std::map<Index, Index> numbers;  // of corners, in their parts
+  constexpr std::size_t kSides = 3;
+  std::vector<LeafPart> parts(kSides * whole.parts.size());
+  std::map<std::pair<Index, LeafSides>, Index> numbers;  // of corners, in their parts
   for (Index f = 0; f < faces_.size(); ++f) {
     if (!is_alive_[f]) continue;
-    LeafPart& part = parts[corners_[faces_[f][0]].look.part];
+    LeafPart& part = parts[kSides * corners_[faces_[f][0]].look.part + std::size_t(sides_[f])];
     std::array<Index, 3> triangle{};
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto [found, is_new] = numbers.try_emplace(faces_[f][k], Index(part.vertices.size()));
+      const auto [found, is_new] = numbers.try_emplace({faces_[f][k], sides_[f]}, Index(part.vertices.size()));
       triangle[k] = found->second;
       if (!is_new) continue;
       const Corner& c = corners_[faces_[f][k]];
       const Vec3d& p = points_[c.point].at;
-      LeafVertex vertex{{}, c.look.normal, c.look.uv, c.look.color};
+      LeafVertex vertex{{}, c.look.normal, c.look.uv, c.look.color, c.look.second_uv};
       Vec3d world;
       for (std::size_t i = 0; i < 3; ++i) {
         vertex.at[i] = std::int32_t(std::nearbyint(p[i]));
@@ -166,7 +188,8 @@ SceneLeaf LeafMesh::leaf(const SceneLeaf& whole) const {
     part.triangles.push_back(triangle);
   }
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    parts[i].material = whole.parts[i].material;
+    parts[i].material = whole.parts[i / kSides].material;
+    parts[i].sides = LeafSides(i % kSides);
     if (!parts[i].triangles.empty()) out.parts.push_back(std::move(parts[i]));
   }
   return out;

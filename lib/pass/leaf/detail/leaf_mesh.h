@@ -19,9 +19,10 @@ class LeafMesh {
     std::array<float, 3> normal{};
     std::array<float, 2> uv{};
     LinearColor color;
+    std::array<float, 2> second_uv{};
     /// Returns whether a picture shows no edge between both; normals have no say.
     [[nodiscard]] bool joins(const Look& other) const {
-      return part == other.part && uv == other.uv && color == other.color;
+      return part == other.part && uv == other.uv && color == other.color && second_uv == other.second_uv;
     }
   };
   struct Corner {
@@ -56,8 +57,9 @@ class LeafMesh {
     Index into = 0;  ///< another corner takes its place; else the corner itself
     Look look;       ///< of `into`
   };
-  /// Moves the point `u` to a place, takes `v` into it, and changes the corners of both. Faces with both ends are gone;
-  /// where two faces of a part come to lie on each other, one is: both sides of it are shown.
+  /// Moves the point `u` to a place, takes `v` into it, and changes the corners of both. Faces with both ends are gone.
+  /// Where two faces of a part come to lie on each other, one is gone, too. If they turned their backs to each other,
+  /// both sides of the other one are shown, or each shows its own side if they look different.
   void collapse(Index u, Index v, const Vec3d& to, const std::vector<Change>& changes);
 
  private:
@@ -65,6 +67,8 @@ class LeafMesh {
   void give_point(Index point, const std::vector<Index>& fan);
   void erase(Index f);
   void erase_doubles(Index point);
+  [[nodiscard]] bool joins(Index f, Index g) const;
+  [[nodiscard]] bool turns_like(Index f, Index g) const;
 
   struct Point {
     Vec3d at{};
@@ -73,7 +77,8 @@ class LeafMesh {
   std::vector<Point> points_;
   std::vector<Corner> corners_;
   std::vector<Face> faces_;
-  std::vector<char> is_alive_;  // by face
+  std::vector<char> is_alive_;    // by face
+  std::vector<LeafSides> sides_;  // by face
   std::size_t alive_ = 0;
 };
 

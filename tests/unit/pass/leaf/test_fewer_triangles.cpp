@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <set>
+#include <utility>
 
 #include "lib/core/vec3.h"
 #include "lib/pass/leaf/fewer_triangles.h"
@@ -116,7 +118,41 @@ TEST_CASE("a thin board becomes a sheet that is seen from both sides", "[quick]"
   add_box(board, {0, 0, 0}, {10 * kStep, 6 * kStep, 10});
   const SceneLeaf few = fewer(leaf_of({board}), 2);
   REQUIRE(few.triangles() == 2);
+  CHECK(few.parts[0].sides == LeafSides::both);
   CHECK(area(few.parts[0]) == Approx(60.0 * kStep * kStep).epsilon(0.01));
+}
+
+TEST_CASE("a thin board whose rim is of another material becomes a sheet", "[quick]") {
+  LeafPart faces;
+  add_box(faces, {0, 0, 0}, {10 * kStep, 6 * kStep, 10});
+  LeafPart rim = faces;
+  rim.material = 1;
+  rim.triangles.erase(rim.triangles.begin(), rim.triangles.begin() + 4);
+  faces.triangles.resize(4);  // the first two sides lie across z
+  const SceneLeaf few = fewer(leaf_of({faces, rim}), 2);
+  REQUIRE(few.triangles() == 2);
+  CHECK(few.parts[0].material == faces.material);
+  CHECK(area(few.parts[0]) == Approx(60.0 * kStep * kStep).epsilon(0.01));
+}
+
+TEST_CASE("sides of a sheet that look different are shown each from its own side", "[quick]") {
+  LeafPart board;
+  add_box(board, {0, 0, 0}, {10 * kStep, 6 * kStep, 10});
+  const std::vector<LeafVertex> corners = std::exchange(board.vertices, {});
+  for (std::size_t i = 0; i < board.triangles.size();
+       ++i) {  // the first two sides, and the rim, have images of their own
+    for (std::uint32_t& corner : board.triangles[i]) {
+      board.vertices.push_back(corners[corner]);
+      board.vertices.back().uv = {float(corners[corner].at[0]) / kStep, float(std::min<std::size_t>(i / 2, 2))};
+      corner = std::uint32_t(board.vertices.size() - 1);
+    }
+  }
+  const SceneLeaf few = fewer(leaf_of({board}), 4);
+  REQUIRE(few.triangles() == 4);
+  for (const LeafPart& part : few.parts) CHECK(part.sides == LeafSides::one);
+  double sum = 0;
+  for (const LeafPart& part : few.parts) sum += area(part);
+  CHECK(sum == Approx(120.0 * kStep * kStep).epsilon(0.01));
 }
 
 TEST_CASE("boards that touch at a corner are flattened one by one", "[quick]") {
