@@ -9,8 +9,10 @@ namespace bp {
 /// The voxels and the closing that define what is hidden (docs/bounding.md, "Occluders"). With G the voxels that the
 /// scene touches, E their closing:
 ///   O       the voxels that the outside reaches through faces of voxels not in E
-///   O'      the voxels that it reaches through voxels neither in G nor behind the closing: not in the complement of E
-///           and O
+///   C       the complement of E and O: the rooms
+///   R       the voxels of E, not in G, that are nearer to C than to O: steps go over faces of such voxels, at most 2
+///           ceil(S / voxel) of them; with as many steps to both it is not in R
+///   O'      the voxels that the outside reaches through voxels not in G, C or R
 ///   T       voxels of G next to O', and those of G next to these; across faces, edges and corners
 ///   hidden  all others: neither in O' nor in T
 struct HidingRecipe {

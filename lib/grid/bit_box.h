@@ -38,6 +38,10 @@ class BitBox {
     const std::int32_t i = p.x - box_.min.x;
     row(p.y, p.z)[i >> 6] |= std::uint64_t(1) << (i & 63);
   }
+  void clear(VoxelCoord p) {
+    const std::int32_t i = p.x - box_.min.x;
+    row(p.y, p.z)[i >> 6] &= ~(std::uint64_t(1) << (i & 63));
+  }
   [[nodiscard]] std::uint64_t count() const;  ///< number of occupied voxels
   friend bool operator==(const BitBox&, const BitBox&) = default;
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <bit>
 
+#include "lib/grid/bit_box.h"
 #include "lib/grid/brick.h"
 
 namespace bp {
@@ -12,6 +13,21 @@ void for_each_voxel(const BrickBits& bits, BrickCoord coord, const Visit& visit)
   for (std::int32_t i = 0; i < std::int32_t(bits.size()); ++i) {
     for (std::uint64_t w = bits[std::size_t(i)]; w != 0; w &= w - 1)
       visit(VoxelCoord{first.x + std::countr_zero(w), first.y + i % kBrickEdge, first.z + i / kBrickEdge});
+  }
+}
+
+/// Does the same for each occupied voxel of a box.
+template <class Visit>
+void for_each_voxel(const BitBox& voxels, const Visit& visit) {
+  const VoxelBox& box = voxels.box();
+  for (std::int32_t z = box.min.z; z < box.max.z; ++z) {
+    for (std::int32_t y = box.min.y; y < box.max.y; ++y) {
+      const std::uint64_t* const row = voxels.row(y, z);
+      for (std::int32_t i = 0; i < voxels.words_per_row(); ++i) {
+        for (std::uint64_t w = row[i]; w != 0; w &= w - 1)
+          visit(VoxelCoord{box.min.x + 64 * i + std::countr_zero(w), y, z});
+      }
+    }
   }
 }
 

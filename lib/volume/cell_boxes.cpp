@@ -16,10 +16,7 @@ bool holds_next(const BitBox& voxels, const VoxelBox& box, int axis) {
 }
 
 void clear(BitBox& voxels, const VoxelBox& box) {
-  for_each(box, [&](VoxelCoord p) {
-    const std::int32_t i = p.x - voxels.box().min.x;
-    voxels.row(p.y, p.z)[i >> 6] &= ~(std::uint64_t(1) << (i & 63));
-  });
+  for_each(box, [&](VoxelCoord p) { voxels.clear(p); });
 }
 
 /// Calls f(voxel) for each voxel that is still set when its turn comes.

@@ -1,6 +1,7 @@
 #include "lib/volume/dilate.h"
 
 #include <algorithm>
+#include <array>
 
 namespace bp {
 
@@ -66,6 +67,31 @@ void dilate(BitBox& voxels, std::int32_t reach) {
       add_moved(voxels, before, axis, step);
     });
   }
+}
+
+bool dilate_over_faces(const BitBox& within, BitBox& voxels) {
+  const BitBox before = voxels;
+  const VoxelBox& box = voxels.box();
+  const std::int32_t words = voxels.words_per_row();
+  bool any = false;
+  for (std::int32_t z = box.min.z; z < box.max.z; ++z) {
+    for (std::int32_t y = box.min.y; y < box.max.y; ++y) {
+      const std::uint64_t* const old = before.row(y, z);
+      const std::array<const std::uint64_t*, 4> beside{
+          y > box.min.y ? before.row(y - 1, z) : nullptr, y + 1 < box.max.y ? before.row(y + 1, z) : nullptr,
+          z > box.min.z ? before.row(y, z - 1) : nullptr, z + 1 < box.max.z ? before.row(y, z + 1) : nullptr};
+      for (std::int32_t i = 0; i < words; ++i) {
+        std::uint64_t near = old[i] << 1 | old[i] >> 1;
+        if (i > 0) near |= old[i - 1] >> 63;
+        if (i + 1 < words) near |= old[i + 1] << 63;
+        for (const std::uint64_t* const row : beside) near |= row != nullptr ? row[i] : 0;
+        near &= within.row(y, z)[i] & ~old[i];
+        voxels.row(y, z)[i] |= near;
+        any |= near != 0;
+      }
+    }
+  }
+  return any;
 }
 
 }  // namespace bp

@@ -7,4 +7,8 @@ namespace bp {
 /// axis log2(reach + 1) passes over the words, and a second box for a moment.
 void dilate(BitBox& voxels, std::int32_t reach);
 
+/// Adds the voxels of `within` that share a face with an occupied one. Returns whether there were any. Both have the
+/// same box. Cost: one pass over the words, and a second box for a moment.
+bool dilate_over_faces(const BitBox& within, BitBox& voxels);
+
 }  // namespace bp

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -12,6 +11,7 @@
 #include "lib/closing/closing_scratch.h"
 #include "lib/core/parallel.h"
 #include "lib/exact/predicates.h"
+#include "lib/grid/brick_voxels.h"
 #include "lib/volume/dilate.h"
 #include "lib/volume/reach.h"
 #include "lib/voxel/voxelize.h"
@@ -69,6 +69,24 @@ BitBox closing_of(const BitBox& voxels, const HidingRecipe& recipe) {
   return all;
 }
 
+/// Returns the set R: what the closing adds nearer to the rooms than to `outside`, which is the set O.
+BitBox behind_openings(const BitBox& closing, const BitBox& touched, BitBox outside, const HidingRecipe& recipe) {
+  BitBox added = closing, rooms = closing, behind = closing;
+  combine(added, touched, less);
+  combine(rooms, outside, either);
+  rooms = inverse(std::move(rooms));
+  const std::int32_t steps = 2 * std::int32_t(std::ceil(recipe.scale_world / recipe.frame.voxel));
+  for (std::int32_t step = 0; step < steps; ++step) {
+    bool any = dilate_over_faces(added, outside);
+    combine(added, outside, less);
+    any |= dilate_over_faces(added, rooms);
+    combine(added, rooms, less);
+    if (!any) break;
+  }
+  combine(behind, rooms, both);
+  return behind;
+}
+
 /// Returns the hidden voxels by their definition, set by set. The border of the box is empty.
 BitBox hidden_voxels(const BitBox& touched, const HidingRecipe& recipe) {
   const BitBox closing = closing_of(touched, recipe);
@@ -78,6 +96,7 @@ BitBox hidden_voxels(const BitBox& touched, const HidingRecipe& recipe) {
   BitBox open = closing;
   combine(open, reached, either);
   combine(open, touched, less);
+  combine(open, behind_openings(closing, touched, reached, recipe), less);
   grow_within(open, reached);  // the set O'
   BitBox seen = reached;
   for (int layer = 0; layer < 2; ++layer) {
@@ -199,7 +218,7 @@ class HiddenCheck {
       Corners corners;
       for (std::size_t k = 0; k < 3; ++k) corners[k] = corners_[mesh_.triangles[t][k]];
       std::optional<VoxelCoord> met;
-      for_each_voxel(corners, [&](VoxelCoord v) {
+      for_each_near(corners, [&](VoxelCoord v) {
         if (met || hidden.test(v) || !meets_open_voxel(corners, v, per_voxel_, slack_)) return;
         if (meets_open_voxel(corners, v, per_voxel_, -slack_))
           met = v;
@@ -213,7 +232,7 @@ class HiddenCheck {
   }
 
   /// Calls f for the voxels that the triangle may meet.
-  void for_each_voxel(const Corners& t, const std::function<void(VoxelCoord)>& f) const {
+  void for_each_near(const Corners& t, const std::function<void(VoxelCoord)>& f) const {
     VoxelBox box;
     for (int i = 0; i < 3; ++i) {
       const std::int64_t low = std::min({t[0][i], t[1][i], t[2][i]}), high = std::max({t[0][i], t[1][i], t[2][i]});
@@ -224,7 +243,7 @@ class HiddenCheck {
       BitBox layer(VoxelBox{{box.min.x, box.min.y, z}, {box.max.x, box.max.y, z + 1}});
       const FixedTriangle one{fixed(t[0]), fixed(t[1]), fixed(t[2])};
       voxelize_surface({&one, 1}, layer);
-      for_each_set(layer, f);
+      for_each_voxel(layer, f);
     }
   }
 
@@ -241,7 +260,7 @@ class HiddenCheck {
     grow_within(open, outside);
     open = others;
     combine(open, outside, less);
-    for_each_set(open, [&](VoxelCoord v) {
+    for_each_voxel(open, [&](VoxelCoord v) {
       if (report_.exposed.count > max_examples_) return;  // it is refuted
       const Vec3d middle = middle_of(v);
       if (surface_.winding(middle) != 0) report_.exposed.add({0, 0, middle}, max_examples_);
@@ -267,18 +286,6 @@ class HiddenCheck {
   [[nodiscard]] FixedPoint fixed(const LatticeCoord& p) const {
     const std::int64_t unit = kFixedOne / per_voxel_;
     return {p.x * unit, p.y * unit, p.z * unit};
-  }
-
-  static void for_each_set(const BitBox& voxels, const std::function<void(VoxelCoord)>& f) {
-    const VoxelBox& box = voxels.box();
-    for (std::int32_t z = box.min.z; z < box.max.z; ++z) {
-      for (std::int32_t y = box.min.y; y < box.max.y; ++y) {
-        for (std::int32_t i = 0; i < voxels.words_per_row(); ++i) {
-          for (std::uint64_t bits = voxels.row(y, z)[i]; bits != 0; bits &= bits - 1)
-            f({box.min.x + 64 * i + std::countr_zero(bits), y, z});
-        }
-      }
-    }
   }
 
   [[nodiscard]] Vec3d middle_of(VoxelCoord v) const {

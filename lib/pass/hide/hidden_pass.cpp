@@ -1,8 +1,13 @@
 #include "lib/pass/hide/hidden_pass.h"
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <set>
+#include <vector>
 
 #include "lib/core/parallel.h"
+#include "lib/grid/brick_voxels.h"
 #include "lib/grid/count_bits.h"
 #include "lib/grid/shelf_stream.h"
 #include "lib/pass/mesh/complement.h"
@@ -38,26 +43,125 @@ std::uint64_t fill(const StreamHeader& header, BrickShelf& solid, Backends& back
   return close_stream(source, sink, backends, uniform(0), {o.element}, close_options(o, false)).cavity_voxels;
 }
 
-/// Puts the enclosed voxels and C on a shelf.
-Shelf walls(const BrickShelf& enclosed, const BrickShelf& closed, const BrickShelf& closed_filled,
-            const HiddenOptions& o) {
-  Shelf out = o.context.make_shelf();
-  const std::vector<BrickCoord> coords = closed_filled.coords();
-  parallel_for(std::int64_t(coords.size()), [&](std::int64_t i) {
-    const BrickCoord at = coords[std::size_t(i)];
-    BrickBits u, e, f;
-    enclosed.get(at, u);
-    closed.get(at, e);
-    closed_filled.get(at, f);
-    for (std::size_t k = 0; k < kBrickWords; ++k) u[k] |= f[k] & ~e[k];
-    out->put(at, classify(u), u);
-  });
-  return out;
+/// Sets a = f(a, b), word by word; the boxes are equal.
+template <class F>
+void combine(BitBox& a, const BitBox& b, const F& f) {
+  for (std::int64_t i = 0; i < a.word_count(); ++i) a.data()[i] = f(a.data()[i], b.data()[i]);
+}
+constexpr auto kBoth = [](std::uint64_t a, std::uint64_t b) { return a & b; };
+constexpr auto kEither = [](std::uint64_t a, std::uint64_t b) { return a | b; };
+constexpr auto kLess = [](std::uint64_t a, std::uint64_t b) { return a & ~b; };
+
+BitBox inverse(BitBox a) {
+  for (std::int64_t i = 0; i < a.word_count(); ++i) a.data()[i] = ~a.data()[i];
+  return a;
 }
 
-void keep_common(const BitBox& with, BitBox& voxels) {
-  for (std::int64_t i = 0; i < voxels.word_count(); ++i) voxels.data()[i] &= with.data()[i];
+bool is_empty(const BitBox& voxels) {
+  return std::all_of(voxels.data(), voxels.data() + voxels.word_count(), [](std::uint64_t w) { return w == 0; });
 }
+
+/// Makes the walls that the outside does not pass at a scale: the enclosed voxels, C and R.
+class Walls {
+ public:
+  Walls(const StreamHeader& header, const BrickShelf& enclosed, const BrickShelf& closed,
+        const BrickShelf& closed_filled, const HiddenOptions& o)
+      : enclosed_(enclosed),
+        closed_(closed),
+        closed_filled_(closed_filled),
+        memory_(o.context.memory.bytes),
+        steps_(2 * std::int32_t(std::ceil(o.scale_world / header.frame.voxel))) {}
+
+  /// Puts the walls on a shelf, tile by tile.
+  void put(BrickShelf& out) const {
+    const std::int32_t edge = tile_bricks();
+    std::set<BrickCoord> tiles;
+    for (const BrickCoord at : closed_filled_.coords())
+      tiles.insert({floor_div(at.x, edge), floor_div(at.y, edge), floor_div(at.z, edge)});
+    auto next = tiles.begin();
+    run_jobs<BrickCoord>(
+        std::clamp(int(double(memory_) / bytes_of(edge)), 1, thread_count()),
+        [&](BrickCoord& tile) { return next != tiles.end() && (tile = *next++, true); },
+        [&](BrickCoord& tile) {
+          const BrickCoord first = tile * edge;
+          store_voxels(of_tile(voxels_of({first, first + BrickCoord{edge, edge, edge}})), out);
+        });
+  }
+
+ private:
+  static constexpr double kSetsAtOnce = 8;  // sets of voxels in memory while a tile is at work
+
+  /// Returns the bricks along an edge of a tile: a few, so that what surrounds tiles is not most of the work, but no
+  /// more than the memory allows. No result depends on it.
+  [[nodiscard]] std::int32_t tile_bricks() const {
+    std::int32_t edge = 3 + steps_ / kBrickEdge;
+    while (edge > 1 && bytes_of(edge) > double(memory_)) --edge;
+    return edge;
+  }
+  [[nodiscard]] double bytes_of(std::int32_t edge) const {
+    return std::pow(double(edge * kBrickEdge + 2 * steps_ + kBrickEdge), 3) * kSetsAtOnce / 8;
+  }
+
+  [[nodiscard]] BitBox of_tile(const VoxelBox& tile) const {
+    BitBox rooms(tile.grown(steps_));
+    const VoxelBox& box = rooms.box();
+    BitBox enclosed(box), closed(box), outside(box), walls(tile);
+    load_voxels(enclosed_, enclosed);
+    load_voxels(closed_, closed);
+    load_voxels(closed_filled_, rooms);
+    outside = inverse(rooms);
+    combine(rooms, closed, kLess);
+    combine(closed, enclosed, kLess);
+    if (!is_empty(rooms)) share_out(std::move(closed), outside, rooms);
+    combine(rooms, enclosed, kEither);
+    copy_voxels(rooms, walls);
+    return walls;
+  }
+
+  using Front = std::vector<VoxelCoord>;
+
+  /// Gives the added voxels to the outside or to the rooms, step by step.
+  void share_out(BitBox added, const BitBox& outside, BitBox& rooms) const {
+    Front outer = take_beside(outside, added), inner = take_beside(rooms, added);
+    for (std::int32_t step = 0; step < steps_ && !(outer.empty() && inner.empty()); ++step) {
+      for (const VoxelCoord p : inner) rooms.set(p);
+      outer = take_next(outer, added);
+      inner = take_next(inner, added);
+    }
+  }
+
+  /// Takes the voxels out of `added` that share a face with one of `with`.
+  [[nodiscard]] static Front take_beside(const BitBox& with, BitBox& added) {
+    BitBox beside = with;
+    dilate_over_faces(added, beside);
+    combine(beside, with, kLess);
+    combine(added, beside, kLess);
+    Front front;
+    for_each_voxel(beside, [&](VoxelCoord p) { front.push_back(p); });
+    return front;
+  }
+
+  /// Takes the voxels out of `added` that share a face with one of `front`.
+  [[nodiscard]] static Front take_next(const Front& front, BitBox& added) {
+    Front next;
+    for (const VoxelCoord p : front) {
+      for (int axis = 0; axis < 3; ++axis) {
+        for (const std::int32_t way : {-1, 1}) {
+          VoxelCoord q = p;
+          q[axis] += way;
+          if (!added.test(q)) continue;
+          added.clear(q);
+          next.push_back(q);
+        }
+      }
+    }
+    return next;
+  }
+
+  const BrickShelf &enclosed_, &closed_, &closed_filled_;
+  const std::uint64_t memory_;
+  const std::int32_t steps_;
+};
 
 /// Returns a brick of the unreached voxels, without those of the scene that the outside sees.
 BitBox unseen_brick(const BrickShelf& unreached, const BrickShelf& touched, BrickCoord at) {
@@ -65,13 +169,12 @@ BitBox unseen_brick(const BrickShelf& unreached, const BrickShelf& touched, Bric
   BitBox behind(brick.grown(kLayers)), scene(behind.box());
   load_voxels(unreached, behind);
   load_voxels(touched, scene);
-  BitBox seen = behind;
-  for (std::int64_t i = 0; i < seen.word_count(); ++i) seen.data()[i] = ~seen.data()[i];
+  BitBox seen = inverse(behind);
   for (int layer = 0; layer < kLayers; ++layer) {
     dilate(seen, 1);
-    keep_common(scene, seen);
+    combine(seen, scene, kBoth);
   }
-  for (std::int64_t i = 0; i < seen.word_count(); ++i) behind.data()[i] &= ~seen.data()[i];
+  combine(behind, seen, kLess);
   BitBox out(brick);
   copy_voxels(behind, out);
   return out;
@@ -94,7 +197,8 @@ Shelf unreached_voxels(const StreamHeader& header, BrickShelf& enclosed, Backend
   Shelf closed = close_shelf(header, enclosed, backends, uniform(o.scale_world), {o.element}, close_options(o, true));
   Shelf closed_filled = o.context.make_shelf();
   if (fill(header, *closed, backends, o, *closed_filled) == 0) return nullptr;
-  const Shelf both = walls(enclosed, *closed, *closed_filled, o);
+  const Shelf both = o.context.make_shelf();
+  Walls(header, enclosed, *closed, *closed_filled, o).put(*both);
   closed.reset();
   closed_filled.reset();
   Shelf out = o.context.make_shelf();
