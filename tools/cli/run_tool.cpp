@@ -65,13 +65,21 @@ int complain(const char* tool, const Error& e) {
   return complain(tool, advised(e, tool), exit_code(e.code()));
 }
 
+/// What a run of a tool said about outputs is no concern of what this process does before or after it.
+struct ForgetsOutputs {
+  ForgetsOutputs() { forget_outputs(); }
+  ~ForgetsOutputs() { forget_outputs(); }
+  ForgetsOutputs(const ForgetsOutputs&) = delete;
+  ForgetsOutputs& operator=(const ForgetsOutputs&) = delete;
+};
+
 }  // namespace
 
 int guard(const char* tool, const std::function<int()>& body) {
   occupy_standard_streams();
   install_handlers();
   const KeepsInputs inputs;
-  forget_outputs();
+  const ForgetsOutputs outputs;
   try {
     return body();
   } catch (const Args::Done&) {
