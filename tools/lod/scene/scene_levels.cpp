@@ -45,12 +45,25 @@ SceneLeaf whole_scene(const SceneLooks& looks, const Bounds3d& bounds) {
   return leaf;
 }
 
-void require_memory(const Build& build, std::uint64_t triangles) {
-  const MemoryShare memory = build.context().memory;
-  const std::uint64_t needed = triangles * (kLeafBytesPerTriangle + kCollapseBytesPerTriangle);
-  if (needed <= memory.bytes) return;
-  throw NeedsMemory(fmt::format("levels from {} triangles of the scene", triangles), needed, memory.bytes,
-                    memory.limit_with(needed - memory.bytes));
+/// Levels are written when nothing else is in memory but their triangles.
+MemoryShare memory_for_images(const Build& build) {
+  constexpr double kOfWork = 1.6;
+  return part_of(build.budget.work, kOfWork);
+}
+
+/// Returns the memory for the images of a file: while its data grow, they are there twice.
+std::uint64_t bytes_of_images(const LodScene& scene) {
+  return scene.textures != nullptr ? 2 * scene.textures->written_bytes() : 0;
+}
+
+void require_memory(const Build& build, const LodScene& scene) {
+  const auto require = [](const std::string& what, std::uint64_t needed, const MemoryShare& memory, Remedies others) {
+    if (needed > memory.bytes) throw NeedsMemory(what, needed, memory.bytes, memory.limit_for(needed), others);
+  };
+  const std::uint64_t triangles = scene.size.triangles;
+  require(fmt::format("levels from {} triangles of the scene", triangles),
+          triangles * (kLeafBytesPerTriangle + kCollapseBytesPerTriangle), build.context().memory, {});
+  require("writing the images of the scene", bytes_of_images(scene), memory_for_images(build), {Remedy::no_textures});
 }
 
 }  // namespace
@@ -64,9 +77,9 @@ SceneLevels::SceneLevels(Build& build, const LodScene& scene, const std::vector<
     return;
   }
   build.report.begin("levels from the scene");
-  require_memory(build, scene.size.triangles);
+  require_memory(build, scene);
   const Bounds3d& bounds = scene.size.bounds;
-  const SceneLeaf whole = whole_scene(*read_looks(build, scene, part_of(build.budget.work, 0.4)), bounds);
+  const SceneLeaf whole = whole_scene(*read_looks(build, scene, part_of(build.budget.work, kLooksBeside)), bounds);
   const std::vector<TriangleD> all = triangles_of(whole);
   if (all.empty()) return;  // no triangle has an area
   const TriangleBvh tree(all);
@@ -87,6 +100,10 @@ SceneLevels::SceneLevels(Build& build, const LodScene& scene, const std::vector<
     level.error_world = std::max(largest_distance(own, tree, tolerance).at_most,
                                  shown.empty() ? 0 : largest_distance(shown, TriangleBvh(own), tolerance).at_most);
   }
+}
+
+std::uint64_t SceneLevels::images_limit(const Build& build, const LodScene& scene) {
+  return memory_for_images(build).limit_for(bytes_of_images(scene));
 }
 
 std::vector<std::uint64_t> SceneLevels::open() const {
