@@ -65,7 +65,7 @@ int complain(const char* tool, const Error& e) {
   return complain(tool, advised(e, tool), exit_code(e.code()));
 }
 
-/// What a run of a tool said about outputs is no concern of what this process does before or after it.
+/// Forgets what was said about outputs, before a run of a tool and after it: this process may do something else then.
 struct ForgetsOutputs {
   ForgetsOutputs() { forget_outputs(); }
   ~ForgetsOutputs() { forget_outputs(); }
