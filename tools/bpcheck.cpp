@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "io/files/file.h"
 #include "io/scene/scene_reader.h"
 #include "io/tiles/tileset_file.h"
 #include "io/tiles/tileset_level.h"
@@ -106,6 +107,8 @@ int run_tileset(const bp::CheckRun& o) {
   bp::print(o.json ? verdict.json(name) : verdict.text(name));
   if (verdict.answer() == bp::Answer::refuted && verdict.scene)
     note_hint(report, o, tileset_hint(scenes, o.files.back(), options));
+  if (verdict.answer() == bp::Answer::undecided && verdict.scene_counts.rounding.any())
+    note_hint(report, o, bp::rounded_hint(scenes.front()));
   report.bytes_in = bp::size_of_files(o.files);
   report.counts = {{"holds", verdict.holds()}, {"answer", to_string(verdict.answer())}, {"part", verdict.part_json()},
                    {"tiles", verdict.tiles},   {"contents", verdict.contents},          {"findings", verdict.findings}};
@@ -224,6 +227,7 @@ int run_mesh(const bp::CheckRun& o, const std::optional<bp::Contract>& claim = {
   std::unique_ptr<bp::TriangleSource> walls;
   const std::optional<bp::HidingQuestion> hidden = hiding_question(o, scenes, scene_options, walls);
 
+  bp::check_outputs();  // the scene is read now, which may take long
   report.begin("check");
   const std::vector<bp::CheckReport> verdicts = check(o, levels, scene.get(), hidden, budget.of_scene().bytes);
   const std::string name = bp::file_name(o.files.back());

@@ -151,7 +151,7 @@ void show_stream(const Options& o, const std::string& in, bp::Picture& picture) 
 
 void note_missing_materials(const Options& o, const std::string& in) {
   for (const std::string& file : bp::missing_materials(in))
-    note(o, fmt::format("{}: {} is not there, and its colours are not drawn", in, file));
+    note(o, fmt::format("{}: {}, and its colours are not drawn", in, file));
 }
 
 void note_faults(const Options& o, const bp::SceneOptions& scene) {

@@ -33,7 +33,14 @@ constexpr std::size_t kBufferBytes = std::size_t(1) << 20;
 }
 
 void write_all(int fd, std::span<const std::byte> bytes, const std::string& name) {
+  check_outputs();
   if (!detail::write_all(fd, bytes)) fail_write(name);
+}
+
+/// The reason why outputs are refused.
+std::shared_ptr<const Error>& refusal() {
+  static std::shared_ptr<const Error> why;
+  return why;
 }
 
 constexpr int kMostPartials = 1000;  ///< partial files of one name at a time
@@ -214,6 +221,14 @@ void OutputFile::close(Sync sync) {
   const int fd = std::exchange(fd_, -1);
   if (::close(fd) != 0) fail_write(name_);
   if (placed_ && sync == Sync::name) sync_folder(folder_of(name_));
+}
+
+void refuse_outputs(std::shared_ptr<const Error> why) {
+  refusal() = std::move(why);
+}
+
+void check_outputs() {
+  if (refusal() != nullptr) throw Error(*refusal());
 }
 
 void print(const std::string& text) {

@@ -12,6 +12,8 @@
 /// missing or unreadable input bad_input, full disk out_of_resource, EPIPE closed_pipe, anything else failed.
 namespace bp {
 
+class Error;
+
 /// Tells who named a file that is read. A file that another file names, or that a folder holds, must be a regular file:
 /// reading a named pipe would wait, and a device has no end.
 enum class NamedBy { user, file };
@@ -84,6 +86,12 @@ class OutputFile {
   std::unique_ptr<std::byte[]> buffer_;
   std::size_t used_ = 0;
 };
+
+/// From now on a file or stdout throws `why` instead of its first byte, and commit() does, too. Null: outputs work
+/// again. For a refusal that waits, since a later step may have a better reason. Not thread-safe.
+void refuse_outputs(std::shared_ptr<const Error> why);
+/// Throws the reason of refuse_outputs(), if there is one: before long work of which the output would be refused.
+void check_outputs();
 
 /// Prints text to stdout, and flushes it.
 void print(const std::string& text);

@@ -239,10 +239,11 @@ std::vector<std::string> missing_materials(const std::string& path) {
   } catch (const Error&) {
     return {};
   }
-  std::erase_if(missing, [](const std::string& file) {
+  std::erase_if(missing, is_regular_file);
+  for (std::string& file : missing) {
     std::error_code unknown;
-    return std::filesystem::exists(file, unknown);
-  });
+    file += std::filesystem::exists(file, unknown) ? " is no regular file" : " is not there";
+  }
   return missing;
 }
 

@@ -14,7 +14,8 @@ void keep_scene(const std::string& path);
 /// Memory: for JSON, 4 MiB of names and 100 KiB, whatever its size.
 [[nodiscard]] std::vector<std::string> parts_of_scene(const std::string& path);
 
-/// Returns the materials that an OBJ names in its first 64 KiB and that do not exist: its colours are lost.
+/// Returns the materials that an OBJ names in its first 64 KiB and that do not exist, or are no regular files: its
+/// colours are lost. Each is a path with what is wrong, as "a.mtl is not there".
 [[nodiscard]] std::vector<std::string> missing_materials(const std::string& path);
 
 }  // namespace bp

@@ -14,6 +14,7 @@ namespace bp {
 namespace {
 
 constexpr std::uint64_t kMostBytes = std::uint64_t(512) << 20;  // of an encoded image
+constexpr std::uint64_t kMostHead = std::uint64_t(1) << 20;     // of its beginning, which has its size
 
 template <class T>
 std::uint32_t number_of(const std::string& key, const T& value, std::map<std::string, std::uint32_t>& numbers,
@@ -34,6 +35,13 @@ std::vector<std::byte> bytes_of(const ImagePlace& place, std::uint64_t most) {
   std::vector<std::byte> bytes(std::size_t(std::min(most, file->size())));
   bytes.resize(file->read_at(0, bytes));
   return bytes;
+}
+
+/// Returns the size of an image's file; 0 if it is missing.
+std::uint64_t size_of(const ImagePlace& place) {
+  std::error_code missing;
+  const std::uintmax_t size = place.bytes ? place.bytes->size() : std::filesystem::file_size(place.path, missing);
+  return missing ? 0 : size;
 }
 
 /// Turns an image into directions; returns whether that changed it.
@@ -84,16 +92,23 @@ ImageFaults TextureTable::image_faults() const {
 
 std::uint64_t TextureTable::file_bytes() const {
   std::uint64_t sum = 0;
-  for (const ImagePlace& place : images_) {
-    std::error_code missing;
-    const std::uintmax_t size = place.bytes ? place.bytes->size() : std::filesystem::file_size(place.path, missing);
-    if (!missing) sum += size;
+  for (const ImagePlace& place : images_) sum += size_of(place);
+  return sum;
+}
+
+std::uint64_t TextureTable::written_bytes() const {
+  std::uint64_t sum = 0;
+  for (std::uint32_t i = 0; i < images_.size(); ++i) {
+    const std::array<int, 2> texels = size(i);
+    // An image of another kind, or a relief, is encoded anew: PNG adds little to texels that it cannot compress.
+    const std::uint64_t decoded = std::uint64_t(texels[0]) * std::uint64_t(texels[1]) * sizeof(TextureImage::Texel);
+    const bool is_copied = !images_[i].relief && texels[0] > 0 && is_web_image(bytes_of(images_[i], kMostHead), "");
+    sum += is_copied ? size_of(images_[i]) : decoded;
   }
   return sum;
 }
 
 std::array<int, 2> TextureTable::size_in_file(std::uint32_t i) const {
-  constexpr std::uint64_t kMostHead = std::uint64_t(1) << 20;
   return image_size(bytes_of(images_.at(i), kMostHead), images_.at(i).name);
 }
 

@@ -49,6 +49,8 @@ class TextureTable final : public TextureSet {
   [[nodiscard]] ImageFaults image_faults() const;
   /// Returns the size of all image files together; missing ones count as 0.
   [[nodiscard]] std::uint64_t file_bytes() const;
+  /// Returns the size of all images as file() returns them, at most.
+  [[nodiscard]] std::uint64_t written_bytes() const;
   [[nodiscard]] const TextureMaterial& material(std::uint32_t i) const override { return materials_.at(i); }
   [[nodiscard]] std::uint32_t image_count() const override { return std::uint32_t(images_.size()); }
   [[nodiscard]] std::array<int, 2> size(std::uint32_t i) const override;

@@ -143,13 +143,13 @@ template <class Limit>
   throw Error(e.code(), e.what(), e.remedies(), e.memory_bytes() > most ? e.memory_bytes() : most);
 }
 
-/// Calls work(). A refusal for memory is thrown again with limit() as fail_with_limit() does; without a limit of its
-/// own it is thrown as it is, since nobody would learn a number.
+/// Calls work(). A refusal that names a limit on memory is thrown again with limit() as fail_with_limit() does. Without
+/// a limit of its own it is thrown as it is, since nobody would learn a number.
 template <class Work, class Limit>
 decltype(auto) naming_limit(const Work& work, const Limit& limit) {
   try {
     return work();
-  } catch (const NeedsMemory& e) {
+  } catch (const Error& e) {
     if (e.memory_bytes() == 0) throw;
     fail_with_limit(e, limit);
   }

@@ -34,7 +34,13 @@ struct LodChain::State {
   State(const StreamHeader& header, std::unique_ptr<BrickShelf> solid, Backends& backends, LodOptions options)
       : scene(header, std::move(solid), backends, std::move(options)) {}
 
-  std::vector<LodLevel> make(const std::vector<LodTarget>& targets) {
+  /// No closed surface has fewer faces than a tetrahedron. A request for fewer is one for these: the search would end
+  /// with what a budget that cannot be met happened to leave.
+  std::vector<LodLevel> make(const std::vector<LodTarget>& asked) {
+    constexpr std::uint64_t kLeastOfClosed = 4;
+    std::vector<LodTarget> targets = asked;
+    for (LodTarget& target : targets)
+      if (target.faces > 0) target.faces = std::max(target.faces, kLeastOfClosed);
     std::vector<LodLevel> levels(targets.size());
     std::size_t first = 0;
     if (!std::exchange(is_begun, true)) {
@@ -47,6 +53,8 @@ struct LodChain::State {
       }
     }
     make_at_once(targets, first, levels);
+    for (std::size_t i = 0; i < levels.size(); ++i)
+      levels[i].reached = levels[i].reached && (asked[i].faces == 0 || asked[i].faces == targets[i].faces);
     return levels;
   }
 

@@ -24,6 +24,10 @@ constexpr double kMostScale = 1.0 / 16, kMostOpening = 1.0 / 8;
 constexpr double kLeastPart = 1e-3, kMostLeastPart = 0.3;
 constexpr std::uint64_t kFewFacesPerPart = kFacesOfBox;  // parts are left out if there are fewer faces for each
 
+double largest_scale(const StreamHeader& header) {
+  return header.bounds.diagonal() * kMostScale;
+}
+
 HiddenOptions at_scale(HiddenOptions options, double scale_world) {
   options.scale_world = scale_world;
   return options;
@@ -70,6 +74,8 @@ class HiddenSearch {
       attempt(scale);
       steps_.step();
     }
+    // The scales are a factor apart: where none hides anything, the largest that may be tried still can.
+    if (!asked_ && most_ == 0) attempt(largest_scale(header_));
     HiddenScene best = std::move(promising_.front());
     if (!asked_) best.tried = std::move(tried_);
     return best;
@@ -219,7 +225,7 @@ class OccluderMesh {
 
 std::vector<double> occluder_scales(const StreamHeader& header) {
   std::vector<double> scales{0};
-  const double most = header.bounds.diagonal() * kMostScale;
+  const double most = largest_scale(header);
   for (double s = (kLeastTriedVox + kBeyondWholeVox) * header.frame.voxel; s <= most; s *= std::sqrt(2.0))
     scales.push_back(s);
   return scales;

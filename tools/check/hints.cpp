@@ -42,6 +42,19 @@ std::string hash_of(const std::vector<std::string>& scenes, SceneOptions options
   return hex_of(high, low);
 }
 
+/// Returns whether only the rounding of coordinates keeps a question open: it was asked, and answered as read.
+bool is_doubt_of_rounding(const CheckReport& r) {
+  if (!(r.scene_counts.rounding.any() || r.proxy_off > 0) || !r.place_unknown.empty() || r.is_partial()) return false;
+  return r.within_rounding.count + r.perhaps_near.count + r.touching.count + r.outside.count + r.swallowed.count +
+             r.not_held.count + r.too_near.count + r.outside_parts.count >
+         0;
+}
+
+std::string written_anew_hint(const std::string& proxy) {
+  return fmt::format("{} was rounded when it was read: write the proxy as GLB, PLY or OBJ, which are read in double",
+                     proxy);
+}
+
 }  // namespace
 
 MeshExtras extras_of(const std::string& path) {
@@ -135,14 +148,17 @@ std::string rounding_hint(const std::string& scene, const std::string& proxy,
   const bool of_scene = undecided([](const CheckReport& r) { return r.scene_counts.unfollowed; });
   if (of_scene || undecided([](const CheckReport& r) { return r.unfollowed; }))
     return fmt::format("write {} as glTF, whose nodes, skins and morph targets are followed", of_scene ? scene : proxy);
-  const bool is_open = std::any_of(verdicts.begin(), verdicts.end(), [](const CheckReport& r) {
-    return r.answer() == Answer::undecided && r.within_rounding.count > 0;
-  });
-  if (!is_open) return "";
+  for (const CheckReport& r : verdicts) {
+    if (r.answer() == Answer::undecided && is_doubt_of_rounding(r))
+      return r.scene_counts.rounding.any() ? rounded_hint(scene) : written_anew_hint(proxy);
+  }
+  return "";
+}
+
+std::string rounded_hint(const std::string& scene) {
   return fmt::format(
       "{} may stick out by what reading has rounded: write the scene as PLY or OBJ with all transforms applied, which "
-      "is "
-      "read in double as it is, and make a proxy of that; or make one that keeps a distance (bplod --profile cage "
+      "is read in double as it is, and make a proxy of that; or make one that keeps a distance (bplod --profile cage "
       "--margin)",
       scene);
 }

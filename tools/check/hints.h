@@ -45,5 +45,7 @@ namespace bp {
 /// has features that no reader follows; else empty.
 [[nodiscard]] std::string rounding_hint(const std::string& scene, const std::string& proxy,
                                         const std::vector<CheckReport>& verdicts);
+/// Returns the same for a scene of which coordinates were rounded.
+[[nodiscard]] std::string rounded_hint(const std::string& scene);
 
 }  // namespace bp

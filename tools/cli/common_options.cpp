@@ -10,6 +10,7 @@
 #include <set>
 #include <span>
 #include <string_view>
+#include <utility>
 
 #include "io/files/kept_files.h"
 #include "io/scene/file_ending.h"
@@ -146,16 +147,26 @@ void CommonOptions::add_to(Args& args, unsigned parts) {
 void CommonOptions::prepare() {
   const std::uint64_t least = least_memory(threads);
   if (memory_bytes == 0) memory_bytes = std::max(default_memory(), least);
-  if (memory_bytes < least)
-    fail(ErrorCode::out_of_resource, "--memory {}: at least {}M is needed with these --threads; {}",
-         size_text(memory_bytes), least >> 20,
-         memory_bytes < 1024 ? fmt::format("did you mean {}G?", memory_bytes) : "raise it");
+  if (memory_bytes < least) refuse_memory(least);
   if (parts_ & memory_part) {
     if (temp.empty()) temp = default_temp();
     check_temp(temp);
   }
   check_report_name(report);
   if (!report.empty()) report_file = open_output(report, overwrite || is_report(report), false);
+}
+
+/// Refuses a --memory that is less than every run takes. A run may take more, so the refusal waits: a step that needs
+/// more than `least` names its own number first. Only a number without its unit is refused at once.
+void CommonOptions::refuse_memory(std::uint64_t least) {
+  constexpr std::uint64_t kNoUnit = 1024;
+  const std::uint64_t asked = std::exchange(memory_bytes, least);
+  const std::string advice = asked < kNoUnit ? fmt::format("did you mean {}G?", asked) : "raise it";
+  const auto why = std::make_shared<const Error>(
+      ErrorCode::out_of_resource, fmt::format("--memory {}: at least {}M is needed with these --threads; {}",
+                                              size_text(asked), least >> 20, advice));
+  if (asked < kNoUnit) throw Error(*why);
+  refuse_outputs(why);
 }
 
 bool is_report(const std::string& path) {
@@ -193,6 +204,7 @@ void keep_inputs(const std::vector<std::string>& paths) {
 
 void forget_outputs() {
   named_outputs().clear();
+  refuse_outputs(nullptr);
 }
 
 std::unique_ptr<OutputFile> open_output(const std::string& path, bool overwrite, bool binary) {

@@ -44,10 +44,12 @@ struct CommonOptions {
   void add_to(Args& args, unsigned parts = all_parts);
   /// Fills in the defaults that depend on the machine, and fails early: throws bad_argument if the scratch directory
   /// cannot be written, or if the report's file exists and is no report; throws as OutputFile if that file cannot be
-  /// written. run_tool calls it before the tool runs.
+  /// written. A --memory below least_memory() is replaced by that, and outputs are refused (io/files/file.h). run_tool
+  /// calls it before the tool runs.
   void prepare();
 
  private:
+  void refuse_memory(std::uint64_t least);
   unsigned parts_ = all_parts;
 };
 

@@ -65,13 +65,21 @@ int complain(const char* tool, const Error& e) {
   return complain(tool, advised(e, tool), exit_code(e.code()));
 }
 
+/// Forgets what was said about outputs, before a run of a tool and after it: this process may do something else then.
+struct ForgetsOutputs {
+  ForgetsOutputs() { forget_outputs(); }
+  ~ForgetsOutputs() { forget_outputs(); }
+  ForgetsOutputs(const ForgetsOutputs&) = delete;
+  ForgetsOutputs& operator=(const ForgetsOutputs&) = delete;
+};
+
 }  // namespace
 
 int guard(const char* tool, const std::function<int()>& body) {
   occupy_standard_streams();
   install_handlers();
   const KeepsInputs inputs;
-  forget_outputs();
+  const ForgetsOutputs outputs;
   try {
     return body();
   } catch (const Args::Done&) {

@@ -5,6 +5,7 @@
 
 #include "io/image/texture_writer.h"
 #include "io/store/scratch.h"
+#include "lib/core/error.h"
 #include "lib/core/vec3.h"
 #include "lib/pass/bake/bake.h"
 
@@ -34,6 +35,14 @@ double area_of(const LatticeMesh& mesh) {
 double texel_of(const LatticeMesh& mesh, double error, const SceneLooks& looks) {
   const double by_faces = std::sqrt(area_of(mesh) / (kTexelsPerFace * double(mesh.triangles.size())));
   return std::max(std::min(error / kTexelsPerError, by_faces), looks.finest_texel());
+}
+
+Atlas atlas_of(const LatticeMesh& mesh, const LevelLengths& level, const SceneLooks& looks) {
+  const double voxel = mesh.frame.voxel;
+  AtlasParams params;
+  const double error = std::max({error_or(level.error, level.scale, voxel), level.asked_error, voxel});
+  params.texel = texel_of(mesh, error, looks) / voxel * kLatticePerVoxel;
+  return unwrap(mesh, params);
 }
 
 MeshTexture with_places(const Atlas& atlas) {
@@ -131,14 +140,16 @@ std::unique_ptr<SceneLooks> read_looks(const Build& build, const LodScene& scene
   return std::make_unique<SceneLooks>(read, make_scratch(build.budget.tiles, build.options.common.temp), memory);
 }
 
+std::uint64_t looks_limit(const Build& build, const LodScene& scene, double share) {
+  if (!scene.textured) return 0;
+  return part_of(build.budget.work, share).limit_for(SceneLooks::bytes_needed(*scene.textures, scene.size.triangles));
+}
+
 std::shared_ptr<const MeshTexture> level_texture(const Build& build, const LodScene& scene, const LatticeMesh& mesh,
                                                  const LevelLengths& level, const SceneLooks& looks,
                                                  const MemoryShare& memory) {
   const double voxel = mesh.frame.voxel;
-  AtlasParams atlas_params;
-  const double error = std::max({error_or(level.error, level.scale, voxel), level.asked_error, voxel});
-  atlas_params.texel = texel_of(mesh, error, looks) / voxel * kLatticePerVoxel;
-  const Atlas atlas = unwrap(mesh, atlas_params);
+  const Atlas atlas = atlas_of(mesh, level, looks);
   BakeParams params;
   params.reach_world = texture_reach(level.error, level.scale, voxel);
   params.memory = memory;
@@ -157,13 +168,30 @@ std::shared_ptr<const MeshTexture> level_texture(const Build& build, const LodSc
 void bake_levels(Build& build, const LodScene& scene, CompleteLevels& made) {
   if (!scene.textured) return;
   build.report.begin("textures");
-  const std::unique_ptr<SceneLooks> looks = read_looks(build, scene, part_of(build.budget.work, 0.6));
-  for (std::size_t i = 0; i < made.levels.size(); ++i) {
-    if (made.scene_of(i) != nullptr) continue;  // it shows the scene's own images
-    LodLevel& level = made.levels[i];
-    const LevelLengths lengths{level.error_world, made.facts[i].target.error_world, level.scale_world};
-    level.mesh.texture = level_texture(build, scene, level.mesh, lengths, *looks, part_of(build.budget.work, 0.4));
-  }
+  const std::unique_ptr<SceneLooks> looks = read_looks(build, scene, part_of(build.budget.work, kLooksAfter));
+  const MemoryShare memory = part_of(build.budget.work, 1 - kLooksAfter);
+  const auto for_each_level = [&](const auto& body) {
+    for (std::size_t i = 0; i < made.levels.size(); ++i) {
+      if (made.scene_of(i) != nullptr) continue;  // it shows the scene's own images
+      LodLevel& level = made.levels[i];
+      body(level.mesh, LevelLengths{level.error_world, made.facts[i].target.error_world, level.scale_world});
+    }
+  };
+  const auto limit = [&] {
+    std::uint64_t most = looks_limit(build, scene, kLooksAfter);
+    for_each_level([&](const LatticeMesh& mesh, const LevelLengths& lengths) {
+      const std::uint64_t bytes = bytes_to_bake(mesh, atlas_of(mesh, lengths, *looks), build.options.full());
+      most = std::max(most, memory.limit_for(bytes));
+    });
+    return most;
+  };
+  naming_limit(
+      [&] {
+        for_each_level([&](LatticeMesh& mesh, const LevelLengths& lengths) {
+          mesh.texture = level_texture(build, scene, mesh, lengths, *looks, memory);
+        });
+      },
+      limit);
   for (const std::string& fault : looks->faults()) build.note(fault + "; its material's colour is used");
 }
 

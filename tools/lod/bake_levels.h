@@ -12,6 +12,12 @@ namespace bp {
 [[nodiscard]] std::unique_ptr<SceneLooks> read_looks(const Build& build, const LodScene& scene,
                                                      const MemoryShare& memory);
 
+/// Returns the limit on memory at which read_looks() has room for each image, with this share of the memory for work.
+/// 0: levels get no textures.
+[[nodiscard]] std::uint64_t looks_limit(const Build& build, const LodScene& scene, double share);
+/// The shares of the memory for work that looks have while levels are made, and afterwards.
+constexpr double kLooksBeside = 0.4, kLooksAfter = 0.6;
+
 /// Returns the error, or an estimate from scale and voxel if it is 0 (not known). It decides how fine the texture of a
 /// level is.
 [[nodiscard]] double error_or(double error_world, double scale_world, double voxel);

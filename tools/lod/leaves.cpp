@@ -73,6 +73,9 @@ bool unpack_leaf(std::string_view bytes, KeptLeaf& leaf) {
   return true;
 }
 
+/// The part of the memory for work that leaves have beside the looks.
+constexpr double kLeavesShare = 0.7;
+
 class LeafMaker {
  public:
   LeafMaker(const Build& build, const LeafTask& task)
@@ -142,7 +145,8 @@ class LeafMaker {
     return int(std::min(left / needed, std::uint64_t(thread_count())));
   }
 
-  [[nodiscard]] MemoryShare memory() const { return build_.context(nullptr, kBesideLooks).memory; }
+  /// While leaves are made, the looks, the voxels and the files that wait are all that is in memory.
+  [[nodiscard]] MemoryShare memory() const { return build_.context(nullptr, kLeavesShare).memory; }
   [[nodiscard]] std::uint64_t bytes_of_largest() const {
     std::uint64_t triangles = 1;
     for (const Leaf& leaf : leaves_) triangles = std::max(triangles, leaf.box.triangles);

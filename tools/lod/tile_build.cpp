@@ -278,15 +278,12 @@ PyramidOptions pyramid_options(const Shop& shop, std::uint64_t held, double shar
 }
 
 /// Everything that comes before the levels in one mesh.
-void make_tiles_and_leaves(const Shop& shop, TilePyramid& pyramid, const std::vector<TriangleD>& scene,
-                           MadeTileset& made) {
+void make_tiles_and_leaves(const Shop& shop, TilePyramid& pyramid, const TriangleBvh* scene, MadeTileset& made) {
   if (made.plan.cut.empty()) {
     const StreamHeader& header = made.scene.voxels.header;
     return add_leaves(shop, {cells_spanned(shop.cells(), header.bricks).first}, header.frame, made);
   }
-  std::unique_ptr<TriangleBvh> tree;
-  if (!scene.empty()) tree = std::make_unique<TriangleBvh>(scene);
-  make_cut(shop, pyramid, cut_options(shop, made, tree.get()), made);
+  make_cut(shop, pyramid, cut_options(shop, made, scene), made);
 }
 
 MadeTileset make_tileset(const Shop& shop) {
@@ -309,7 +306,11 @@ MadeTileset make_tileset(const Shop& shop) {
                                                             }});
   TilePyramid pyramid(header, std::move(made.scene.voxels.solid), shop.build.backends,
                       pyramid_options(shop, bytes_beside_tiles(lod.scene.size()), share));
-  naming_limit([&] { make_tiles_and_leaves(shop, pyramid, lod.scene, made); }, [&] { return limit(lod, pyramid); });
+  // After a refusal, the tasks of the pyramid are counted, which look for triangles in the tree.
+  std::unique_ptr<TriangleBvh> tree;
+  if (!made.plan.cut.empty() && !lod.scene.empty()) tree = std::make_unique<TriangleBvh>(lod.scene);
+  naming_limit([&] { make_tiles_and_leaves(shop, pyramid, tree.get(), made); }, [&] { return limit(lod, pyramid); });
+  tree.reset();
   if (made.plan.whole == 0 && shop.task == Task::tileset)
     shop.build.note(
         fmt::format("the coarsest level has {} tiles, and nothing is drawn instead of them from afar: it takes {} "

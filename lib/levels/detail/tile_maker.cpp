@@ -269,7 +269,7 @@ std::vector<TriangleD> TileMaker::shown() const {
 /// Returns a box in which every voxel of the closing in the cell finds a voxel of the scene, and a fit finds the
 /// triangles that it follows.
 VoxelBox TileMaker::reach() const {
-  return grown_.grown(std::max(std::int32_t(std::ceil(params_.scale_world / level_.header.frame.voxel)) + 2, 4));
+  return cell_.grown(tile_reach(params_.scale_world, level_.header.frame.voxel));
 }
 
 void TileMaker::measure(const LatticeMesh& mesh, TileMeasures& measures) const {

@@ -187,17 +187,21 @@ class TileMaking {
 }  // namespace
 
 std::uint64_t tiles_limit(const TileLevel& level, const TileParams& params, PassContext context, std::uint64_t held,
-                          std::uint64_t triangles) {
+                          const std::function<std::uint64_t(CellCoord)>& triangles) {
   std::uint64_t most = context.memory.limit_for(voxel_bytes(level.cells) + held);
   context.pieces = context.pieces.without(held);
   const TileTask task{level, params, {}, {}};
-  const bool takes_all = params.mode == MeshMode::fit || triangles <= TileParams::kMostTriangles;
-  const std::uint64_t near = takes_all ? triangles : TileParams::kMostTriangles;
+  const std::uint64_t most_near = params.mode == MeshMode::fit ? UINT64_MAX : TileParams::kMostTriangles;
   for (const Job& job : jobs_of(level, params.wanted)) {
     TileMaker maker(task, job.cell, context);
-    if (maker.begin()) most = std::max(most, maker.limit(near));
+    const std::uint64_t near = triangles ? triangles(job.cell) : 0;
+    if (maker.begin()) most = std::max(most, maker.limit(std::min(near, most_near)));
   }
   return most;
+}
+
+std::int32_t tile_reach(double scale_world, double voxel) {
+  return 1 + std::max(std::int32_t(std::ceil(scale_world / voxel)) + 2, 4);
 }
 
 void make_tiles(std::span<const TileTask> tasks, const PassContext& context, const std::function<void(double)>& left) {

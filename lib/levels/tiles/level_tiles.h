@@ -103,9 +103,12 @@ void make_tiles(std::span<const TileTask> tasks, const PassContext& context,
 
 /// Returns the limit on memory at which make_tiles() has enough for each tile of a level. 0: not known. The solid
 /// stands for the closing of a level that is not closed yet. `held`: bytes that others keep of the memory of `context`.
-/// `triangles`: of the scene that tiles enclose or follow, while TileParams::scene is not there yet. Asked for after a
-/// refusal; meshes the surface of the level, brick by brick.
+/// `triangles`: of the scene near a cell, which its tile encloses or follows, while TileParams::scene is not there yet;
+/// empty: none. Asked for after a refusal; meshes the surface of the level, brick by brick.
 [[nodiscard]] std::uint64_t tiles_limit(const TileLevel& level, const TileParams& params, PassContext context,
-                                        std::uint64_t held, std::uint64_t triangles);
+                                        std::uint64_t held, const std::function<std::uint64_t(CellCoord)>& triangles);
+
+/// Returns how many voxels beyond its cell a tile of this scale looks for triangles of the scene.
+[[nodiscard]] std::int32_t tile_reach(double scale_world, double voxel);
 
 }  // namespace bp

@@ -13,6 +13,8 @@ struct TilesetCount {
   PassContext context;          ///< with all of the memory
   std::uint64_t held_bytes;     ///< that the scene's triangles take while levels are cut
   std::uint64_t triangles = 0;  ///< of the scene that levels enclose or follow
+  /// Returns how many of them lie near a cell of a cut level; empty: nobody knows, and all may.
+  std::function<std::uint64_t(std::size_t, CellCoord)> near{};
 };
 
 /// Returns the limit on memory at which level `level` fits, and each level after it. 0: not known. `solid` holds the

@@ -276,9 +276,7 @@ std::vector<Plot> plots_of(const std::vector<Face>& faces, const Atlas& atlas) {
 void bake_into(const Canvas& to, const LatticeMesh& mesh, const Atlas& atlas, const SceneLooks& looks,
                const BakeParams& params) {
   const bool surfaces = to.normal != nullptr;
-  const std::uint64_t texels = std::uint64_t(atlas.width) * std::uint64_t(atlas.height);
-  const std::uint64_t needed =
-      texels * (surfaces ? kBytesPerSurfaceTexel : kBytesPerTexel) + mesh.triangles.size() * kBytesPerFace;
+  const std::uint64_t needed = bytes_to_bake(mesh, atlas, surfaces);
   if (needed > params.memory.bytes)
     throw NeedsMemory(fmt::format("baking a texture of {} x {} texels", atlas.width, atlas.height), needed,
                       params.memory.bytes, params.memory.limit_with(needed - params.memory.bytes),
@@ -304,6 +302,11 @@ void bake_into(const Canvas& to, const LatticeMesh& mesh, const Atlas& atlas, co
 }
 
 }  // namespace
+
+std::uint64_t bytes_to_bake(const LatticeMesh& mesh, const Atlas& atlas, bool surfaces) {
+  const std::uint64_t texels = std::uint64_t(atlas.width) * std::uint64_t(atlas.height);
+  return texels * (surfaces ? kBytesPerSurfaceTexel : kBytesPerTexel) + mesh.triangles.size() * kBytesPerFace;
+}
 
 TextureImage bake(const LatticeMesh& mesh, const Atlas& atlas, const SceneLooks& looks, const BakeParams& params) {
   TextureImage image;

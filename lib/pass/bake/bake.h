@@ -21,6 +21,9 @@ struct BakedSurface {
   TextureImage emission;   ///< sRGB
 };
 
+/// Returns the memory that bake() takes, or bake_surface() with `surfaces`.
+[[nodiscard]] std::uint64_t bytes_to_bake(const LatticeMesh& mesh, const Atlas& atlas, bool surfaces);
+
 /// Bakes the image of colours. A colour is the mean over a texel, in linear light. If the line of a texel meets nothing
 /// within the reach, it shows the nearest place of the scene within it, which may be a hole. If the line goes only
 /// through holes of the scene's textures, the texel is a hole (alpha). Texels outside the charts, and texels without a

@@ -82,6 +82,11 @@ SceneLooks::SceneLooks(const Scene& scene, std::unique_ptr<Scratch> store, const
   cache_ = std::make_unique<ImageCache>(images_, rest);
 }
 
+std::uint64_t SceneLooks::bytes_needed(const TextureSet& images, std::uint64_t triangles) {
+  const std::uint64_t image = ImageCache::bytes_needed(images);
+  return std::min(2 * image, image + triangles * LookBlocks::kBytesEach);  // triangles get half of it at most
+}
+
 SceneLooks::~SceneLooks() = default;
 
 void SceneLooks::read(const Scene& scene, std::uint64_t memory_bytes) {

@@ -44,6 +44,8 @@ class SceneLooks {
   /// Reads the source once more, from its start; its triangles wait in `store`. `memory` is for triangles in use, half
   /// of it at most, and for images. Throws NeedsMemory if an image alone is too large.
   SceneLooks(const Scene& scene, std::unique_ptr<Scratch> store, const MemoryShare& memory);
+  /// Returns the memory of such looks that each image fits into, beside the triangles in use.
+  [[nodiscard]] static std::uint64_t bytes_needed(const TextureSet& images, std::uint64_t triangles);
   ~SceneLooks();
   SceneLooks(const SceneLooks&) = delete;
   SceneLooks& operator=(const SceneLooks&) = delete;

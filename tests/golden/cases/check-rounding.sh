@@ -51,7 +51,7 @@ done
 python3 - alone.obj > read.obj <<'PY'  # the box as the importer reads it, y up
 import struct, sys
 single = lambda x: struct.unpack("f", struct.pack("f", float(x)))[0]
-for line in open(sys.argv[1]):
+for line in filter(str.strip, open(sys.argv[1])):
     kind, a, b, c = line.split()
     print("v %r %r %r" % (single(a), single(c), -single(b)) if kind == "v" else line.strip())
 PY
@@ -62,3 +62,8 @@ cat note
 try bpvox alone.dxf --resolution 64 -o alone.bpv
 bpinfo alone.dxf | grep "^read"
 bpinfo alone.dae | grep "^read" || true
+bplod read.obj --resolution 64 --profile 3dtiles --up y -q -o tiles > /dev/null
+bpcheck alone.dxf tiles/tileset.json > verdict 2> note
+echo "a tileset of alone.dxf as read: exit $?"
+cut -c1-150 note
+rm -r tiles

@@ -6,7 +6,7 @@ bpclose cube.bp --scale 2vx -o closed.bp -j 1
 files
 try bpvox cube.obj -o x.bp -j 1 --memory 63M
 try bpclose cube.bp --scale 2vx -o x.bp -j 1 --memory 63M
-try bpmesh closed.bp -o x.glb -j 1 --memory 63M
+try bpmesh closed.bp -o x.glb -j 1 --memory 63M | sed 's/[0-9.]* MiB/N MiB/g; s/[0-9]* triangles/N triangles/'
 try bplod cube.obj -o x -j 1 --memory 63M
 try bplod cube.obj -o x -j 1 --memory 63M --profile 3dtiles
 try bpvox cube.obj -o x.bp -j 100 --memory 1G

@@ -84,3 +84,6 @@ try bplod house.obj --profile occluder --resolution 128 --up z --explain -j 1 --
 try bplod house.obj --profile occluder --scale 0.5 --faces 60 --explain -q -j 1 --memory 1G --report explained.json
 said 'sed -n "/\"counts\"/,\$p" explained.json | grep -oE "\"(levels|jobs|scales|openings)\""'
 said 'bplod house.obj --profile occluder --resolution 64 --up z -o shown --progress json 2>&1 > /dev/null | grep -o "\"pass\":\"closing.*\"done\":.*,\"unit\":\"[a-z]*\"" | sort -t : -k 3n | tail -1'
+
+# Openings that none of the scales close which are a factor apart, but the largest scale that may be tried.
+said 'bplod "$BP_ROOT/tests/data/bugs/open_walls.obj" --profile occluder --up y --resolution 128 -q -o walls | cut -f 2,4'

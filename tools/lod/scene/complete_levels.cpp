@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
+#include "lib/core/error.h"
 #include "lib/levels/lod_chain.h"
 #include "lib/levels/margin.h"
 #include "lib/pass/color/vertex_colors.h"
@@ -78,16 +80,18 @@ std::vector<LodTarget> targets_of(const LevelRequest& request) {
 std::unique_ptr<SceneLooks> hold_looks(Build& build, const LodScene& scene) {
   if (!scene.textured && !build.options.leaves) return nullptr;
   build.report.begin("textures");
-  return read_looks(build, scene, part_of(build.budget.work, 0.4));
+  return read_looks(build, scene, part_of(build.budget.work, kLooksBeside));
 }
 
 MemoryShare texture_memory(const Build& build) {
   return part_of(build.budget.work, 0.1);
 }
 
-MadeChain make_chain(Build& build) {
+namespace {
+
+/// Makes the levels of a chain that has its scene.
+void make_levels(Build& build, MadeChain& chain) {
   const BuildOptions& o = build.options;
-  MadeChain chain{read_scene(build, {0, nullptr, false, true}), {}, {}, {}};
   VoxelizedScene& voxels = chain.scene.voxels;
   chain.parts = parts_of(voxels, o, build.budget.work.bytes);
   if (o.is_cage()) chain.room = make_room(build, chain.scene);
@@ -109,6 +113,19 @@ MadeChain make_chain(Build& build) {
     chain.made = make_levels(build, levels, range, {chain.scene, chain.room, nullptr, voxels.counts.input_hash});
   }
   if (own) chain.made = own->with(std::move(chain.made));
+}
+
+/// Returns the limit on memory at which the images of the scene fit.
+std::uint64_t images_limit(const Build& build, const LodScene& scene) {
+  if (!build.options.proxy.visual) return looks_limit(build, scene, kLooksAfter);
+  return std::max(looks_limit(build, scene, kLooksBeside), SceneLevels::images_limit(build, scene));
+}
+
+}  // namespace
+
+MadeChain make_chain(Build& build) {
+  MadeChain chain{read_scene(build, {0, nullptr, false, true}), {}, {}, {}};
+  naming_limit([&] { make_levels(build, chain); }, [&] { return images_limit(build, chain.scene); });
   return chain;
 }
 

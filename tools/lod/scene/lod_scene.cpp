@@ -57,8 +57,7 @@ void note_scene(Build& build, const LodScene& scene, std::optional<UpAxis> up_to
       is_occluder ? "so nobody knows what is glass: all of the scene is taken for walls" : "and its colours are lost";
   for (const std::string& path : o.voxels.scenes) {
     if (!o.colors() && !is_occluder) break;
-    for (const std::string& file : missing_materials(path))
-      build.note(fmt::format("{}: {} is not there, {}", path, file, missing));
+    for (const std::string& file : missing_materials(path)) build.note(fmt::format("{}: {}, {}", path, file, missing));
   }
   for (const std::string& text : option_notes(o, scene.size, scene.voxels.header)) build.note(text);
 }

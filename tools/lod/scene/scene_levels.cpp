@@ -50,17 +50,28 @@ bool is_whole(const std::shared_ptr<const SceneLeaf>& level, const SceneLeaf& sc
   return level != nullptr && level->triangles() == scene.triangles();
 }
 
-/// Checks the memory of the work, of its results, and of the images' files, which are copied into that of a level.
+/// Levels are written when nothing else is in memory but their triangles.
+MemoryShare memory_for_images(const Build& build) {
+  constexpr double kOfWork = 1.6;
+  return part_of(build.budget.work, kOfWork);
+}
+
+/// Returns the memory for the images of a file: while its data grow, they are there twice.
+std::uint64_t bytes_of_images(const LodScene& scene) {
+  return scene.textures != nullptr ? 2 * scene.textures->written_bytes() : 0;
+}
+
+/// Checks the memory of the work with its results, and that of the images' files.
 void require_memory(const Build& build, const LodScene& scene, const std::vector<LodTarget>& targets) {
   constexpr std::uint64_t kResultBytesPerTriangle = 300;  // a vertex for each corner, here and in the file
-  const MemoryShare memory = build.context().memory;
+  const auto require = [](const std::string& what, std::uint64_t needed, const MemoryShare& memory, Remedies others) {
+    if (needed > memory.bytes) throw NeedsMemory(what, needed, memory.bytes, memory.limit_for(needed), others);
+  };
   const std::uint64_t triangles = scene.size.triangles;
-  std::uint64_t needed = triangles * (kLeafBytesPerTriangle + kCollapseBytesPerTriangle);
-  for (const LodTarget& target : targets) needed += kResultBytesPerTriangle * std::min(target.faces, triangles);
-  if (scene.textures) needed += 2 * scene.textures->file_bytes();
-  if (needed <= memory.bytes) return;
-  throw NeedsMemory(fmt::format("levels from {} triangles of the scene", triangles), needed, memory.bytes,
-                    memory.limit_with(needed - memory.bytes));
+  std::uint64_t work = triangles * (kLeafBytesPerTriangle + kCollapseBytesPerTriangle);
+  for (const LodTarget& target : targets) work += kResultBytesPerTriangle * std::min(target.faces, triangles);
+  require(fmt::format("levels from {} triangles of the scene", triangles), work, build.context().memory, {});
+  require("writing the images of the scene", bytes_of_images(scene), memory_for_images(build), {Remedy::no_textures});
 }
 
 }  // namespace
@@ -76,7 +87,7 @@ SceneLevels::SceneLevels(Build& build, const LodScene& scene, const std::vector<
   build.report.begin("levels from the scene");
   require_memory(build, scene, targets);
   const Bounds3d& bounds = scene.size.bounds;
-  const SceneLeaf whole = whole_scene(*read_looks(build, scene, part_of(build.budget.work, 0.4)), bounds);
+  const SceneLeaf whole = whole_scene(*read_looks(build, scene, part_of(build.budget.work, kLooksBeside)), bounds);
   const LeafImages images(whole, scene.textures.get(), part_of(build.budget.work, 0.2));
   for (const auto& [image, fault] : images.broken()) {
     build.note(fault + "; levels from the scene leave it out");
@@ -113,6 +124,10 @@ void SceneLevels::offer(Level& level, SceneLeaf&& leaf, const LeafImages& images
   if (level.leaf != nullptr && level.difference <= difference) return;
   level.leaf = std::make_shared<const SceneLeaf>(std::move(leaf));
   level.difference = difference;
+}
+
+std::uint64_t SceneLevels::images_limit(const Build& build, const LodScene& scene) {
+  return memory_for_images(build).limit_for(bytes_of_images(scene));
 }
 
 std::vector<std::uint64_t> SceneLevels::open() const {

@@ -19,6 +19,9 @@ class SceneLevels {
   /// more. A scene of more than kMostEnclosedTriangles has none, and a note says so. Throws NeedsMemory.
   SceneLevels(Build& build, const LodScene& scene, const std::vector<LodTarget>& targets);
 
+  /// Returns the limit on memory at which the images of the scene can be written into levels.
+  [[nodiscard]] static std::uint64_t images_limit(const Build& build, const LodScene& scene);
+
   /// Returns the faces of the targets that a fit may look nearer for: there is no level yet, or it shows more than a
   /// hundredth of the pixels otherwise than the scene.
   [[nodiscard]] std::vector<std::uint64_t> open() const;

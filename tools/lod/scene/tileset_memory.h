@@ -32,7 +32,7 @@ class TilesetMemory {
 
  private:
   [[nodiscard]] TilesetCount count(const LodOptions& whole) const;
-  [[nodiscard]] std::uint64_t of_leaves() const;
+  [[nodiscard]] std::uint64_t of_looks() const;
 
   const Parts parts_;
   std::vector<CellCoord> leaf_cells_;  // that may have leaves

@@ -12,6 +12,7 @@
 #include "io/files/final_names.h"
 #include "io/files/kept_files.h"
 #include "io/scene/scene_parts.h"
+#include "lib/core/error.h"
 #include "tests/catch.h"
 #include "tests/unit/io/scene/scene_files.h"
 
@@ -243,4 +244,20 @@ TEST_CASE("what a file names must be a regular file, and is not waited for", "[q
   for (const std::string& path : {pipe, std::string("/dev/zero"), std::string("/dev/null"), dir.path(".")})
     CHECK_THROWS_AS(InputFile(path, NamedBy::file), Error);
   CHECK_THROWS_AS(InputFile("-", NamedBy::file), Error);  // the name of no file here
+}
+
+TEST_CASE("a refusal of outputs waits for their first byte, and leaves no file", "[quick][io]") {
+  const TempDir dir;
+  refuse_outputs(std::make_shared<const Error>(ErrorCode::out_of_resource, "no room"));
+  {
+    OutputFile file(dir.path("a"), true);
+    file.write("a byte that waits");
+    CHECK_THROWS_WITH(file.commit(), "no room");
+  }
+  CHECK_THROWS_WITH(check_outputs(), "no room");
+  CHECK(names_in(dir).empty());
+  refuse_outputs(nullptr);
+  check_outputs();
+  write_file(dir.path("a"), "a byte");
+  CHECK(names_in(dir) == Names{"a"});
 }
