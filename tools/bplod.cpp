@@ -59,21 +59,13 @@ void build_chain(const bp::BuildOptions& o) {
   bp::MadeChain chain = bp::make_chain(build);
   auto& [scene, room, parts, made] = chain;
   bp::bake_levels(build, scene, made);
-  bp::note_levels(build, made.facts, 0, made.left_out, scene.size);
+  build.progress.end();
+  bp::note_chain(build, chain);
   const bp::StreamHeader& header = scene.voxels.header;
   const bp::Vec3d origin = bp::origin_of(o.proxy.origin, header.frame, header.bounds);
   for (std::size_t i = made.levels.size(); i < most; ++i)  // there may be as many
     out.leave_out(bp::level_name(o.name, i) + ".glb");
   if (o.profile == bp::LodProfile::gltf) bp::take_away_longer_list(o, most, out);
-  build.progress.end();
-  const bp::LevelFacts& finest = made.facts.front();
-  const bool asked = asks_for_faces(request_of(o));
-  build.note(bp::heavier_note(finest, asked, scene.size.triangles));
-  if (made.scene_of(0) == nullptr) {
-    const std::string joined =
-        bp::joined_note(finest, made.levels.front().counts.levels.front().measures.shells, parts);
-    build.note(joined.empty() && !asked ? bp::closed_note(finest) : joined);
-  }
   const std::vector<bp::WrittenFile> files = write_files(build, chain, origin, out);
   out.commit();
   std::vector<bp::LevelRow> rows;

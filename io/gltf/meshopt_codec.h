@@ -12,8 +12,9 @@ namespace bp {
 
 using TriangleIndices = std::vector<std::array<std::uint32_t, 3>>;
 
-/// Puts triangles into an order that compresses well, and vertices into the order of their first use. Returns, for each
-/// new vertex, its old number; vertices without a triangle are left out. Deterministic.
+/// Puts triangles into an order that suits a GPU's vertex cache and compresses well, and vertices into the order of
+/// their first use. Returns, for each new vertex, its old number; vertices without a triangle are left out.
+/// Deterministic.
 [[nodiscard]] std::vector<std::uint32_t> optimize_order(TriangleIndices& triangles, std::size_t vertices);
 
 /// Encodes vertices. `data`: count * stride bytes; stride a multiple of 4, at most 256.

@@ -34,6 +34,14 @@ int main(void) {
   MEMBER(bp_verdict_info, proxy_to_scene);
   SIZE(bp_hulls_options);
   MEMBER(bp_hulls_options, corners);
+  SIZE(bp_levels_options);
+  MEMBER(bp_levels_options, errors);
+  MEMBER(bp_levels_options, scale);
+  MEMBER(bp_levels_options, enclose);
+  SIZE(bp_occluder_options);
+  MEMBER(bp_occluder_options, no_scale);
+  SIZE(bp_cage_options);
+  MEMBER(bp_cage_options, symmetry);
   SIZE(bp_bind_options);
   MEMBER(bp_bind_options, carry_outside);
   return 0;

@@ -2,6 +2,7 @@
 """The Python module gives the bytes of the tools."""
 import json
 import os
+import shutil
 import tempfile
 import unittest
 from pathlib import Path
@@ -102,6 +103,35 @@ class Bytes(unittest.TestCase):
         (self.home / "rules.json").write_text(json.dumps(rules))
         wanted = pipe(path, self.home / "r.glb", [], ["--field", self.home / "rules.json"], ["--faces", "400"])
         self.assertEqual(self.saved(bp.proxy(vertices, triangles, 400, rules=rules)), wanted)
+
+    def test_levels_occluders_and_cages_are_the_files_of_bplod(self):
+        makers = {"levels": bp.levels, "occluder": bp.occluder, "cage": bp.cage}
+        cases = [("levels", "torus", dict(faces=[400, 100]), ["--faces", "400,100"]),
+                 ("levels", "soup", dict(error="6%", levels=2, mode="fit"), ["--error", "6%", "--levels", "2", "--mode", "fit"]),
+                 ("levels", "far boxes", dict(resolution=64), ["--resolution", "64"]),
+                 ("levels", "bowl", dict(faces=300, levels=2, scale="2%", enclose="input", resolution=96, fill="winding", up="z"),
+                  ["--faces", "300", "--levels", "2", "--scale", "2%", "--enclose", "input", "--resolution", "96", "--fill", "winding", "--up", "z"]),
+                 ("occluder", "torus", dict(faces=100, resolution=128), ["--faces", "100", "--resolution", "128"]),
+                 ("occluder", "soup", dict(scale=0, resolution=96), ["--scale", "0", "--resolution", "96"]),
+                 ("cage", "torus", dict(faces=300, margin="1%"), ["--faces", "300", "--margin", "1%"]),
+                 ("cage", "soup", dict(margin=0, symmetry="y", resolution=96), ["--margin", "0", "--symmetry", "y", "--resolution", "96"])]
+        for profile, scene, how, options in cases:
+            path, vertices, triangles = self.scene_file(scene)
+            where = self.home / "tools"
+            options = [*options, *(["--appearance", "off"] if profile == "levels" else ["--profile", profile])]
+            try:
+                tool("bplod", path, "-o", where, "--name", "n", *options)
+            except AssertionError as e:
+                self.assertIn("hides nothing", str(e))
+                self.assertRaisesRegex(bp.InputError, "hides nothing", makers[profile], path, **how)
+                continue
+            for given in ((vertices, triangles), (path,)):
+                with self.subTest(profile=profile, scene=scene, arrays=len(given) == 2):
+                    mine = self.home / "mine"
+                    bp.save_levels(makers[profile](*given, **how), mine, "n")
+                    self.assertEqual({f.name: f.read_bytes() for f in mine.iterdir()}, {f.name: f.read_bytes() for f in where.iterdir()})
+                    shutil.rmtree(mine)
+            shutil.rmtree(where)
 
     def test_verdicts(self):
         path, vertices, triangles = self.scene_file("bowl")

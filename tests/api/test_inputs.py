@@ -105,6 +105,17 @@ class Inputs(unittest.TestCase):
         self.refused(TypeError, "unexpected keyword", bp.proxy, v, t, scael=1)
         self.refused(bp.ResourceError, "memory", bp.proxy, v, t, memory=1000)
 
+    def test_a_gpu_is_used_or_its_lack_is_told(self):
+        for call in (lambda: bp.proxy(self.vertices, self.triangles, device="cuda", **QUICK),
+                     lambda: bp.levels(self.vertices, self.triangles, 100, levels=1, resolution=48, device="cuda")):
+            try:
+                mesh = call()
+            except bp.ResourceError as e:
+                self.assertRegex(str(e), "no GPU support; rebuild with|no GPU was found; check the driver")
+            else:
+                self.assertTrue(mesh)
+        self.assertTrue(same(bp.proxy(self.vertices, self.triangles, device="cpu", **QUICK), self.wanted))
+
     def test_messages_name_members_as_the_library_does(self):
         with self.assertRaises(bp.Error) as caught:
             bp.proxy(self.vertices, self.triangles, scale=1e9)
@@ -166,6 +177,54 @@ class Inputs(unittest.TestCase):
         self.assertTrue(bp.check((all_vertices, all_triangles), (self.vertices, self.triangles), convex=True))
         self.refused(bp.ArgumentError, "corners", bp.hulls, self.wanted, corners=3)
         self.refused(TypeError, "no Mesh", bp.hulls, (self.vertices, self.triangles))
+
+    def test_levels_occluders_and_cages_are_proven(self):
+        scene = (self.vertices, self.triangles)
+        levels = bp.levels(*scene, [400, 60])
+        self.assertEqual([len(level.triangles) for level in levels], [400, 60])
+        self.assertTrue(0 < levels[0].error_bound < levels[1].error_bound and levels[0].enclosed == "scene")
+        for level in levels:
+            verdict = bp.check(level, scene)
+            self.assertTrue(verdict and verdict.proxy_to_scene <= level.error_bound)
+        self.assertTrue(bp.check(bp.occluder(*scene, 60, resolution=96), scene, inside=True))
+        diagonal = np.linalg.norm(np.ptp(self.vertices, 0))
+        for margin, wanted in (("2%", 0.02 * diagonal), (0.1, 0.1), (None, 0.005 * diagonal)):
+            cage = bp.cage(*scene, 300, margin=margin, symmetry="off")
+            self.assertTrue(bp.check(cage, scene, margin=wanted))
+            self.assertGreater(len(cage.quads), 50)
+        half = bp.cage(*scene, 300, symmetry="x").vertices
+        middle = (half.min(0) + half.max(0)) / 2
+        places = [{tuple(np.round(p, 6) + 0.0) for p in (half - middle) * [side, 1, 1]} for side in (1, -1)]
+        self.assertEqual(*places)
+        with tempfile.TemporaryDirectory() as folder:
+            for overwrite in (False, True):  # a name may be written again in a process
+                bp.save_levels(levels, Path(folder) / "new", "house", overwrite=overwrite)
+            self.assertEqual(sorted(os.listdir(Path(folder) / "new")), ["house.glb", "house_LOD0.glb", "house_LOD1.glb"])
+            self.refused(bp.ArgumentError, "exists", bp.save_levels, levels, Path(folder) / "new", "house")
+            self.refused(bp.ArgumentError, "without a folder", bp.save_levels, levels, folder, "a/b")
+            self.refused(bp.ArgumentError, "name: is empty", bp.save_levels, levels, folder, "")
+            self.refused(bp.ArgumentError, "bp_levels_save", bp.save_levels, self.wanted, folder)
+            self.refused(TypeError, "save_levels", bp.save_levels, [], folder)
+
+    def test_levels_that_make_no_sense(self):
+        scene = (self.vertices, self.triangles)
+        for how, words in ((dict(faces=[100, 200]), "fewer than the one before"), (dict(faces=0), "no number"),
+                           (dict(faces=100, error="1%"), "exclude each other"), (dict(error="0"), "errors: 0"), (dict(error="-1%"), "no length|-1"),
+                           (dict(error=["2%", "1%"]), "larger one"), (dict(error=["1%", 2.0]), "one unit"), (dict(error="3vx"), "in voxels"),
+                           (dict(levels=33), "1 to 32"), (dict(levels=0), "levels: 0"), (dict(faces=[300, 100], levels=3), "lists 2 numbers"),
+                           (dict(mode="inside"), "mode"), (dict(mode="fit", enclose="scene"), "a fit encloses nothing"),
+                           (dict(fill="inside"), "fill"), (dict(scale=-1.0), "scale"), (dict(resolution=10, voxel=1.0), "exclude each other")):
+            with self.subTest(how=how):
+                self.refused(bp.Error, words, bp.levels, *scene, **how)
+        self.refused(bp.Error, "no number", bp.occluder, *scene, 0)
+        self.refused(bp.Error, "scale", bp.occluder, *scene, scale=-1.0)
+        self.refused(bp.InputError, "hides nothing", bp.occluder, np.eye(3), [[0, 1, 2]], resolution=32)
+        self.refused(bp.Error, "symmetry", bp.cage, *scene, symmetry="w")
+        self.refused(bp.Error, "margin", bp.cage, *scene, margin=float("nan"))
+        self.refused(bp.Error, "margin", bp.cage, *scene, margin=1e9, resolution=32)
+        self.refused(bp.ArgumentError, "cage of a grid", bp.cage, bp.voxelize(*scene, resolution=32), 100, margin="1%")
+        self.refused(bp.ArgumentError, "faces", bp.cage, bp.voxelize(*scene, resolution=32))
+        self.refused(bp.ResourceError, "memory", bp.levels, *scene, memory=1000)
 
     def test_points_follow_their_cage(self):
         turn = np.array([[0, -1, 0], [1, 0, 0], [0, 0, 2.0]])

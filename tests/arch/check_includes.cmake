@@ -56,7 +56,7 @@ set(rules
   "tools/cli/options:lib/* tools/cli tools/run"
   "tools/notes:lib/* io/scene tools/cli"
   "tools/pipe:lib/* io/* tools/cli tools/cli/options tools/run tools/notes"
-  "tools/api:lib/* io/* tools/cli tools/run tools/notes tools/mesh tools/pipe"
+  "tools/api:lib/* io/* tools/cli tools/cli/options tools/run tools/notes tools/mesh tools/pipe tools/lod"
   "tools/place:lib/* io/* tools/cli"
   "tools/check:lib/* io/* tools/cli tools/cli/options tools/run tools/place"
   "tools/deform:lib/* io/* tools/cli tools/run"

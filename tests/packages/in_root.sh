@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Tries the packages of a folder in the Debian in which it runs, as root: installs them, does what README and the guides say, upgrades
-# them over themselves, and removes them. Nothing may be left then. .ci/packages runs it in a fresh root.
-#   tests/packages/in_root.sh FOLDER      with the packages, run_guide.py, scenes.py and consumer/ of the tests
+# Tries the packages of a folder in the Debian in which it runs, as root: upgrades from an older version, does what README and the guides say,
+# installs them over themselves, and removes them. Nothing may be left then. .ci/packages runs it in a fresh root.
+#   tests/packages/in_root.sh FOLDER      with the packages, those of the older version in older/, run_guide.py, scenes.py and consumer/ of the tests
 set -euo pipefail
 here=$(cd "$1" && pwd)
 packages="bounding-proxies bounding-proxies-doc libbp-dev libbp0 python3-bounding-proxies"
@@ -24,11 +24,15 @@ files() {
 block() { awk -v head="$1" 'index($0, head) == 1 { found = 1 } found && /^```/ { if (inside) exit; inside = 1; next } inside' $doc/README.md; }
 
 before=$(files)
-step "install"
+step "an older version"
 apt update
+apt install -y "$here"/older/*.deb
+[ "$(dpkg-query -W -f='${Version}\n' $packages | sort -u)" = 0.1.9-1 ] || fail "these are not the packages of 0.1.9"
+step "upgrade"
 apt install -y "$here"/*.deb
 dpkg-query -W -f='${Package} ${Version} ${Architecture} ${Installed-Size} KiB\n' $packages
 version=$(dpkg-query -W -f='${source:Upstream-Version}' libbp0)
+dpkg --compare-versions "$version" gt 0.1.9 || fail "libbp0 is still of version $version"
 for tool in $tools; do $tool --version | grep -q "^$tool $version+" || fail "$tool --version does not say $version"; done
 
 step "the first jobs of README"

@@ -133,7 +133,7 @@ std::string in_words_of_library(const std::string& text) {
   std::string out;
   for (std::size_t i = 0; i < text.size();) {
     const bool begins = i == 0 || std::isalnum(static_cast<unsigned char>(text[i - 1])) == 0;
-    for (const char* tool : {"bpvox --", "bpclose --", "bpmesh --"}) {
+    for (const char* tool : {"bpvox --", "bpclose --", "bpmesh --", "bplod --"}) {
       if (begins && text.compare(i, std::strlen(tool), tool) == 0) i += std::strlen(tool) - 2;
     }
     if (!begins || text.compare(i, 2, "--") != 0 || i + 2 == text.size() || !is_word(text[i + 2])) {

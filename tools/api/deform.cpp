@@ -126,7 +126,7 @@ bp_status bp_cage(const bp_grid* grid, uint64_t faces, const bp_run* run, bp_mes
     options.faces = &faces;
     options.levels = 1;
     options.mode = BP_MODE_BOUNDING;
-    result = new bp_mesh{mesh(*needed(grid, "grid").grid, &options, call, true)};
+    result = new bp_mesh{mesh(*needed(grid, "grid").grid, &options, call, true), {}};
   });
 }
 

@@ -130,6 +130,15 @@ std::size_t list_bricks(const BrickShelf* shelf, std::int32_t* coords, std::size
   return all.size();
 }
 
+/// Returns the layer of a caller as a number, since C allows any, and a value that bp_layer does not have must not be
+/// read as one.
+std::int32_t number_of(const bp_layer& layer) {
+  static_assert(sizeof layer == sizeof(std::int32_t));
+  std::int32_t number = 0;
+  std::memcpy(&number, &layer, sizeof number);
+  return number;
+}
+
 }  // namespace
 
 }  // namespace bp::api
@@ -152,17 +161,18 @@ bp_status bp_grid_read_info(const bp_grid* grid, bp_grid_info* info, size_t size
 
 bp_status bp_grid_read(const bp_grid* grid, bp_layer layer, const int32_t min[3], const int32_t extent[3],
                        uint8_t* out) {
-  return guarded([&] { read_dense(needed(grid, "grid").grid->layer(layer), box_of(min, extent), out); });
+  return guarded([&] { read_dense(needed(grid, "grid").grid->layer(number_of(layer)), box_of(min, extent), out); });
 }
 
 bp_status bp_grid_bricks(const bp_grid* grid, bp_layer layer, int32_t* coords, size_t capacity, size_t* count) {
-  return guarded(
-      [&] { needed(count, "count") = list_bricks(needed(grid, "grid").grid->layer(layer), coords, capacity); });
+  return guarded([&] {
+    needed(count, "count") = list_bricks(needed(grid, "grid").grid->layer(number_of(layer)), coords, capacity);
+  });
 }
 
 bp_status bp_grid_brick(const bp_grid* grid, bp_layer layer, const int32_t coord[3], uint64_t bits[4096]) {
   return guarded([&] {
-    const bp::BrickShelf* const shelf = needed(grid, "grid").grid->layer(layer);
+    const bp::BrickShelf* const shelf = needed(grid, "grid").grid->layer(number_of(layer));
     (void)needed(coord, "coord");
     bp::BrickBits out{};
     if (shelf != nullptr) (void)shelf->get({coord[0], coord[1], coord[2]}, out);

@@ -5,6 +5,7 @@
 #include "io/stream/brick_stream.h"
 #include "lib/grid/shelf_stream.h"
 #include "tools/api/scene.h"
+#include "tools/cli/options/voxel.h"
 
 namespace bp::api {
 
@@ -27,6 +28,9 @@ struct VoxelGrid {
   mutable std::once_flag counted_;
   mutable StreamTotals totals_;
 };
+
+/// Returns the options of the tools that say the same.
+[[nodiscard]] VoxelOptions voxel_options(const Scene& scene, const bp_voxelize_options* options);
 
 /// The steps of the pipe.
 [[nodiscard]] std::shared_ptr<const VoxelGrid> voxelize(const std::shared_ptr<const Scene>& scene,

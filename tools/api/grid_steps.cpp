@@ -18,21 +18,6 @@ namespace bp::api {
 
 namespace {
 
-VoxelOptions voxels_of(const Scene& scene, const bp_voxelize_options& o) {
-  VoxelOptions v;
-  v.scenes = scene.files;
-  v.format = scene.format;
-  if (const Length length = length_of(o.voxel, "voxel"); length.value > 0) v.voxel = length;
-  if (v.voxel && v.voxel->unit == Length::Unit::voxels)
-    fail(ErrorCode::bad_argument, "voxel: a voxel is not measured in voxels");
-  if (o.resolution < 0) fail(ErrorCode::bad_argument, "resolution: {} is below 1", o.resolution);
-  if (o.resolution > 0) v.resolution = o.resolution;
-  if (v.voxel && v.resolution) fail(ErrorCode::bad_argument, "voxel and resolution exclude each other");
-  v.fill = choice<FillMode>(o.fill, 4, "fill");
-  v.up = up_of(o.up);
-  return v;
-}
-
 SceneOptions reading_options(const Scene& scene, const CommonOptions& common, std::uint64_t memory,
                              const VoxelizeBudget& budget) {
   SceneOptions options{scene.format, budget.reader, common.temp};
@@ -103,9 +88,25 @@ class Closing {
 
 }  // namespace
 
+VoxelOptions voxel_options(const Scene& scene, const bp_voxelize_options* given) {
+  const bp_voxelize_options o = take_struct(given, bp_voxelize_options{}, "bp_voxelize_options");
+  VoxelOptions v;
+  v.scenes = scene.files;
+  v.format = scene.format;
+  if (const Length length = length_of(o.voxel, "voxel"); length.value > 0) v.voxel = length;
+  if (v.voxel && v.voxel->unit == Length::Unit::voxels)
+    fail(ErrorCode::bad_argument, "voxel: a voxel is not measured in voxels");
+  if (o.resolution < 0) fail(ErrorCode::bad_argument, "resolution: {} is below 1", o.resolution);
+  if (o.resolution > 0) v.resolution = o.resolution;
+  if (v.voxel && v.resolution) fail(ErrorCode::bad_argument, "voxel and resolution exclude each other");
+  v.fill = choice<FillMode>(o.fill, 4, "fill");
+  v.up = up_of(o.up);
+  return v;
+}
+
 std::shared_ptr<const VoxelGrid> voxelize(const std::shared_ptr<const Scene>& scene, const bp_voxelize_options* given,
                                           Call& call) {
-  const VoxelOptions voxels = voxels_of(*scene, take_struct(given, bp_voxelize_options{}, "bp_voxelize_options"));
+  const VoxelOptions voxels = voxel_options(*scene, given);
   call.begin("reading");
   Backends backends = make_backends(call.common(), 0);
   const std::uint64_t memory = unpinned(call.common().memory_bytes, pinned_bytes(backends));
@@ -121,7 +122,7 @@ std::shared_ptr<const VoxelGrid> voxelize(const std::shared_ptr<const Scene>& sc
   ShelfSink sink(grid->solid.get());
   const auto open = [&](const StreamHeader& h, const VoxelizeCounts& counts) -> BrickSink& {
     grid->header = h;
-    const bool told = voxels.up || source->up() || (!scene->arrays && voxels.tell_up());
+    const bool told = voxels.up || source->up() || voxels.tell_up();
     grid->header.provenance.push_back(
         make_provenance("bpvox", voxelize_text(voxels, h.frame.up, told), counts.input_hash));
     grid->header.scene =

@@ -52,7 +52,7 @@ void bp_hulls_defaults(bp_hulls_options* options, size_t size) {
 
 bp_status bp_hulls(const bp_mesh* mesh, size_t index, const bp_hulls_options* options, const bp_run* run,
                    bp_mesh** out) {
-  return guarded_result(run, out, [&](Call& call) { return hulls(mesh_at(mesh, index), options, call); });
+  return guarded_result(run, out, [&](Call& call) { return bp_mesh{hulls(mesh_at(mesh, index), options, call), {}}; });
 }
 
 }  // extern "C"

@@ -79,7 +79,7 @@ using namespace bp::api;
 extern "C" {
 
 bp_status bp_mesh_load(const char* path, const bp_run* run, bp_mesh** out) {
-  return guarded_result(run, out, [&](Call& call) { return load_meshes(path, call); });
+  return guarded_result(run, out, [&](Call& call) { return bp_mesh{load_meshes(path, call), {}}; });
 }
 
 size_t bp_mesh_count(const bp_mesh* mesh) {

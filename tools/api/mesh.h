@@ -23,6 +23,9 @@ struct Mesh {
 };
 using Meshes = std::vector<Mesh>;
 
+/// How bplod writes the meshes of a handle (levels.cpp).
+struct LevelFiles;
+
 /// Makes the arrays of a mesh.
 [[nodiscard]] Mesh mesh_of(LatticeMesh lattice);
 
@@ -33,6 +36,7 @@ using Meshes = std::vector<Mesh>;
 
 struct bp_mesh {
   bp::api::Meshes meshes;
+  std::shared_ptr<const bp::api::LevelFiles> files;  ///< null: they are not written as files that belong together
 };
 
 namespace bp::api {

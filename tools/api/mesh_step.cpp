@@ -138,14 +138,16 @@ void bp_mesh_defaults(bp_mesh_options* options, size_t size) {
 }
 
 bp_status bp_mesh_make(const bp_grid* grid, const bp_mesh_options* options, const bp_run* run, bp_mesh** out) {
-  return guarded_result(run, out, [&](Call& call) { return mesh(*needed(grid, "grid").grid, options, call); });
+  return guarded_result(run, out, [&](Call& call) {
+    return bp_mesh{mesh(*needed(grid, "grid").grid, options, call), {}};
+  });
 }
 
 bp_status bp_proxy(const bp_scene* scene, const bp_voxelize_options* voxels, const bp_close_options* closing,
                    const bp_mesh_options* options, const bp_run* run, bp_mesh** out) {
   return guarded_result(run, out, [&](Call& call) {
     const auto closed = close(*voxelize(needed(scene, "scene").scene, voxels, call), closing, call);
-    return mesh(*closed, options, call);
+    return bp_mesh{mesh(*closed, options, call), {}};
   });
 }
 

@@ -134,7 +134,7 @@ std::unique_ptr<SceneLooks> read_looks(const Build& build, const LodScene& scene
   how.colors = build.options.colors();
   how.textures = scene.textures;
   how.keep_degenerate = false;  // triangles without area show nothing
-  const auto source = open_scenes(build.options.voxels.scenes, how);
+  const auto source = build.open_scene(how);
   const SceneSize& size = scene.size;
   const SceneLooks::Scene read{*source, size.bounds, size.triangles - size.without_area, scene.textures};
   return std::make_unique<SceneLooks>(read, make_scratch(build.budget.tiles, build.options.common.temp), memory);

@@ -62,14 +62,20 @@ void tell(Build& build, const ToldScene& scene, const std::string& list, const s
 
 }  // namespace
 
-Build::Build(const BuildOptions& o)
+Build::Build(const BuildOptions& o) : Build(o, {}) {}
+
+Build::Build(const BuildOptions& o, BuildHost by)
     : options(o),
       progress("bplod", o.common.progress),
       // A GPU is not worth its memory: reading and meshing take far longer than closing.
       backends(make_backends(o.common, 0)),
       budget(o.common.memory_bytes, std::min(pinned_bytes(backends), o.common.memory_bytes / 2)),
       make_shelf(make_shelf_factory(budget.shelf, o.common.temp)),
-      show(progress.for_pass()) {}
+      host{std::move(by.open), by.show ? std::move(by.show) : progress.for_pass(), by.stop} {}
+
+std::unique_ptr<TriangleSource> Build::open_scene(const SceneOptions& how) const {
+  return host.open ? host.open(how) : open_scenes(options.voxels.scenes, how);
+}
 
 void Build::place() {
   if (!options.place.crs.empty()) report.begin("place");
@@ -83,8 +89,9 @@ SceneOptions Build::scene_options(bool beside) const {
   scene.details = options.leaves || options.proxy.visual;
   scene.surface = options.full() || scene.details;
   scene.walls_only = options.profile == LodProfile::occluder, scene.keep_degenerate = true;
-  scene.document = document_budget(unpinned(options.common.memory_bytes, pinned_bytes(backends)), kVoxelProgram,
-                                   beside ? 2 : options.voxels.scenes.size(), may_read_again(options));
+  scene.document =
+      document_budget(unpinned(options.common.memory_bytes, pinned_bytes(backends)), kVoxelProgram,
+                      beside ? 2 : std::max<std::size_t>(options.voxels.scenes.size(), 1), may_read_again(options));
   return scene;
 }
 
@@ -95,7 +102,8 @@ PassContext Build::context(ResultStore* results, double share) const {
   context.make_shelf = make_shelf;
   context.results = results;
   if (options.tiles) context.turn = options.tiles->begin;
-  context.progress = show;
+  context.progress = host.show;
+  context.stop = host.stop;
   PieceMemory& memory = context.pieces;
   memory.waiting_bytes = work.bytes / 20 * 9;
   memory.work_bytes = work.bytes - memory.waiting_bytes;

@@ -1,4 +1,6 @@
 #pragma once
+#include <atomic>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
@@ -16,6 +18,13 @@
 /// The state that all steps of a run of bplod share, and the report at its end.
 namespace bp {
 
+/// A program that makes levels from its own scene, and is told of their progress: libbp.
+struct BuildHost {
+  std::function<std::unique_ptr<TriangleSource>(const SceneOptions&)> open;  ///< none: the files of the options
+  PassProgress show;                                                         ///< progress of passes
+  const std::atomic<bool>* stop = nullptr;                                   ///< as in PassContext
+};
+
 struct Build {
   const BuildOptions& options;
   Report report{"bplod"};
@@ -23,13 +32,16 @@ struct Build {
   Backends backends;
   const BuildBudget budget;
   const ShelfFactory make_shelf;
-  const PassProgress show;  ///< progress of passes
-  PlacedScene placed;       ///< on the globe: set before the scene is read
+  const BuildHost host;
+  PlacedScene placed;  ///< on the globe: set before the scene is read
 
   explicit Build(const BuildOptions& options);
+  Build(const BuildOptions& options, BuildHost host);
   Build(const Build&) = delete;
   Build& operator=(const Build&) = delete;
 
+  /// Opens the scene from its start.
+  [[nodiscard]] std::unique_ptr<TriangleSource> open_scene(const SceneOptions& how) const;
   void note(const std::string& text);  ///< tells the user on stderr and in the report; an empty text is ignored
   /// Finds the place that the options ask for, and notes it. Reads the scene once if it has a system.
   void place();

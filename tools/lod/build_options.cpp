@@ -42,16 +42,6 @@ bool is_utf8(const std::string& text) {
   }
 }
 
-void check_name(BuildOptions& o) {
-  const bool given = !o.name.empty();
-  if (!given) o.name = base_name(o.voxels.scenes.front());
-  if (o.name.empty() || o.name.find('/') != std::string::npos)
-    fail(ErrorCode::bad_argument, "--name '{}': must be a name without a folder", o.name);
-  if (!is_utf8(o.name))
-    fail(ErrorCode::bad_argument, "{} '{}': is not UTF-8, as names in glTF are; give a --name in UTF-8",
-         given ? "--name" : "the scene's name", o.name);
-}
-
 Symmetry parse_symmetry(const std::string& text) {
   for (const Symmetry s : {Symmetry::x, Symmetry::y, Symmetry::z, Symmetry::off, Symmetry::automatic}) {
     if (text == name_of(s)) return s;
@@ -325,6 +315,24 @@ const char* BuildOptions::mode_name() const {
   return proxy.visual ? "visual" : name_of(proxy.mode);
 }
 
+void check_name(BuildOptions& o) {
+  const bool given = !o.name.empty();
+  if (!given) o.name = base_name(o.voxels.scenes.front());
+  if (o.name.empty() || o.name.find('/') != std::string::npos)
+    fail(ErrorCode::bad_argument, "--name '{}': must be a name without a folder", o.name);
+  if (!is_utf8(o.name))
+    fail(ErrorCode::bad_argument, "{} '{}': is not UTF-8, as names in glTF are; give a --name in UTF-8",
+         given ? "--name" : "the scene's name", o.name);
+}
+
+void settle(BuildOptions& o) {
+  // A fit searches for the scene from the closing's surface. At slanted sides the closing by a cube lies about as far
+  // from the scene as that search reaches, and the fit would get thorns there; balls follow such sides.
+  if (o.proxy.mode == MeshMode::fit) o.closing.element = StructuringElement::ball;
+  set_one_level(o);
+  check_levels(o);
+}
+
 BuildOptions parse_build_options(Args& args) {
   BuildOptions o;
   declare(args, o);
@@ -335,11 +343,7 @@ BuildOptions parse_build_options(Args& args) {
   check_profile(args, o);
   o.place.check(o.voxels.up, can_read_again(o));
   o.place.at = o.proxy.origin.point;
-  // A fit searches for the scene from the closing's surface. At slanted sides the closing by a cube lies about as far
-  // from the scene as that search reaches, and the fit would get thorns there; balls follow such sides.
-  if (o.proxy.mode == MeshMode::fit) o.closing.element = StructuringElement::ball;
-  set_one_level(o);
-  check_levels(o);
+  settle(o);
   take_obj_name(args, o);
   check_visual(args, o);
   check_output(o);

@@ -66,9 +66,10 @@ std::vector<WrittenFile> write_cage_profile(const std::string& name, const Latti
 
 }  // namespace
 
-OutputFolder::OutputFolder(std::string path, const std::vector<std::string>& names, bool overwrite)
-    : path_(std::move(path)), overwrite_(overwrite), made_(path_), names_(names) {
-  for (const std::string& name : names) files_.push_back(open_output(path_ + "/" + name, overwrite));
+OutputFolder::OutputFolder(std::string path, const std::vector<std::string>& names, bool overwrite, Open open)
+    : path_(std::move(path)), overwrite_(overwrite), open_(open), made_(path_), names_(names) {
+  if (open_ == nullptr) open_ = [](const std::string& name, bool replace) { return open_output(name, replace); };
+  for (const std::string& name : names) files_.push_back(open_(path_ + "/" + name, overwrite));
 }
 
 OutputFile& OutputFolder::file(const std::string& name) {
@@ -79,7 +80,7 @@ OutputFile& OutputFolder::file(const std::string& name) {
 
 OutputFile& OutputFolder::add(const std::string& name, const std::string& next) {
   const auto at = std::find(names_.begin(), names_.end(), next) - names_.begin();
-  files_.insert(files_.begin() + at, open_output(path_ + "/" + name, overwrite_));
+  files_.insert(files_.begin() + at, open_(path_ + "/" + name, overwrite_));
   names_.insert(names_.begin() + at, name);
   return *files_[std::size_t(at)];
 }

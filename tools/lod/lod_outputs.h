@@ -18,8 +18,9 @@ namespace bp {
 class OutputFolder {
  public:
   /// Makes the folder if it does not exist. Without commit() neither files nor new folders stay. Throws bad_argument if
-  /// a file exists and `overwrite` is false.
-  OutputFolder(std::string path, const std::vector<std::string>& names, bool overwrite);
+  /// a file exists and `overwrite` is false. `open`: null is open_output(), which gives each name once in a process.
+  using Open = std::unique_ptr<OutputFile> (*)(const std::string& path, bool overwrite);
+  OutputFolder(std::string path, const std::vector<std::string>& names, bool overwrite, Open open = nullptr);
   [[nodiscard]] OutputFile& file(const std::string& name);
   /// Opens one more file, which is committed before `next`. Throws as the constructor.
   OutputFile& add(const std::string& name, const std::string& next);
@@ -35,6 +36,7 @@ class OutputFolder {
  private:
   std::string path_;
   bool overwrite_;
+  Open open_;
   MadeFolder made_;
   std::vector<std::string> names_, left_out_;
   std::vector<std::unique_ptr<OutputFile>> files_;

@@ -5,11 +5,9 @@
 #include <cmath>
 
 #include "lib/core/error.h"
-#include "lib/levels/occluder_level.h"
 #include "tools/cli/names.h"
 #include "tools/lod/choices.h"
 #include "tools/lod/lod_outputs.h"
-#include "tools/lod/scene/lod_scene.h"
 #include "tools/run/hiding_recipe.h"
 
 namespace bp {
@@ -18,14 +16,6 @@ namespace {
 
 constexpr double kLittle = 5e-3;  // of the bounds' volume
 constexpr double kHalf = 0.5;     ///< of the hidden volume
-
-/// An occluder, with the scene that it was made from.
-struct BuiltOccluder {
-  LodScene scene;
-  HiddenScene hidden;
-  bool ground = false;  ///< the scene stands on the ground
-  MadeOccluder made;
-};
 
 double hidden_volume(const BuiltOccluder& built) {
   return double(built.hidden.voxels.count) * std::pow(built.scene.voxels.header.frame.voxel, 3);
@@ -117,14 +107,21 @@ BuiltOccluder make(Build& build) {
 
 }  // namespace
 
+BuiltOccluder built_occluder(Build& build) {
+  BuiltOccluder built = make(build);
+  LodLevel& level = built.made.level;
+  const OptionText text = option_text(build.options, built);
+  level.mesh.provenance = {make_provenance("bplod", text, built.scene.voxels.counts.input_hash)};
+  note(build, built, facts_of(level, {}).volume);
+  return built;
+}
+
 void build_occluder(const BuildOptions& o) {
   OutputFolder out(o.out, profile_files(o.profile, o.name, 1), o.common.overwrite);
   Build build(o);
-  BuiltOccluder built = make(build);
+  BuiltOccluder built = built_occluder(build);
   LodLevel& level = built.made.level;
-  level.mesh.provenance = {make_provenance("bplod", option_text(o, built), built.scene.voxels.counts.input_hash)};
   const LevelFacts facts = facts_of(level, {});
-  note(build, built, facts.volume);
   build.progress.end();
   build.report.begin("write");
   const Json more = json_of(built);

@@ -60,7 +60,7 @@ void VoxelOptions::add_with_inside(Args& args, const std::string& resolution_def
 }
 
 bool VoxelOptions::tell_up() const {
-  return up || are_gltf(format, scenes);
+  return up || (!scenes.empty() && are_gltf(format, scenes));
 }
 
 void VoxelOptions::check() {

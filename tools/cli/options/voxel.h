@@ -32,7 +32,7 @@ struct VoxelOptions {
   /// tileset in it. Keeps the scenes from being overwritten.
   void check();
   /// Returns true if the axis up is known: by --up, or because all scenes are glTF, which has y up. It is not known for
-  /// stdin without --format.
+  /// stdin without --format, and without files.
   [[nodiscard]] bool tell_up() const;
 };
 

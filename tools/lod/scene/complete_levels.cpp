@@ -129,4 +129,16 @@ MadeChain make_chain(Build& build) {
   return chain;
 }
 
+void note_chain(Build& build, const MadeChain& chain) {
+  const CompleteLevels& made = chain.made;
+  note_levels(build, made.facts, 0, made.left_out, chain.scene.size);
+  const LevelFacts& finest = made.facts.front();
+  const bool asked = asks_for_faces(request_of(build.options));
+  build.note(heavier_note(finest, asked, chain.scene.size.triangles));
+  if (made.scene_of(0) != nullptr) return;
+  const std::string joined =
+      joined_note(finest, made.levels.front().counts.levels.front().measures.shells, chain.parts);
+  build.note(joined.empty() && !asked ? closed_note(finest) : joined);
+}
+
 }  // namespace bp

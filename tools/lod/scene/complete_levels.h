@@ -30,5 +30,7 @@ struct MadeChain {
   CompleteLevels made;
 };
 [[nodiscard]] MadeChain make_chain(Build& build);
+/// Tells the notes on the levels.
+void note_chain(Build& build, const MadeChain& chain);
 
 }  // namespace bp

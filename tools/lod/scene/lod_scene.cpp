@@ -118,7 +118,7 @@ std::vector<TriangleD> scene_triangles(const Build& build, std::uint64_t triangl
     throw NeedsMemory(fmt::format("{} {} triangles", fit ? "fitting to" : "enclosing", triangles), bytes, memory.bytes,
                       memory.limit_with(bytes - memory.bytes), fit ? Remedies{} : Remedies{Remedy::enclose_input});
   all.reserve(triangles);
-  const auto source = open_scenes(o.voxels.scenes, build.scene_options(true));
+  const auto source = build.open_scene(build.scene_options(true));
   for (std::vector<TriangleD> chunk; all.size() <= triangles && source->read(chunk);)
     all.insert(all.end(), chunk.begin(), chunk.end());
   if (all.size() != triangles)
@@ -147,7 +147,7 @@ LodScene read_scene(Build& build, const ReadOptions& read) {
   SceneOptions how = build.scene_options();
   how.colors = o.colors();
   if (o.may_have_textures()) how.textures = scene.textures = std::make_shared<TextureTable>();
-  auto source = open_scenes(o.voxels.scenes, how);
+  auto source = build.open_scene(how);
   if (read.ground) source = std::make_unique<GroundedSource>(std::move(source), o.voxels.up);
   VoxelizeOptions v = voxelize_options(build, read);
   v.voxel_size = [&](const Bounds3d& bounds) {  // is called when the scene has been read

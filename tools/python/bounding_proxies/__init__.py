@@ -15,11 +15,13 @@ from ._call import Options
 from ._check import Verdict, check
 from ._grid import Grid, close, load_grid, voxelize
 from ._library import ArgumentError, CancelledError, Error, FailedError, InputError, ResourceError, lib
+from ._levels import levels, occluder, save_levels
 from ._mesh import Mesh, hulls, load, mesh, proxy
 from ._scene import Scene
 
 __all__ = ["ArgumentError", "CancelledError", "Error", "FailedError", "Grid", "InputError", "Mesh", "Options", "ResourceError", "Scene", "Verdict",
-           "Weights", "bind", "cage", "check", "close", "hulls", "library_version", "load", "load_grid", "mesh", "proxy", "voxelize"]
+           "Weights", "bind", "cage", "check", "close", "hulls", "levels", "library_version", "load", "load_grid", "mesh", "occluder", "proxy",
+           "save_levels", "voxelize"]
 
 
 def library_version():

@@ -4,10 +4,12 @@ from ctypes import byref
 import numpy as np
 
 from ._call import Options, call
-from ._library import ArgumentError, BindOptions, choice, lib
-from ._mesh import Mesh
-from ._scene import arrays_of, mesh_arrays
+from ._grid import Grid, voxelize_options
+from ._library import ArgumentError, BindOptions, CageOptions, choice, length, lib
+from ._mesh import Mesh, face_count
+from ._scene import arrays_of, mesh_arrays, scene_of
 
+SYMMETRIES = ("auto", "off", "x", "y", "z")
 KINDS = ("mean_value", "green", "maximum_likelihood")
 
 
@@ -22,17 +24,37 @@ def _points(points, name, count=None):
     return np.ascontiguousarray(array, np.float64)
 
 
-def cage(grid, faces, **run):
-    """Makes a cage of nothing but quads around the scene of a grid.
+def cage(scene, triangles=None, faces=None, *, margin=None, symmetry="auto", voxel=None, resolution=None, fill="flood", up=None, **run):
+    """Makes a cage of quads around a scene, to deform with.
 
-    grid   of voxelize() or close(); a closed one gives a smoother cage
-    faces  most triangles, 12 at least; two of them make a quad: Mesh.quads
-    run    threads, memory, temp, device, progress (Options)
-    Returns a Mesh that strictly encloses the scene. Cost: a second for 1000 faces.
+    cage(scene, ...)   as bplod --profile cage does:
+      faces      most triangles; two of them make a quad: Mesh.quads. None: chosen, 1000 at most
+      margin     least distance from the scene: a number in scene units, or "1%" of its diagonal; None: 0.5 %
+      symmetry   "x", "y", "z": the cage is its own mirror image across that axis; "auto": if the scene is; "off"
+      voxel, resolution, fill, up   as voxelize() has them
+    cage(grid, faces)  around the scene of a Grid of voxelize() or close(), without a margin; a closed grid gives a smoother cage. The other
+                       arguments mean nothing then. faces: 12 at least
+    run  threads, memory, temp, device, progress (Options)
+    Returns a Mesh that strictly encloses the scene. Cost: a second for 1000 faces, and the voxels.
     """
-    if int(faces) != faces or not 0 < faces < 2**63:
-        raise ArgumentError(f"faces: {faces!r} is no number of triangles")
-    handle, notes = call(Options(**run), "bp_cage", lambda r: (grid._handle.address, int(faces), r), "bp_mesh_free")
+    if isinstance(scene, Grid):
+        if triangles is not None and faces is None:
+            triangles, faces = None, triangles
+        if triangles is not None or margin is not None or symmetry != "auto" or (voxel, resolution, fill, up) != (None, None, "flood", None):
+            raise ArgumentError("a cage of a grid takes a number of faces; give the scene for a margin or a symmetry")
+        if faces is None:
+            raise ArgumentError("faces: a cage of a grid needs a number of triangles")
+        count = face_count(faces)
+        handle, notes = call(Options(**run), "bp_cage", lambda r: (scene._handle.address, count, r), "bp_mesh_free")
+        return Mesh(handle, 0, notes)
+    options = CageOptions.made()
+    options.faces = 0 if faces is None else face_count(faces)
+    options.margin = length(margin, "margin")
+    options.no_margin = margin is not None and options.margin.value == 0
+    options.symmetry = choice(symmetry, SYMMETRIES, "symmetry")
+    voxels = voxelize_options(voxel, resolution, fill, up)
+    scene = scene_of(scene, triangles, copy=False)
+    handle, notes = call(Options(**run), "bp_scene_cage", lambda r: (scene._handle.address, byref(voxels), byref(options), r), "bp_mesh_free")
     return Mesh(handle, 0, notes)
 
 

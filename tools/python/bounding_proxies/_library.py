@@ -90,6 +90,22 @@ class HullsOptions(Sized):
     _fields_ = [("size", c_size_t), ("hulls", c_uint32), ("faces", c_uint64), ("corners", c_uint32)]
 
 
+class LevelsOptions(Sized):
+    defaults = "bp_levels_defaults"
+    _fields_ = [("size", c_size_t), ("faces", POINTER(c_uint64)), ("face_count", c_size_t), ("errors", POINTER(Length)), ("error_count", c_size_t),
+                ("levels", c_uint32), ("scale", Length), ("mode", c_int32), ("enclose", c_int32)]
+
+
+class OccluderOptions(Sized):
+    defaults = "bp_occluder_defaults"
+    _fields_ = [("size", c_size_t), ("faces", c_uint64), ("scale", Length), ("no_scale", c_int32)]
+
+
+class CageOptions(Sized):
+    defaults = "bp_cage_defaults"
+    _fields_ = [("size", c_size_t), ("faces", c_uint64), ("margin", Length), ("no_margin", c_int32), ("symmetry", c_int32)]
+
+
 class BindOptions(Sized):
     defaults = "bp_bind_defaults"
     _fields_ = [("size", c_size_t), ("kind", c_int32), ("carry_outside", c_int32)]
@@ -158,6 +174,10 @@ _FUNCTIONS = {  # name: result, arguments
     "bp_verdict_json": (c_char_p, [_p]),
     "bp_verdict_free": (None, [_p]),
     "bp_hulls": (_i, [_p, _s, _p, _p, _p]),
+    "bp_levels": (_i, [_p, _p, _p, _p, _p]),
+    "bp_occluder": (_i, [_p, _p, _p, _p, _p]),
+    "bp_scene_cage": (_i, [_p, _p, _p, _p, _p]),
+    "bp_levels_save": (_i, [_p, c_char_p, c_char_p, _i]),
     "bp_cage": (_i, [_p, c_uint64, _p, _p]),
     "bp_bind": (_i, [_p, _p, _s, _p, _p, _p]),
     "bp_weights_apply": (_i, [_p, _p, _p, _p]),

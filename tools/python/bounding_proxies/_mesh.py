@@ -59,19 +59,26 @@ class Mesh:
         check(lib().bp_mesh_save(self._handle.address, self._index, os.fsencode(path), int(overwrite)))
 
 
-def _meshes(handle, notes):
+def face_count(count):
+    if int(count) != count or not 0 < count < 2**63:
+        raise ArgumentError(f"faces: {count!r} is no number of triangles")
+    return int(count)
+
+
+def face_counts(faces):
+    """Returns numbers of triangles as an array of ctypes, and how many there are."""
+    counts = [face_count(count) for count in ([faces] if np.ndim(faces) == 0 else faces)]
+    return (c_uint64 * len(counts))(*counts), len(counts)
+
+
+def meshes_of(handle, notes):
     return [Mesh(handle, i, notes) for i in range(lib().bp_mesh_count(handle.address))]
 
 
 def mesh_options(faces=None, error=None, volume=None, mode="auto", enclose="auto", quads=False):
     options = MeshOptions.made()
     if faces is not None:
-        counts = [faces] if np.ndim(faces) == 0 else list(faces)
-        for count in counts:
-            if int(count) != count or not 0 < count < 2**63:
-                raise ArgumentError(f"faces: {count!r} is no number of triangles")
-        options.kept = (c_uint64 * len(counts))(*map(int, counts))
-        options.faces, options.levels = options.kept, len(counts)
+        options.faces, options.levels = face_counts(faces)
     options.error = length(error, "error")
     options.volume = 0 if volume is None else float(volume)
     options.mode = choice(mode, MODES, "mode")
@@ -98,7 +105,7 @@ def mesh(grid, faces=None, *, error=None, volume=None, mode="auto", enclose="aut
     """
     options = mesh_options(faces, error, volume, mode, enclose, quads)
     handle, notes = call(Options(**run), "bp_mesh_make", lambda r: (grid._handle.address, byref(options), r), "bp_mesh_free")
-    return _one_or_all(faces, _meshes(handle, notes))
+    return _one_or_all(faces, meshes_of(handle, notes))
 
 
 def proxy(scene, triangles=None, faces=1000, scale=None, *, voxel=None, resolution=None, fill="flood", up=None, rules=None, element="cube",
@@ -115,12 +122,12 @@ def proxy(scene, triangles=None, faces=1000, scale=None, *, voxel=None, resoluti
     scene = scene_of(scene, triangles, copy=False)
     handle, notes = call(Options(**run), "bp_proxy", lambda r: (scene._handle.address, byref(voxels), byref(closing), byref(options), r),
                          "bp_mesh_free")
-    return _one_or_all(faces, _meshes(handle, notes))
+    return _one_or_all(faces, meshes_of(handle, notes))
 
 
 def load(path, **run):
     """Reads a file of a mesh. Returns its levels, finest first, as a list. Vertices of equal coordinates become one."""
-    return _meshes(*call(Options(**run), "bp_mesh_load", lambda r: (os.fsencode(path), r), "bp_mesh_free"))
+    return meshes_of(*call(Options(**run), "bp_mesh_load", lambda r: (os.fsencode(path), r), "bp_mesh_free"))
 
 
 def hulls(mesh, hulls=0, *, faces=0, corners=0, **run):
@@ -136,4 +143,4 @@ def hulls(mesh, hulls=0, *, faces=0, corners=0, **run):
         raise TypeError(f"{type(mesh).__name__} is no Mesh; hulls() takes what mesh() or proxy() returned")
     options = HullsOptions.made()
     options.hulls, options.faces, options.corners = hulls, faces, corners
-    return _meshes(*call(Options(**run), "bp_hulls", lambda r: (mesh._handle.address, mesh._index, byref(options), r), "bp_mesh_free"))
+    return meshes_of(*call(Options(**run), "bp_hulls", lambda r: (mesh._handle.address, mesh._index, byref(options), r), "bp_mesh_free"))

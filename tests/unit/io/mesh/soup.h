@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <vector>
 
 #include "lib/core/indexed_mesh.h"
@@ -24,6 +25,14 @@ namespace bp::test {
     }
     all.push_back(d);
   }
+  return all;
+}
+
+/// Returns the triangles sorted, each from its lowest corner on in its cyclic order: files may hold them in another
+/// order.
+[[nodiscard]] inline std::vector<TriangleD> canonical(std::vector<TriangleD> all) {
+  for (TriangleD& t : all) std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  std::sort(all.begin(), all.end());
   return all;
 }
 

@@ -36,13 +36,6 @@ LatticeMesh random_level(const GridFrame& frame, std::int64_t reach, unsigned se
   return mesh;
 }
 
-/// Lowest corner first, cyclic order kept; sorted: the file may hold them in another order.
-std::vector<TriangleD> canonical(std::vector<TriangleD> all) {
-  for (TriangleD& t : all) std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-  std::sort(all.begin(), all.end());
-  return all;
-}
-
 Json json_of(const std::string& path) {
   const std::string bytes = bytes_of_file(path);
   std::uint32_t size = 0;

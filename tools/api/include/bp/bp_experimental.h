@@ -26,7 +26,73 @@ BP_API void bp_hulls_defaults(bp_hulls_options* options, size_t size);
 BP_API bp_status bp_hulls(const bp_mesh* mesh, size_t index, const bp_hulls_options* options, const bp_run* run,
                           bp_mesh** out);
 
+/* ---- Levels of detail, and occluders --------------------------------------------------------------*/
+
+typedef struct bp_levels_options {
+  size_t size;
+  const uint64_t* faces;   /* triangles of each level, falling. One number: of the finest level; each other level gets a
+                              quarter of those before. Neither faces nor errors: the scene decides */
+  size_t face_count;       /* numbers in `faces` */
+  const bp_length* errors; /* largest distance of each level, rising, in place of `faces`. One number: of the finest
+                              level; it doubles from level to level */
+  size_t error_count;
+  uint32_t levels; /* at most so many, 32 at most; 0: as many as are listed, else 4, or fewer */
+  bp_length scale; /* closing radius of the finest level, which doubles from level to level; 0: chosen */
+  int32_t mode;    /* bp_mode: bounding (auto), or fit */
+  int32_t enclose; /* bp_enclose */
+} bp_levels_options;
+BP_API void bp_levels_defaults(bp_levels_options* options, size_t size);
+
+/* Makes levels of detail of a scene as bplod does, without colours and textures. `out` holds the levels, finest first:
+ * each has fewer triangles than the level before, and a larger error (bp_mesh_info.error_bound: the largest distance
+ * that a viewer can see). A level that is not worth having is left out, and a note tells why. Each bounding level
+ * strictly encloses the scene, but not the level before. `voxelize`: NULL, or without voxel and resolution: the voxels
+ * follow from faces or errors; BP_FILL_INSIDE is refused. Cost: seconds to a minute. */
+BP_API bp_status bp_levels(const bp_scene* scene, const bp_voxelize_options* voxelize, const bp_levels_options* options,
+                           const bp_run* run, bp_mesh** out);
+
+typedef struct bp_occluder_options {
+  size_t size;
+  uint64_t faces;   /* most triangles; 0: chosen, some hundred */
+  bp_length scale;  /* openings narrower than twice this count as closed; 0: the least that hides nearly the most */
+  int32_t no_scale; /* not 0: a scale of exactly 0, which keeps free what one can enter */
+} bp_occluder_options;
+BP_API void bp_occluder_defaults(bp_occluder_options* options, size_t size);
+
+/* Makes a mesh strictly inside what the scene hides, for occlusion culling, as bplod --profile occluder does. `fill` of
+ * `voxelize` is refused. Prove it with bp_check_options.inside. BP_BAD_INPUT if the scene hides nothing. Cost: some
+ * seconds at the default of 512 voxels. */
+BP_API bp_status bp_occluder(const bp_scene* scene, const bp_voxelize_options* voxelize,
+                             const bp_occluder_options* options, const bp_run* run, bp_mesh** out);
+
+/* Writes all meshes of bp_levels(), bp_occluder() or bp_scene_cage() into a folder, with the names and bytes of bplod:
+ * NAME_LOD0.glb and so on and NAME.glb with all levels, NAME_occluder.glb, or NAME_cage.obj and NAME_cage.glb. All
+ * files appear, or none. The folder is made if it is missing. */
+BP_API bp_status bp_levels_save(const bp_mesh* meshes, const char* folder, const char* name, int overwrite);
+
 /* ---- Cages that deform points ---------------------------------------------------------------------*/
+
+typedef enum bp_symmetry {
+  BP_SYMMETRY_AUTO = 0, /* across the axis across which the scene is symmetric, if there is one */
+  BP_SYMMETRY_OFF = 1,
+  BP_SYMMETRY_X = 2,
+  BP_SYMMETRY_Y = 3,
+  BP_SYMMETRY_Z = 4
+} bp_symmetry;
+
+typedef struct bp_cage_options {
+  size_t size;
+  uint64_t faces;    /* most triangles; 0: chosen, 1000 at most */
+  bp_length margin;  /* least distance from the scene; 0: 0.5 % of the scene's diagonal */
+  int32_t no_margin; /* not 0: a margin of exactly 0 */
+  int32_t symmetry;  /* bp_symmetry: the cage is its own mirror image */
+} bp_cage_options;
+BP_API void bp_cage_defaults(bp_cage_options* options, size_t size);
+
+/* Makes a cage of quads and triangles around a scene as bplod --profile cage does: with a margin, since coordinates
+ * bend sharply near a cage, and symmetric. Prove the margin with bp_check_options.margin. Cost: some seconds. */
+BP_API bp_status bp_scene_cage(const bp_scene* scene, const bp_voxelize_options* voxelize,
+                               const bp_cage_options* options, const bp_run* run, bp_mesh** out);
 
 /* Makes a cage of nothing but quads around the scene of a closed grid: at most `faces` triangles, 12 at least. The
  * quads are pairs of triangles, bp_mesh_view.quads. The cage is closed and strictly around the scene, as other proxies
