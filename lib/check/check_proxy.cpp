@@ -177,6 +177,7 @@ void check_scene_in_parts(const WeldedMesh& mesh, const Surface& surface, Triang
 CheckReport check_proxy(const IndexedMesh& proxy, TriangleSource* scene, const CheckOptions& options) {
   CheckReport report;
   WeldedMesh mesh = weld(proxy, options.max_examples, report);
+  report.wants_convex = options.convex;
   check_topology(mesh, options.max_examples, report);
   measure(mesh, report);
   report.proxy_off = most_off(mesh.points, proxy.rounding);
@@ -184,7 +185,6 @@ CheckReport check_proxy(const IndexedMesh& proxy, TriangleSource* scene, const C
   report.self_intersections = surface.self_intersections(options.max_examples, options.convex);
   report.sides_decided = report.closed() && report.oriented();
   if (report.sides_decided) report.inverted_components = inverted_components(mesh, surface, options.max_examples);
-  report.wants_convex = options.convex;
   if (options.convex && report.sides_decided) report.nonconvex_parts = nonconvex_parts(mesh, options.max_examples);
   if (scene == nullptr) return report;
   if (options.convex) {

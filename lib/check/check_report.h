@@ -64,7 +64,7 @@ struct CheckReport {
   FaceCounts faces;                   ///< the faces that the triangles were cut from
   std::uint64_t merged_vertices = 0;  ///< repeated positions in the input
   std::uint64_t components = 0;       ///< sets of triangles that edges connect
-  std::int64_t euler = 0;             ///< vertices - edges + triangles
+  std::int64_t euler = 0;  ///< vertices - edges + triangles; a vertex of several convex parts counts for each
   std::optional<std::int64_t> genus;  ///< sum over components; only for a closed, oriented 2-manifold
 
   std::uint64_t differing = 0;  ///< IndexedMesh::differing
@@ -79,7 +79,8 @@ struct CheckReport {
   Finding boundary_edges;        ///< index, other: vertices of an edge with one triangle
   Finding misoriented_edges;     ///< index, other: vertices of an edge not used equally often in both directions
   Finding nonmanifold_edges;     ///< index, other: vertices of an edge with more than two triangles
-  Finding nonmanifold_vertices;  ///< index: vertex whose triangles form more than one fan
+  Finding nonmanifold_vertices;  ///< index: vertex whose triangles form more than one fan, of one part if parts are
+                                 ///< asked for
   Finding self_intersections;    ///< index < other: triangles that meet beyond the corner or edge they share
   /// Index: first triangle of a closed component that no other surrounds and whose signed volume is not positive.
   Finding inverted_components;

@@ -115,10 +115,11 @@ std::uint64_t check_edges(const WeldedMesh& mesh, const EdgeTable& table, std::s
   return edges;
 }
 
-/// Corners grouped by vertex: for each, the two other corners of its triangle.
+/// Corners grouped by vertex: for each, the two other corners of its triangle, and the triangle.
 struct CornerTable {
   std::vector<std::size_t> begin;
   std::vector<std::array<Index, 2>> others;
+  std::vector<Index> triangle;
 };
 
 CornerTable collect_corners(const WeldedMesh& mesh) {
@@ -127,36 +128,55 @@ CornerTable collect_corners(const WeldedMesh& mesh) {
   for_each_edge(mesh, [&](Index, Index a, Index) { ++table.begin[a + 1]; });
   std::partial_sum(table.begin.begin(), table.begin.end(), table.begin.begin());
   table.others.resize(table.begin.back());
+  table.triangle.resize(table.begin.back());
   std::vector<std::size_t> next(table.begin.begin(), table.begin.end() - 1);
-  for (const auto& c : mesh.triangles)
-    if (!has_repeated_corner(c))
-      for (std::size_t k = 0; k < 3; ++k) table.others[next[c[k]]++] = {c[(k + 1) % 3], c[(k + 2) % 3]};
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& c = mesh.triangles[t];
+    if (has_repeated_corner(c)) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t at = next[c[k]]++;
+      table.others[at] = {c[(k + 1) % 3], c[(k + 2) % 3]};
+      table.triangle[at] = Index(t);
+    }
+  }
   return table;
 }
 
-/// Returns the number of groups of triangles around a vertex that are connected by edges at it.
-std::size_t count_fans(const CornerTable& table, std::size_t vertex, std::vector<std::array<Index, 2>>& ends) {
+/// Returns the components of the groups of triangles around a vertex that are connected by edges at it, sorted.
+std::vector<Index> fans_at(const WeldedMesh& mesh, const CornerTable& table, std::size_t vertex,
+                           std::vector<std::array<Index, 2>>& ends) {
   const std::size_t begin = table.begin[vertex], n = table.begin[vertex + 1] - begin;
   ends.clear();  // (other end of an edge, corner)
   for (std::size_t i = 0; i < n; ++i)
     for (const Index other : table.others[begin + i]) ends.push_back({other, Index(i)});
   std::sort(ends.begin(), ends.end());
-  DisjointSets fans(n);
+  DisjointSets sets(n);
   for (std::size_t i = 1; i < ends.size(); ++i)
-    if (ends[i][0] == ends[i - 1][0]) fans.unite(ends[i][1], ends[i - 1][1]);
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < n; ++i) count += fans.find(Index(i)) == i;
-  return count;
+    if (ends[i][0] == ends[i - 1][0]) sets.unite(ends[i][1], ends[i - 1][1]);
+  std::vector<Index> fans;
+  for (std::size_t i = 0; i < n; ++i)
+    if (sets.find(Index(i)) == i) fans.push_back(mesh.component[table.triangle[begin + i]]);
+  std::sort(fans.begin(), fans.end());
+  return fans;
 }
 
-void check_fans(const WeldedMesh& mesh, std::size_t max_examples, CheckReport& report) {
+/// Checks that the triangles around each vertex form one fan. Convex parts may touch at a vertex, since they may
+/// overlap: there each part has its own fan. Returns the number of fans that parts have beyond the first at a vertex.
+std::uint64_t check_fans(const WeldedMesh& mesh, std::size_t max_examples, CheckReport& report) {
   const CornerTable table = collect_corners(mesh);
   std::vector<std::array<Index, 2>> scratch;
+  std::uint64_t more = 0;
   for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-    const std::size_t fans = count_fans(table, v, scratch);
-    report.vertices += fans > 0;
-    if (fans > 1) report.nonmanifold_vertices.add({mesh.vertex[v], 0, mesh.points[v]}, max_examples);
+    const std::vector<Index> fans = fans_at(mesh, table, v, scratch);
+    report.vertices += !fans.empty();
+    if (fans.size() < 2) continue;
+    const bool own = std::adjacent_find(fans.begin(), fans.end()) == fans.end();
+    if (report.wants_convex && own)
+      more += fans.size() - 1;
+    else
+      report.nonmanifold_vertices.add({mesh.vertex[v], 0, mesh.points[v]}, max_examples);
   }
+  return more;
 }
 
 void check_duplicates(const WeldedMesh& mesh, std::size_t max_examples, CheckReport& report) {
@@ -225,12 +245,12 @@ WeldedMesh weld(const IndexedMesh& mesh, std::size_t max_examples, CheckReport& 
 void check_topology(WeldedMesh& mesh, std::size_t max_examples, CheckReport& report) {
   DisjointSets sets(mesh.triangles.size());
   const std::uint64_t edges = check_edges(mesh, collect_edges(mesh), max_examples, sets, report);
-  check_fans(mesh, max_examples, report);
-  check_duplicates(mesh, max_examples, report);
   number_components(mesh, sets, report);
+  const std::uint64_t more_fans = check_fans(mesh, max_examples, report);
+  check_duplicates(mesh, max_examples, report);
   const auto faces = std::count_if(mesh.triangles.begin(), mesh.triangles.end(),
                                    [](const auto& t) { return !has_repeated_corner(t); });
-  report.euler = std::int64_t(report.vertices) - std::int64_t(edges) + std::int64_t(faces);
+  report.euler = std::int64_t(report.vertices + more_fans) - std::int64_t(edges) + std::int64_t(faces);
   if (report.closed() && report.oriented() && report.manifold())
     report.genus = std::int64_t(report.components) - report.euler / 2;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "lib/core/error.h"
+#include "lib/image/image_cache.h"
 #include "lib/pass/bake/textured_triangle.h"
 
 namespace bp {
@@ -31,6 +32,17 @@ LeafImages::LeafImages(const SceneLeaf& leaf, const TextureSet* images, const Me
     if (kept > memory.bytes)
       throw NeedsMemory("small copies of the scene's images", kept, memory.bytes, memory.limit_for(kept));
   }
+}
+
+std::uint64_t LeafImages::bytes_needed(const TextureSet& images) {
+  constexpr std::uint64_t kMostTexels = std::uint64_t(kSide) * kSide;
+  std::uint64_t kept = 0;
+  for (std::uint32_t i = 0; i < images.image_count(); ++i) {
+    const std::array<int, 2> size = images.size(i);
+    const std::uint64_t texels = std::min(std::uint64_t(size[0]) * std::uint64_t(size[1]), kMostTexels);
+    kept += texels * sizeof(TextureImage::Texel) / 3 * 4 + 8;  // with its smaller copies
+  }
+  return kept + ImageCache::bytes_needed(images);
 }
 
 const TextureMaterial* LeafImages::material(std::uint32_t i) const {

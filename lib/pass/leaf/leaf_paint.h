@@ -15,6 +15,8 @@ class LeafImages {
   /// Decodes all images that the leaf shows, one after the other. `images`: null: there are none, else it must live as
   /// long. Throws NeedsMemory.
   LeafImages(const SceneLeaf& leaf, const TextureSet* images, const MemoryShare& memory);
+  /// Returns the memory that suffices for any leaf with these images.
+  [[nodiscard]] static std::uint64_t bytes_needed(const TextureSet& images);
 
   /// Returns the images that are missing or cannot be decoded, each with the reason.
   [[nodiscard]] const std::map<std::uint32_t, std::string>& broken() const { return broken_; }

@@ -131,3 +131,15 @@ TEST_CASE("a part that intersects itself is found, parts that intersect each oth
   knot.vertices[0] = {0, 0, 3};  // through the top
   CHECK(convex_of(knot, cube(0.5)).self_intersections.count > 0);
 }
+
+TEST_CASE("parts may touch at a corner, where one surface may not", "[quick][check]") {
+  const IndexedMesh touching = join(cube(1), cube(1, {2, 2, 2}));
+  const CheckReport parts = convex_of(touching, cube(0.5));
+  CHECK(parts.answer() == Answer::proven);
+  CHECK(parts.nonmanifold_vertices.count == 0);
+  CHECK(parts.genus == 0);
+  CHECK(check_proxy(touching, nullptr).nonmanifold_vertices.count == 1);
+  IndexedMesh pinched = cube(1);  // two corners of one part at one place
+  pinched.vertices[7] = pinched.vertices[0];
+  CHECK_FALSE(convex_of(pinched, cube(0.5)).holds());
+}

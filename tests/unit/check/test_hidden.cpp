@@ -9,8 +9,8 @@ using namespace bp::test;
 namespace {
 
 /// Returns a room with walls of 3 around (0,0,0)..(32,24,24), open at x = 32 by a door of 6 x 13: 4 voxels wide, since
-/// voxels that the walls touch count. Voxels have an edge of 1. Of the door, a closing adds the half behind its middle
-/// to the room.
+/// voxels that the walls touch count. Voxels have an edge of 1. The half of the door behind its middle is added to the
+/// room by a closing.
 IndexedMesh room() {
   IndexedMesh m = box({-3, -3, -3}, {35, 27, 0});
   for (const auto& [lo, hi] : std::vector<std::pair<Vec3d, Vec3d>>{{{-3, -3, 24}, {35, 27, 27}},

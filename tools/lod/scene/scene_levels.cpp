@@ -50,6 +50,8 @@ bool is_whole(const std::shared_ptr<const SceneLeaf>& level, const SceneLeaf& sc
   return level != nullptr && level->triangles() == scene.triangles();
 }
 
+constexpr double kImagesBeside = 0.2;  // share of the memory for work: for images while levels are compared
+
 /// Levels are written when nothing else is in memory but their triangles.
 MemoryShare memory_for_images(const Build& build) {
   constexpr double kOfWork = 1.6;
@@ -88,7 +90,7 @@ SceneLevels::SceneLevels(Build& build, const LodScene& scene, const std::vector<
   require_memory(build, scene, targets);
   const Bounds3d& bounds = scene.size.bounds;
   const SceneLeaf whole = whole_scene(*read_looks(build, scene, part_of(build.budget.work, kLooksBeside)), bounds);
-  const LeafImages images(whole, scene.textures.get(), part_of(build.budget.work, 0.2));
+  const LeafImages images(whole, scene.textures.get(), part_of(build.budget.work, kImagesBeside));
   for (const auto& [image, fault] : images.broken()) {
     build.note(fault + "; levels from the scene leave it out");
     broken_.insert(image);
@@ -127,7 +129,9 @@ void SceneLevels::offer(Level& level, SceneLeaf&& leaf, const LeafImages& images
 }
 
 std::uint64_t SceneLevels::images_limit(const Build& build, const LodScene& scene) {
-  return memory_for_images(build).limit_for(bytes_of_images(scene));
+  if (scene.textures == nullptr) return 0;
+  return std::max(part_of(build.budget.work, kImagesBeside).limit_for(LeafImages::bytes_needed(*scene.textures)),
+                  memory_for_images(build).limit_for(bytes_of_images(scene)));
 }
 
 std::vector<std::uint64_t> SceneLevels::open() const {
