@@ -187,6 +187,12 @@ class Inputs(unittest.TestCase):
             verdict = bp.check(level, scene)
             self.assertTrue(verdict and verdict.proxy_to_scene <= level.error_bound)
         self.assertTrue(bp.check(bp.occluder(*scene, 60, resolution=96), scene, inside=True))
+        room = open_room()
+        occluder = bp.occluder(*room, 60, resolution=64)
+        self.assertTrue(bp.check(occluder, room, inside=True))
+        occluder.save(self.path("occluder.glb"))
+        self.assertTrue(bp.check(self.path("occluder.glb"), room, inside=True))
+        self.refused(bp.ArgumentError, "inside", bp.check, occluder, room, inside=True, convex=True)
         diagonal = np.linalg.norm(np.ptp(self.vertices, 0))
         for margin, wanted in (("2%", 0.02 * diagonal), (0.1, 0.1), (None, 0.005 * diagonal)):
             cage = bp.cage(*scene, 300, margin=margin, symmetry="off")

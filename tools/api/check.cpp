@@ -9,6 +9,8 @@
 #include "tools/api/call.h"
 #include "tools/api/mesh.h"
 #include "tools/api/structs.h"
+#include "tools/run/grounded_source.h"
+#include "tools/run/hiding_recipe.h"
 #include "tools/run/memory_shares.h"
 #include "tools/run/scene_budget.h"
 
@@ -23,8 +25,10 @@ namespace {
 
 constexpr std::size_t kCheckExamples = 5;
 
-std::unique_ptr<TriangleSource> open_for_check(const Scene& scene, const CommonOptions& common, std::uint64_t memory) {
+std::unique_ptr<TriangleSource> open_for_check(const Scene& scene, const CommonOptions& common, std::uint64_t memory,
+                                               bool walls_only = false) {
   SceneOptions options;
+  options.walls_only = walls_only;
   options.keep_extremes = options.keep_degenerate = true;
   options.memory_bytes = memory / 3;
   options.temp_dir = common.temp;
@@ -47,10 +51,33 @@ double margin_of(const bp_length& margin, TriangleSource* scene) {
   return length.in_world(bounds.diagonal(), 0);
 }
 
-bp_verdict* verdict_of(const ArrayScene& proxy, const bp_scene* scene, const bp_check_options* given, Call& call) {
+/// The scene as walls, for the question how a proxy is hidden.
+struct Walls {
+  std::unique_ptr<TriangleSource> source;
+  std::optional<HidingQuestion> question;
+};
+
+/// Opens the scene once more, as the recipe in the proxy's steps asks for it; nothing if they have none.
+Walls walls_of(const std::vector<std::string>& steps, const Scene& scene, const CommonOptions& common,
+               std::uint64_t memory) {
+  MeshExtras extras;
+  extras.provenance = steps;
+  const std::optional<OccluderRecipe> recipe = hiding_recipe(extras);
+  if (!recipe) return {};
+  Walls walls{open_for_check(scene, common, memory, recipe->opaque_only), {}};
+  if (recipe->ground) walls.source = std::make_unique<GroundedSource>(std::move(walls.source), recipe->up);
+  walls.question = HidingQuestion{recipe->hiding, walls.source.get(), !recipe->opaque_only};
+  return walls;
+}
+
+/// `steps`: that made the proxy, empty if they are not known.
+bp_verdict* verdict_of(const ArrayScene& proxy, const std::vector<std::string>& steps, const bp_scene* scene,
+                       const bp_check_options* given, Call& call) {
   const bp_check_options o = take_struct(given, bp_check_options{}, "bp_check_options");
   if (o.inside != 0 && scene == nullptr)
     fail(ErrorCode::bad_argument, "inside: it asks for a place within a scene, and none is given");
+  if (o.inside != 0 && (o.convex != 0 || o.margin.value > 0))
+    fail(ErrorCode::bad_argument, "inside: it excludes convex and margin, which ask for a place around the scene");
   call.begin("checking");
   const std::uint64_t memory = UsableMemory(call.common().memory_bytes, kMeshProgram).bytes;
   std::unique_ptr<TriangleSource> source;
@@ -62,6 +89,9 @@ bp_verdict* verdict_of(const ArrayScene& proxy, const bp_scene* scene, const bp_
   options.distances = o.no_distances == 0;
   options.margin_world = margin_of(o.margin, source.get());
   options.scene_memory_bytes = memory / 3 * 2;
+  Walls walls;
+  if (options.inside) walls = walls_of(steps, *scene->scene, call.common(), memory);
+  options.hidden = walls.question;
   auto verdict = std::make_unique<bp_verdict>();
   verdict->report = check_proxy(proxy.mesh(), source.get(), options);
   const CheckReport& report = verdict->report;
@@ -84,7 +114,10 @@ bp_verdict_info info_of(const CheckReport& r) {
   bp_verdict_info info{};
   info.answer = std::int32_t(r.answer());
   info.sound = std::int32_t(r.soundness());
-  info.placed = std::int32_t(!r.has_scene ? Answer::undecided : r.wants_inside ? r.insideness() : r.enclosure());
+  info.placed = std::int32_t(!r.has_scene     ? Answer::undecided
+                             : r.asks_hidden  ? r.hiddenness()
+                             : r.wants_inside ? r.insideness()
+                                              : r.enclosure());
   info.touching = r.touching.count;
   info.outside = r.outside.count;
   info.volume = number_or_nan(r.volume);
@@ -114,7 +147,7 @@ bp_status bp_check(const bp_arrays* proxy, const bp_scene* scene, const bp_check
     arrays.triangle_type = BP_UINT32;
     arrays = take_struct(&needed(proxy, "proxy"), arrays, "bp_arrays");
     arrays.borrow = 1;
-    result = verdict_of(ArrayScene(arrays), scene, options, call);
+    result = verdict_of(ArrayScene(arrays), {}, scene, options, call);
   });
 }
 
@@ -122,7 +155,8 @@ bp_status bp_check_mesh(const bp_mesh* proxy, size_t index, const bp_scene* scen
                         const bp_run* run, bp_verdict** out) {
   return guarded_call(run, [&](Call& call) {
     bp_verdict*& result = needed(out, "the result");
-    result = verdict_of(ArrayScene(mesh_at(proxy, index).arrays()), scene, options, call);
+    const Mesh& mesh = mesh_at(proxy, index);
+    result = verdict_of(ArrayScene(mesh.arrays()), mesh.steps(), scene, options, call);
   });
 }
 

@@ -181,6 +181,8 @@ void save(const bp_mesh& all, const char* folder, const char* name, bool overwri
   }
   OutputFolder out(&needed(folder, "folder"), profile_files(o.profile, o.name, made.levels.size()), overwrite,
                    [](const std::string& path, bool replace) { return std::make_unique<OutputFile>(path, replace); });
+  o.out = folder;
+  if (o.profile == LodProfile::gltf) take_away_longer_list(o, made.levels.size(), out);
   (void)write_profile(o, made, all.files->diameter, {}, {}, out);
   out.commit();
 }

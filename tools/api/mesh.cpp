@@ -6,6 +6,7 @@
 #include "tools/api/call.h"
 #include "tools/api/structs.h"
 #include "tools/run/memory_shares.h"
+#include "tools/run/mesh_extras.h"
 #include "tools/run/scene_budget.h"
 
 namespace bp::api {
@@ -21,6 +22,14 @@ bp_arrays Mesh::arrays() const {
   a.triangle_type = BP_UINT32;
   a.borrow = 1;
   return a;
+}
+
+std::vector<std::string> Mesh::steps() const {
+  if (!lattice) return loaded_steps;
+  std::vector<std::string> steps;
+  for (const Provenance& step : lattice->provenance)
+    steps.push_back(step.tool + " " + step.version + " " + step.options);
+  return steps;
 }
 
 const Mesh& mesh_at(const bp_mesh* meshes, std::size_t index) {
@@ -55,6 +64,8 @@ Meshes load_meshes(const char* path, Call& call) {
   Meshes out;
   for (const IndexedMesh& level : read_levels(&needed(path, "the name of the file"), options))
     out.push_back(loaded(level));
+  const MeshExtras extras = mesh_extras(path);
+  for (Mesh& mesh : out) mesh.loaded_steps = extras.provenance;
   return out;
 }
 

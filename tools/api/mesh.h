@@ -13,13 +13,16 @@ namespace bp::api {
 struct Mesh {
   std::vector<double> vertices;
   std::vector<std::uint32_t> triangles, quads;
-  std::optional<LatticeMesh> lattice;  ///< none of a mesh that was loaded
+  std::optional<LatticeMesh> lattice;     ///< none of a mesh that was loaded
+  std::vector<std::string> loaded_steps;  ///< of a mesh that was loaded: MeshExtras::provenance
   MeshWriteOptions write;
   bp_mesh_info info{};
   std::string stopped_by, enclosed;  ///< that `info` points to
 
   /// Returns the arrays of the mesh as a caller of the library would give them.
   [[nodiscard]] bp_arrays arrays() const;
+  /// Returns the steps that made it, as MeshExtras::provenance has them.
+  [[nodiscard]] std::vector<std::string> steps() const;
 };
 using Meshes = std::vector<Mesh>;
 

@@ -144,10 +144,10 @@ void CommonOptions::add_to(Args& args, unsigned parts) {
                 "write options, counts, notes, times and peak memory as JSON; an earlier report is replaced");
 }
 
-void CommonOptions::prepare() {
+void CommonOptions::prepare(SmallMemory small) {
   const std::uint64_t least = least_memory(threads);
   if (memory_bytes == 0) memory_bytes = std::max(default_memory(), least);
-  if (memory_bytes < least) refuse_memory(least);
+  if (memory_bytes < least) refuse_memory(least, small);
   if (parts_ & memory_part) {
     if (temp.empty()) temp = default_temp();
     check_temp(temp);
@@ -156,16 +156,16 @@ void CommonOptions::prepare() {
   if (!report.empty()) report_file = open_output(report, overwrite || is_report(report), false);
 }
 
-/// Refuses a --memory that is less than every run takes. A run may take more, so the refusal waits: a step that needs
-/// more than `least` names its own number first. Only a number without its unit is refused at once.
-void CommonOptions::refuse_memory(std::uint64_t least) {
+/// Refuses a --memory that is less than every run takes. A number without its unit is never a wish, so it does not
+/// wait.
+void CommonOptions::refuse_memory(std::uint64_t least, SmallMemory small) {
   constexpr std::uint64_t kNoUnit = 1024;
   const std::uint64_t asked = std::exchange(memory_bytes, least);
   const std::string advice = asked < kNoUnit ? fmt::format("did you mean {}G?", asked) : "raise it";
   const auto why = std::make_shared<const Error>(
       ErrorCode::out_of_resource, fmt::format("--memory {}: at least {}M is needed with these --threads; {}",
                                               size_text(asked), least >> 20, advice));
-  if (asked < kNoUnit) throw Error(*why);
+  if (asked < kNoUnit || small == SmallMemory::refused) throw Error(*why);
   refuse_outputs(why);
 }
 

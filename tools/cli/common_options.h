@@ -20,6 +20,10 @@ struct DeviceChoice {
 /// Parses `auto`, `cpu`, `cuda` or `cuda:0,1`. Throws bad_argument.
 [[nodiscard]] DeviceChoice parse_device(const std::string& text);
 
+/// A --memory that is less than every run takes: refused, or taken as the least until an output is written. The second
+/// is for the only run of a process: a step that needs more names its own number first.
+enum class SmallMemory { refused, waits };
+
 struct CommonOptions {
   /// Groups of options. A tool leaves out the groups that it does not use.
   enum Part : unsigned {
@@ -44,12 +48,12 @@ struct CommonOptions {
   void add_to(Args& args, unsigned parts = all_parts);
   /// Fills in the defaults that depend on the machine, and fails early: throws bad_argument if the scratch directory
   /// cannot be written, or if the report's file exists and is no report; throws as OutputFile if that file cannot be
-  /// written. A --memory below least_memory() is replaced by that, and outputs are refused (io/files/file.h). run_tool
-  /// calls it before the tool runs.
-  void prepare();
+  /// written; out_of_resource for a --memory below least_memory(). If that waits, it is replaced by the least, and the
+  /// outputs of this process are refused (io/files/file.h). run_tool calls it before the tool runs.
+  void prepare(SmallMemory small = SmallMemory::refused);
 
  private:
-  void refuse_memory(std::uint64_t least);
+  void refuse_memory(std::uint64_t least, SmallMemory small);
   unsigned parts_ = all_parts;
 };
 

@@ -26,7 +26,7 @@ int run_tool(const char* tool, int argc, char** argv, Parse parse, Run run) {
     auto options = parse(args);
     std::optional<ThreadLimit> limit;
     if constexpr (requires { options.common.prepare(); }) {
-      options.common.prepare();
+      options.common.prepare(SmallMemory::waits);
       limit.emplace(options.common.threads);
     }
     if constexpr (std::is_void_v<decltype(run(options))>) {

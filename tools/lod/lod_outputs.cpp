@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "io/files/final_names.h"
+#include "io/files/paths.h"
 #include "io/mesh/lod_writer.h"
 #include "io/mesh/mesh_writer.h"
 #include "lib/core/error.h"
@@ -154,6 +155,7 @@ void take_away_longer_list(const BuildOptions& options, std::size_t levels, Outp
 }
 
 std::string head_of(const std::string& path) {
+  if (!is_regular_file(path)) return {};  // reading a pipe would wait for its writer
   std::string text(std::size_t(1) << 16, '\0');
   std::ifstream in(path, std::ios::binary);
   in.read(text.data(), std::streamsize(text.size()));

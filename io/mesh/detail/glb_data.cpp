@@ -1,5 +1,7 @@
 #include "io/mesh/detail/glb_data.h"
 
+#include <algorithm>
+
 namespace bp {
 
 namespace {
@@ -9,6 +11,7 @@ using Json = GltfOutJson;
 }  // namespace
 
 void GlbData::use(const std::string& extension, bool required) {
+  if (std::find(used_.begin(), used_.end(), extension) != used_.end()) return;  // another level has it
   used_.push_back(extension);
   if (required) required_.push_back(extension);
 }

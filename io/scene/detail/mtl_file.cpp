@@ -5,6 +5,7 @@
 
 #include "io/files/beside.h"
 #include "io/scene/detail/text_scanner.h"
+#include "io/scene/detail/utf8.h"
 #include "lib/core/error.h"
 
 namespace bp {
@@ -257,7 +258,7 @@ std::uint32_t MtlMaterials::texture(const std::string& material, TextureTable& t
   TextureMaterial t;
   if (surface) t.surface = surface_of(m, textures);
   if (!surface && m.has_image()) add_light(m, textures, t.surface);
-  if (details) t.details.name = material;
+  if (details) t.details.name = as_utf8(material);
   if (m.maps().color.image.empty() && t.surface == TextureSurface{} && !details) {
     m.number = TriangleTexture::kNoMaterial;
     return *m.number;

@@ -48,7 +48,7 @@ def check(proxy, scene=None, *, inside=False, convex=False, margin=None, distanc
 
     proxy      a Mesh, (vertices, triangles), a path (of a file with levels, the finest), or an object as Scene takes
     scene      what Scene takes; None: only the mesh is asked about
-    inside     the proxy is to lie inside the scene, not around it
+    inside     the proxy is to lie inside the scene, not around it; a Mesh, or a file, also tells how openings were closed
     convex     the proxy is a union of convex parts that may overlap
     margin     the proxy is to keep this distance from the scene: a number in scene units, or "1%"
     distances  measure distances between both, which takes most of the time

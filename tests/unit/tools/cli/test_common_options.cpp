@@ -55,7 +55,10 @@ TEST_CASE("a scratch directory that cannot be used is noticed before the work", 
   CommonOptions file = parse_common({"--temp", "/dev/null"});
   CHECK_THROWS_AS(file.prepare(), Error);
   CommonOptions no_unit = parse_common({"--memory", "4"});
-  CHECK_THROWS_AS(no_unit.prepare(), Error);
+  CHECK_THROWS_AS(no_unit.prepare(SmallMemory::waits), Error);
+  CommonOptions small = parse_common({"--memory", "1M"});
+  CHECK_THROWS_AS(small.prepare(), Error);
+  check_outputs();  // another call of the same process may write
   CommonOptions good = parse_common({});
   good.prepare();
   CHECK_FALSE(good.temp.empty());

@@ -339,7 +339,7 @@ typedef enum bp_answer { BP_PROVEN = 0, BP_REFUTED = 1, BP_UNDECIDED = 2 } bp_an
 
 typedef struct bp_check_options {
   size_t size;
-  int32_t inside;       /* not 0: the proxy is to lie inside the scene, not around it */
+  int32_t inside;       /* not 0: the proxy is to lie inside the scene, not around it; without convex and margin */
   int32_t convex;       /* not 0: the proxy is a union of convex parts that may overlap */
   bp_length margin;     /* the proxy is to keep this distance from the scene; 0: not asked */
   int32_t no_distances; /* not 0: distances are not measured, which takes most of the time */
@@ -351,7 +351,8 @@ BP_API void bp_check_defaults(bp_check_options* options, size_t size);
  * makes proxies but the predicates. Cost: linear in the scene, times log of the proxy; 300 bytes a proxy triangle. */
 BP_API bp_status bp_check(const bp_arrays* proxy, const bp_scene* scene, const bp_check_options* options,
                           const bp_run* run, bp_verdict** out);
-/* The same of a mesh of a handle. */
+/* The same of a mesh of a handle. With `inside`, the mesh also tells how it was made, so an occluder of an open building
+ * is proven to be hidden once openings are closed, as bpcheck proves its file. */
 BP_API bp_status bp_check_mesh(const bp_mesh* proxy, size_t index, const bp_scene* scene,
                                const bp_check_options* options, const bp_run* run, bp_verdict** out);
 
