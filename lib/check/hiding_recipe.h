@@ -10,8 +10,10 @@ namespace bp {
 /// scene touches, E their closing:
 ///   O       the voxels that the outside reaches through faces of voxels not in E
 ///   C       the complement of E and O: the rooms
-///   R       the voxels of E, not in G, that are nearer to C than to O: steps go over faces of such voxels, at most 2
-///           ceil(S / voxel) of them; with as many steps to both it is not in R
+///   gaps    the voxels of E, not in G, that lie along an axis in a run of at most 2 sqrt(2) S such voxels between two
+///           voxels of G
+///   R       the voxels of E, in neither G nor a gap, that are nearer to C than to O: steps go over faces of such
+///           voxels, at most 2 ceil(S / voxel) of them; with as many steps to both it is not in R
 ///   O'      the voxels that the outside reaches through voxels not in G, C or R
 ///   T       voxels of G next to O', and those of G next to these; across faces, edges and corners
 ///   hidden  all others: neither in O' nor in T

@@ -69,13 +69,42 @@ BitBox closing_of(const BitBox& voxels, const HidingRecipe& recipe) {
   return all;
 }
 
+/// Returns the added voxels in gaps: in lines of at most `longest` of them along an axis, between two touched voxels.
+BitBox gaps_of(const BitBox& added, const BitBox& touched, std::int32_t longest) {
+  BitBox gaps(added.box());
+  const VoxelBox& box = added.box();
+  for (int axis = 0; axis < 3; ++axis) {
+    VoxelBox lines = box;  // their first voxels
+    lines.max[axis] = lines.min[axis] + 1;
+    for_each(lines, [&](VoxelCoord p) {
+      std::int32_t since = -1;  // voxels of the line since a touched one; negative: others lie between
+      for (; p[axis] < box.max[axis]; ++p[axis]) {
+        if (added.test(p)) {
+          since += since >= 0;
+          continue;
+        }
+        const bool is_wall = touched.test(p);
+        VoxelCoord q = p;
+        for (std::int32_t k = 0; is_wall && since <= longest && k < since; ++k) {
+          --q[axis];
+          gaps.set(q);
+        }
+        since = is_wall ? 0 : -1;
+      }
+    });
+  }
+  return gaps;
+}
+
 /// Returns the set R: what the closing adds nearer to the rooms than to `outside`, which is the set O.
 BitBox behind_openings(const BitBox& closing, const BitBox& touched, BitBox outside, const HidingRecipe& recipe) {
   BitBox added = closing, rooms = closing, behind = closing;
   combine(added, touched, less);
   combine(rooms, outside, either);
   rooms = inverse(std::move(rooms));
-  const std::int32_t steps = 2 * std::int32_t(std::ceil(recipe.scale_world / recipe.frame.voxel));
+  const double scale = recipe.scale_world / recipe.frame.voxel;
+  combine(added, gaps_of(added, touched, std::int32_t(2 * std::sqrt(2.0) * scale)), less);
+  const std::int32_t steps = 2 * std::int32_t(std::ceil(scale));
   for (std::int32_t step = 0; step < steps; ++step) {
     bool any = dilate_over_faces(added, outside);
     combine(added, outside, less);

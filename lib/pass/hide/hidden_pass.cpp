@@ -70,7 +70,9 @@ class Walls {
         closed_(closed),
         closed_filled_(closed_filled),
         memory_(o.context.memory.bytes),
-        steps_(2 * std::int32_t(std::ceil(o.scale_world / header.frame.voxel))) {}
+        steps_(2 * std::int32_t(std::ceil(o.scale_world / header.frame.voxel))),
+        gap_(std::int32_t(2 * std::sqrt(2.0) * o.scale_world / header.frame.voxel)),
+        halo_(steps_ + gap_ + 1) {}
 
   /// Puts the walls on a shelf, tile by tile.
   void put(BrickShelf& out) const {
@@ -80,7 +82,7 @@ class Walls {
       tiles.insert({floor_div(at.x, edge), floor_div(at.y, edge), floor_div(at.z, edge)});
     auto next = tiles.begin();
     run_jobs<BrickCoord>(
-        std::clamp(int(double(memory_) / bytes_of(edge)), 1, thread_count()),
+        int(std::clamp(double(memory_) / bytes_of(edge), 1.0, double(thread_count()))),
         [&](BrickCoord& tile) { return next != tiles.end() && (tile = *next++, true); },
         [&](BrickCoord& tile) {
           const BrickCoord first = tile * edge;
@@ -94,16 +96,16 @@ class Walls {
   /// Returns the bricks along an edge of a tile: a few, so that what surrounds tiles is not most of the work, but no
   /// more than the memory allows. No result depends on it.
   [[nodiscard]] std::int32_t tile_bricks() const {
-    std::int32_t edge = 3 + steps_ / kBrickEdge;
+    std::int32_t edge = 3 + halo_ / kBrickEdge;
     while (edge > 1 && bytes_of(edge) > double(memory_)) --edge;
     return edge;
   }
   [[nodiscard]] double bytes_of(std::int32_t edge) const {
-    return std::pow(double(edge * kBrickEdge + 2 * steps_ + kBrickEdge), 3) * kSetsAtOnce / 8;
+    return std::pow(double(edge * kBrickEdge + 2 * halo_ + kBrickEdge), 3) * kSetsAtOnce / 8;
   }
 
   [[nodiscard]] BitBox of_tile(const VoxelBox& tile) const {
-    BitBox rooms(tile.grown(steps_));
+    BitBox rooms(tile.grown(halo_));
     const VoxelBox& box = rooms.box();
     BitBox enclosed(box), closed(box), outside(box), walls(tile);
     load_voxels(enclosed_, enclosed);
@@ -112,10 +114,31 @@ class Walls {
     outside = inverse(rooms);
     combine(rooms, closed, kLess);
     combine(closed, enclosed, kLess);
-    if (!is_empty(rooms)) share_out(std::move(closed), outside, rooms);
+    if (!is_empty(rooms)) {
+      take_gaps(enclosed, closed);
+      share_out(std::move(closed), outside, rooms);
+    }
     combine(rooms, enclosed, kEither);
     copy_voxels(rooms, walls);
     return walls;
+  }
+
+  /// Takes the voxels out of `added` that lie in gaps: along an axis, in a run of at most gap_ between two solid
+  /// voxels.
+  void take_gaps(const BitBox& solid, BitBox& added) const {
+    BitBox gaps(added.box());
+    for (int axis = 0; axis < 3; ++axis) {
+      VoxelCoord next{0, 0, 0};
+      next[axis] = 1;
+      for_each_voxel(added, [&](VoxelCoord first) {
+        if (!solid.test(first - next)) return;
+        VoxelCoord end = first;
+        while (end[axis] - first[axis] <= gap_ && added.test(end)) end[axis] += 1;
+        if (end[axis] - first[axis] > gap_ || !solid.test(end)) return;
+        for (VoxelCoord p = first; p != end; p[axis] += 1) gaps.set(p);
+      });
+    }
+    combine(added, gaps, kLess);
   }
 
   using Front = std::vector<VoxelCoord>;
@@ -160,7 +183,7 @@ class Walls {
 
   const BrickShelf &enclosed_, &closed_, &closed_filled_;
   const std::uint64_t memory_;
-  const std::int32_t steps_;
+  const std::int32_t steps_, gap_, halo_;  // voxels
 };
 
 /// Returns a brick of the unreached voxels, without those of the scene that the outside sees.

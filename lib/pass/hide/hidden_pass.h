@@ -5,13 +5,13 @@
 /// ground of occluders. With G the voxels that the scene touches, and E their closing:
 ///   O       reached by the outside through faces of voxels not in E
 ///   C       voxels neither in E nor in O: rooms behind closed openings
-///   R       of what the closing adds, the voxels that are nearer to C than to O: along paths over faces of added
-///   voxels,
-///           at most 2 ceil(S) long. So they have the half of an opening that lies behind its middle, and what the
-///           closing adds along the edges of a room
+///   added   voxels of E that are not in G
+///   gaps    added voxels in a run along an axis, of at most 2 sqrt(2) S added voxels, between two voxels of G:
+///           openings, alleys, niches
+///   R       added voxels that lie in no gap and are nearer to C than to O, along paths over faces of such voxels, at
+///           most 2 ceil(S) long: what the closing adds along the edges of rooms
 ///   O'      reached by the outside through faces of voxels not in G, C or R. So it has everything that the closing
-///   adds
-///           in corners, niches and alleys, and the half of an opening before its middle; but no room behind it
+///           adds in corners, niches, alleys and openings; but no room behind them
 ///   T       voxels of G next to O', and voxels of G next to these; over faces, edges and corners. Each point of the
 ///           scene that is seen from O' lies in T alone
 ///   hidden  all other voxels

@@ -91,13 +91,27 @@ BitBox defined(const Solid& touched, const BitBox& e, double scale) {
   const BitBox filled = reference::fill_enclosed(e, wide);
   BitBox walls = g, seen(wide), seen_more(wide), hidden(voxels_of(bricks_of(kBox)));
   for (std::int64_t i = 0; i < walls.word_count(); ++i) walls.data()[i] |= filled.data()[i] & ~e.data()[i];
+  const auto is_added = [&](VoxelCoord p) { return e.test(p) && !g.test(p); };
+  const auto in_gap = [&](VoxelCoord p) {
+    for (int axis = 0; axis < 3; ++axis) {
+      int length = -1;  // the voxel itself counts twice
+      bool walls = true;
+      for (const int way : {-1, 1}) {
+        VoxelCoord q = p;
+        for (; is_added(q); q[axis] += way) ++length;
+        walls = walls && g.test(q);
+      }
+      if (walls && length <= int(2 * std::sqrt(2.0) * scale)) return true;
+    }
+    return false;
+  };
   std::map<VoxelCoord, bool> shared;  // whether an added voxel belongs to the rooms
   std::vector<VoxelCoord> outside, rooms;
   const auto add_neighbours = [&](std::vector<VoxelCoord>& front, bool is_room) {
     std::vector<VoxelCoord> next;
     for (const VoxelCoord p : front)
       for (const VoxelCoord d : {VoxelCoord{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}) {
-        if (e.test(p + d) && !g.test(p + d) && shared.emplace(p + d, is_room).second) next.push_back(p + d);
+        if (is_added(p + d) && !in_gap(p + d) && shared.emplace(p + d, is_room).second) next.push_back(p + d);
       }
     front = std::move(next);
   };
@@ -223,6 +237,21 @@ TEST_CASE("an alley that the closing fills is not hidden", "[quick][pass][occlud
   const Made alley = made(houses, 4, StructuringElement::cube);
   CHECK(alley.bits.test({20, 20, 20}));
   CHECK_FALSE(alley.bits.test({32, 20, 20}));
+}
+
+TEST_CASE("an alley stays free where a window opens into it", "[quick][pass][occluder]") {
+  const Solid houses = [](VoxelCoord p) {  // the left one is a room with a wall of three and a window to the alley
+    if (p.y < 8 || p.y >= 34 || p.z < 8 || p.z >= 34) return false;
+    const bool window = p.x >= 31 && p.y >= 19 && p.y < 23 && p.z >= 19 && p.z < 23;
+    const bool room = p.x >= 11 && p.x < 31 && p.y >= 11 && p.y < 31 && p.z >= 11 && p.z < 31;
+    return (p.x >= 8 && p.x < 34 && !room && !window) || (p.x >= 38 && p.x < 60);
+  };
+  const Made hidden = made(houses, 4.0625, StructuringElement::cube);
+  CHECK(hidden.bits.test({20, 20, 20}));
+  CHECK(hidden.bits.test({12, 12, 20}));  // the edge of the room
+  for (VoxelCoord p{34, 8, 8}; p.z < 34; ++p.z)
+    for (p.y = 8; p.y < 34; ++p.y)
+      for (p.x = 34; p.x < 38; ++p.x) REQUIRE_FALSE(hidden.bits.test(p));
 }
 
 TEST_CASE("an opening leaves what is wider than twice the scale", "[quick][pass][occluder]") {
