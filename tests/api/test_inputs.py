@@ -25,6 +25,21 @@ def same(a, b):
     return np.array_equal(a.vertices, b.vertices) and np.array_equal(a.triangles, b.triangles)
 
 
+def open_room():
+    """A box of edge 1 whose lid has a square hole of edge 0.1: closed once openings are."""
+    places, faces = [], []
+
+    def quad(*corners):
+        faces.extend(([len(places) + i for i in three] for three in ((0, 1, 2), (0, 2, 3))))
+        places.extend(corners)
+    quad((0, 0, 0), (0, 0, 1), (1, 0, 1), (1, 0, 0))
+    for a, b in (((0, 0), (1, 0)), ((1, 0), (1, 1)), ((1, 1), (0, 1)), ((0, 1), (0, 0))):
+        quad((a[0], 0, a[1]), (b[0], 0, b[1]), (b[0], 1, b[1]), (a[0], 1, a[1]))
+        inner = [(0.5 + 0.1 * (x - 0.5), 1, 0.5 + 0.1 * (z - 0.5)) for x, z in (b, a)]
+        quad((a[0], 1, a[1]), (b[0], 1, b[1]), *inner)
+    return np.array(places, float), np.array(faces)
+
+
 class Inputs(unittest.TestCase):
     def setUp(self):
         self.vertices, self.triangles = torus(24, 12)
@@ -190,8 +205,11 @@ class Inputs(unittest.TestCase):
         room = open_room()
         occluder = bp.occluder(*room, 60, resolution=64)
         self.assertTrue(bp.check(occluder, room, inside=True))
-        occluder.save(self.path("occluder.glb"))
-        self.assertTrue(bp.check(self.path("occluder.glb"), room, inside=True))
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        path = str(Path(folder.name) / "occluder.glb")
+        occluder.save(path)
+        self.assertTrue(bp.check(path, room, inside=True))
         self.refused(bp.ArgumentError, "inside", bp.check, occluder, room, inside=True, convex=True)
         diagonal = np.linalg.norm(np.ptp(self.vertices, 0))
         for margin, wanted in (("2%", 0.02 * diagonal), (0.1, 0.1), (None, 0.005 * diagonal)):

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "io/files/beside.h"
+#include "io/files/utf8.h"
 #include "io/scene/detail/text_scanner.h"
-#include "io/scene/detail/utf8.h"
 #include "lib/core/error.h"
 
 namespace bp {

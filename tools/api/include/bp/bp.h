@@ -351,8 +351,8 @@ BP_API void bp_check_defaults(bp_check_options* options, size_t size);
  * makes proxies but the predicates. Cost: linear in the scene, times log of the proxy; 300 bytes a proxy triangle. */
 BP_API bp_status bp_check(const bp_arrays* proxy, const bp_scene* scene, const bp_check_options* options,
                           const bp_run* run, bp_verdict** out);
-/* The same of a mesh of a handle. With `inside`, the mesh also tells how it was made, so an occluder of an open building
- * is proven to be hidden once openings are closed, as bpcheck proves its file. */
+/* The same of a mesh of a handle. With `inside`, the mesh also tells how it was made, so an occluder of an open
+ * building is proven to be hidden once openings are closed, as bpcheck proves its file. */
 BP_API bp_status bp_check_mesh(const bp_mesh* proxy, size_t index, const bp_scene* scene,
                                const bp_check_options* options, const bp_run* run, bp_verdict** out);
 

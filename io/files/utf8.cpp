@@ -1,4 +1,4 @@
-#include "io/scene/detail/utf8.h"
+#include "io/files/utf8.h"
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
