@@ -24,7 +24,6 @@
 #include "tools/cli/names.h"
 #include "tools/cli/report.h"
 #include "tools/cli/run_tool.h"
-#include "tools/run/grounded_source.h"
 #include "tools/run/hiding_recipe.h"
 #include "tools/run/inputs.h"
 #include "tools/run/memory_shares.h"
@@ -182,17 +181,13 @@ bool has_convex_parts(const std::vector<bp::IndexedMesh>& levels) {
   });
 }
 
-/// Returns the question how the proxy is hidden, if its file says how; `walls` opens the scene for it.
-std::optional<bp::HidingQuestion> hiding_question(const bp::CheckRun& o, const std::vector<std::string>& scenes,
-                                                  bp::SceneOptions options,
-                                                  std::unique_ptr<bp::TriangleSource>& walls) {
+/// Returns the question how the proxy is hidden, if its file says how.
+bp::Walls walls_of(const bp::CheckRun& o, const std::vector<std::string>& scenes, bp::SceneOptions options) {
   if (!o.inside || std::count(scenes.begin(), scenes.end(), "-") > 0) return {};  // stdin cannot be read again
-  const std::optional<bp::OccluderRecipe> recipe = bp::hiding_recipe(bp::extras_of(o.files.back()));
-  if (!recipe) return {};
-  options.walls_only = recipe->opaque_only;
-  walls = bp::open_scenes(scenes, options);
-  if (recipe->ground) walls = std::make_unique<bp::GroundedSource>(std::move(walls), recipe->up);
-  return bp::HidingQuestion{recipe->hiding, walls.get(), !recipe->opaque_only};
+  return bp::walls_of(bp::extras_of(o.files.back()), [&](bool opaque_only) {
+    options.walls_only = opaque_only;
+    return bp::open_scenes(scenes, options);
+  });
 }
 
 /// Reads the levels of the proxy. Their memory is subtracted from the budget.
@@ -224,12 +219,11 @@ int run_mesh(const bp::CheckRun& o, const std::optional<bp::Contract>& claim = {
   std::unique_ptr<bp::TriangleSource> scene;
   scene_options.keep_degenerate = true;  // degenerate triangles have a place, and may close the scene
   if (!scenes.empty()) scene = bp::open_scenes(scenes, scene_options);
-  std::unique_ptr<bp::TriangleSource> walls;
-  const std::optional<bp::HidingQuestion> hidden = hiding_question(o, scenes, scene_options, walls);
+  const bp::Walls walls = walls_of(o, scenes, scene_options);
 
   bp::check_outputs();  // the scene is read now, which may take long
   report.begin("check");
-  const std::vector<bp::CheckReport> verdicts = check(o, levels, scene.get(), hidden, budget.of_scene().bytes);
+  const std::vector<bp::CheckReport> verdicts = check(o, levels, scene.get(), walls.question, budget.of_scene().bytes);
   const std::string name = bp::file_name(o.files.back());
   std::string text = o.json ? bp::verdict_json(verdicts, name) : bp::verdict_text(verdicts, name);
   if (claim) text = with_claim(text, *claim, o.json);

@@ -87,8 +87,8 @@ class OutputFile {
   std::size_t used_ = 0;
 };
 
-/// From now on a file or stdout throws `why` instead of its first byte, and commit() does, too. Null: outputs work
-/// again. For a refusal that waits, since a later step may have a better reason. Not thread-safe.
+/// From now on files and stdout throw `why` instead of their next byte. Null: outputs work again. For a refusal that
+/// waits, since a later step may have a better reason. Not thread-safe.
 void refuse_outputs(std::shared_ptr<const Error> why);
 /// Throws the reason of refuse_outputs(), if there is one: before long work of which the output would be refused.
 void check_outputs();

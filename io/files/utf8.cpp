@@ -5,8 +5,6 @@
 
 namespace bp {
 
-namespace {
-
 bool is_utf8(const std::string& text) {
   try {
     (void)nlohmann::json(text).dump();
@@ -15,8 +13,6 @@ bool is_utf8(const std::string& text) {
     return false;
   }
 }
-
-}  // namespace
 
 std::string as_utf8(const std::string& text) {
   if (is_utf8(text)) return text;

@@ -85,6 +85,17 @@ void Call::tell_notes() const {
   for (const Json& text : report_.notes) run_.note(run_.user, in_words_of_library(text.get<std::string>()).c_str());
 }
 
+std::vector<std::uint64_t> falling_faces(const std::uint64_t* first, std::size_t count) {
+  std::vector<std::uint64_t> faces(first, first + count);
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    if (faces[i] == 0) fail(ErrorCode::bad_argument, "faces: 0 is no number of triangles");
+    if (i > 0 && faces[i] >= faces[i - 1])
+      fail(ErrorCode::bad_argument, "faces: {} after {}: each level has fewer than the one before", faces[i],
+           faces[i - 1]);
+  }
+  return faces;
+}
+
 bp_status guarded(const std::function<void()>& body) noexcept {
   try {
     body();

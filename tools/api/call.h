@@ -43,6 +43,9 @@ class Call {
   mutable std::mutex mutex_;  ///< one thread at a time tells the caller
 };
 
+/// Returns a caller's budgets of faces. Throws bad_argument unless each is above 0 and below the one before.
+[[nodiscard]] std::vector<std::uint64_t> falling_faces(const std::uint64_t* first, std::size_t count);
+
 /// Calls `body`; an exception becomes a status, and a message for bp_error_message().
 bp_status guarded(const std::function<void()>& body) noexcept;
 /// Does the same in an arena of the call's threads, and hands the notes to the caller if `body` succeeds.

@@ -9,7 +9,6 @@
 #include "tools/api/call.h"
 #include "tools/api/mesh.h"
 #include "tools/api/structs.h"
-#include "tools/run/grounded_source.h"
 #include "tools/run/hiding_recipe.h"
 #include "tools/run/memory_shares.h"
 #include "tools/run/scene_budget.h"
@@ -51,25 +50,6 @@ double margin_of(const bp_length& margin, TriangleSource* scene) {
   return length.in_world(bounds.diagonal(), 0);
 }
 
-/// The scene as walls, for the question how a proxy is hidden.
-struct Walls {
-  std::unique_ptr<TriangleSource> source;
-  std::optional<HidingQuestion> question;
-};
-
-/// Opens the scene once more, as the recipe in the proxy's steps asks for it; nothing if they have none.
-Walls walls_of(const std::vector<std::string>& steps, const Scene& scene, const CommonOptions& common,
-               std::uint64_t memory) {
-  MeshExtras extras;
-  extras.provenance = steps;
-  const std::optional<OccluderRecipe> recipe = hiding_recipe(extras);
-  if (!recipe) return {};
-  Walls walls{open_for_check(scene, common, memory, recipe->opaque_only), {}};
-  if (recipe->ground) walls.source = std::make_unique<GroundedSource>(std::move(walls.source), recipe->up);
-  walls.question = HidingQuestion{recipe->hiding, walls.source.get(), !recipe->opaque_only};
-  return walls;
-}
-
 /// `steps`: that made the proxy, empty if they are not known.
 bp_verdict* verdict_of(const ArrayScene& proxy, const std::vector<std::string>& steps, const bp_scene* scene,
                        const bp_check_options* given, Call& call) {
@@ -89,8 +69,12 @@ bp_verdict* verdict_of(const ArrayScene& proxy, const std::vector<std::string>& 
   options.distances = o.no_distances == 0;
   options.margin_world = margin_of(o.margin, source.get());
   options.scene_memory_bytes = memory / 3 * 2;
+  MeshExtras extras;
+  extras.provenance = steps;
   Walls walls;
-  if (options.inside) walls = walls_of(steps, *scene->scene, call.common(), memory);
+  if (options.inside)
+    walls = walls_of(
+        extras, [&](bool opaque_only) { return open_for_check(*scene->scene, call.common(), memory, opaque_only); });
   options.hidden = walls.question;
   auto verdict = std::make_unique<bp_verdict>();
   verdict->report = check_proxy(proxy.mesh(), source.get(), options);

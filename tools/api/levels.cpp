@@ -46,15 +46,7 @@ BuildHost host_of(const Scene& scene, Call& call) {
 
 std::vector<std::uint64_t> faces_of(const bp_levels_options& o) {
   if (o.face_count == 0) return {};
-  const std::uint64_t* const first = &needed(o.faces, "faces");
-  std::vector<std::uint64_t> faces(first, first + o.face_count);
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    if (faces[i] == 0) fail(ErrorCode::bad_argument, "faces: 0 is no number of triangles");
-    if (i > 0 && faces[i] >= faces[i - 1])
-      fail(ErrorCode::bad_argument, "faces: {} after {}: each level has fewer than the one before", faces[i],
-           faces[i - 1]);
-  }
-  return faces;
+  return falling_faces(&needed(o.faces, "faces"), o.face_count);
 }
 
 std::vector<Length> errors_of(const bp_levels_options& o) {

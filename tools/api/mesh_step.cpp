@@ -23,14 +23,7 @@ std::vector<std::uint64_t> faces_of(const bp_mesh_options& o) {
   if (o.levels > 0) (void)needed(o.faces, "faces");
   if (o.faces == nullptr) return {};
   if (o.levels == 0) fail(ErrorCode::bad_argument, "levels: 0 numbers of faces are given; leave faces out for none");
-  std::vector<std::uint64_t> faces(o.faces, o.faces + o.levels);
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    if (faces[i] == 0) fail(ErrorCode::bad_argument, "faces: 0 is no number of triangles");
-    if (i > 0 && faces[i] >= faces[i - 1])
-      fail(ErrorCode::bad_argument, "faces: {} after {}: each level has fewer than the one before", faces[i],
-           faces[i - 1]);
-  }
-  return faces;
+  return falling_faces(o.faces, o.levels);
 }
 
 MeshMode mode_of(const bp_mesh_options& o, const StreamHeader& header) {

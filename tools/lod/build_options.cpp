@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "io/files/utf8.h"
 #include "io/scene/scene_format.h"
 #include "lib/core/error.h"
 #include "lib/grid/cells.h"
@@ -30,16 +31,6 @@ Json optional_json(const std::optional<T>& value) {
 
 Json optional_json(const std::optional<Length>& length) {
   return length ? Json(length->text()) : Json(nullptr);
-}
-
-/// Returns whether the text is UTF-8, as JSON requires: every profile writes the name into JSON somewhere.
-bool is_utf8(const std::string& text) {
-  try {
-    (void)Json(text).dump();
-    return true;
-  } catch (const Json::exception&) {
-    return false;
-  }
 }
 
 Symmetry parse_symmetry(const std::string& text) {

@@ -5,6 +5,7 @@
 #include "lib/core/error.h"
 #include "tools/cli/length.h"
 #include "tools/cli/names.h"
+#include "tools/run/grounded_source.h"
 
 namespace bp {
 
@@ -56,6 +57,15 @@ std::optional<OccluderRecipe> hiding_recipe(const MeshExtras& extras) {
   } catch (const Error&) {
     return {};
   }
+}
+
+Walls walls_of(const MeshExtras& extras, const std::function<std::unique_ptr<TriangleSource>(bool opaque_only)>& open) {
+  const std::optional<OccluderRecipe> recipe = hiding_recipe(extras);
+  if (!recipe) return {};
+  Walls walls{open(recipe->opaque_only), {}};
+  if (recipe->ground) walls.source = std::make_unique<GroundedSource>(std::move(walls.source), recipe->up);
+  walls.question = HidingQuestion{recipe->hiding, walls.source.get(), !recipe->opaque_only};
+  return walls;
 }
 
 }  // namespace bp

@@ -1,7 +1,9 @@
 #pragma once
+#include <functional>
+#include <memory>
 #include <optional>
 
-#include "lib/check/hiding_recipe.h"
+#include "lib/check/check_proxy.h"
 #include "tools/run/mesh_extras.h"
 #include "tools/run/provenance.h"
 
@@ -20,5 +22,15 @@ void add_recipe(const OccluderRecipe& recipe, OptionText& text);
 /// Returns the recipe that bpmesh --mode inside or bplod --profile occluder wrote into its output; nothing if another
 /// tool made the file, or if the recipe cannot be read or understood.
 [[nodiscard]] std::optional<OccluderRecipe> hiding_recipe(const MeshExtras& extras);
+
+/// The question how a proxy is hidden, with the scene that hides it.
+struct Walls {
+  std::unique_ptr<TriangleSource> source;
+  std::optional<HidingQuestion> question;  ///< refers to `source`
+};
+/// Returns the question for a proxy's file; nothing if that has no recipe. `open` opens the scene once more, perhaps
+/// without what can be seen through.
+[[nodiscard]] Walls walls_of(const MeshExtras& extras,
+                             const std::function<std::unique_ptr<TriangleSource>(bool opaque_only)>& open);
 
 }  // namespace bp

@@ -98,7 +98,7 @@ BitBox gaps_of(const BitBox& added, const BitBox& touched, std::int32_t longest)
 
 /// Returns the set R: what the closing adds nearer to the rooms than to `outside`, which is the set O.
 BitBox behind_openings(const BitBox& closing, const BitBox& touched, BitBox outside, const HidingRecipe& recipe) {
-  BitBox added = closing, rooms = closing, behind = closing;
+  BitBox added = closing, rooms = closing;
   combine(added, touched, less);
   combine(rooms, outside, either);
   rooms = inverse(std::move(rooms));
@@ -112,8 +112,8 @@ BitBox behind_openings(const BitBox& closing, const BitBox& touched, BitBox outs
     combine(added, rooms, less);
     if (!any) break;
   }
-  combine(behind, rooms, both);
-  return behind;
+  combine(rooms, closing, both);
+  return rooms;
 }
 
 /// Returns the hidden voxels by their definition, set by set. The border of the box is empty.
