@@ -11,6 +11,7 @@
 #include "tools/lod/occluder.h"
 #include "tools/lod/scene/complete_levels.h"
 #include "tools/lod/tile_build.h"
+#include "tools/lod/tiles/visual_tileset.h"
 
 namespace {
 
@@ -79,9 +80,10 @@ void build_chain(const bp::BuildOptions& o) {
 }
 
 void run(const bp::BuildOptions& o) {
+  if (o.shows_scene()) return o.explain ? bp::explain_visual_tileset(o) : bp::build_visual_tileset(o);
   if (o.explain) return bp::explain(o);
   if (o.profile == bp::LodProfile::occluder) return bp::build_occluder(o);
-  o.profile == bp::LodProfile::tiles ? bp::build_tileset(o) : build_chain(o);
+  o.is_tileset() ? bp::build_tileset(o) : build_chain(o);
 }
 
 }  // namespace

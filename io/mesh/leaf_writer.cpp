@@ -6,7 +6,7 @@
 namespace bp {
 
 std::string leaf_glb(const std::string& name, const SceneLeaf& leaf, const LeafLooks& looks, UpAxis up,
-                     const std::vector<Provenance>& provenance) {
+                     const std::vector<Provenance>& provenance, bool is_scene) {
   using Json = GltfOutJson;
   GlbData data(looks.compression == TileCompression::meshopt);
   GlbLooks all(data);
@@ -18,7 +18,7 @@ std::string leaf_glb(const std::string& name, const SceneLeaf& leaf, const LeafL
   doc["meshes"].push_back({{"name", name}, {"primitives", std::move(primitives)}});
   doc["nodes"].push_back({{"name", name}, {"mesh", 0}, {"scale", Json::array({leaf.unit, leaf.unit, leaf.unit})}});
   all.write();
-  Json asset = gltf_asset("bplod", provenance, UpAxis::y, {}, name_of(Contract::leaf));
+  Json asset = gltf_asset("bplod", provenance, UpAxis::y, {}, is_scene ? name_of(Contract::leaf) : "");
   asset["extras"]["tile_origin"] = leaf.origin;
   const std::string json = data.document(std::move(asset), {0});
   return glb_head(json, data.bytes().size(), name + ".glb") + data.bytes();

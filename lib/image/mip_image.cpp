@@ -67,6 +67,21 @@ TextureImage::Texel bytes_of(const LinearTexel& t, MipImage::Kind kind) {
   return {byte_of_linear(t[0]), byte_of_linear(t[1]), byte_of_linear(t[2]), std::uint8_t(t[3] * 255 + 0.5F)};
 }
 
+double wrapped(double x, TextureWrap wrap) {
+  if (!std::isfinite(x)) return 0;
+  if (wrap == TextureWrap::clamp) return std::clamp(x, 0.0, 1.0);
+  if (wrap == TextureWrap::repeat) return x - std::floor(x);
+  const double two = x - 2 * std::floor(x / 2);
+  return two > 1 ? 2 - two : two;
+}
+
+int wrapped(int i, int n, TextureWrap wrap) {
+  if (wrap == TextureWrap::repeat) return i < 0 ? i + n : i >= n ? i - n : i;
+  return std::clamp(i, 0, n - 1);
+}
+
+}  // namespace
+
 TextureImage halved(const TextureImage& image, MipImage::Kind kind) {
   TextureImage half(std::max(1, image.width / 2), std::max(1, image.height / 2));
   for (int y = 0; y < half.height; ++y) {
@@ -82,21 +97,6 @@ TextureImage halved(const TextureImage& image, MipImage::Kind kind) {
   }
   return half;
 }
-
-double wrapped(double x, TextureWrap wrap) {
-  if (!std::isfinite(x)) return 0;
-  if (wrap == TextureWrap::clamp) return std::clamp(x, 0.0, 1.0);
-  if (wrap == TextureWrap::repeat) return x - std::floor(x);
-  const double two = x - 2 * std::floor(x / 2);
-  return two > 1 ? 2 - two : two;
-}
-
-int wrapped(int i, int n, TextureWrap wrap) {
-  if (wrap == TextureWrap::repeat) return i < 0 ? i + n : i >= n ? i - n : i;
-  return std::clamp(i, 0, n - 1);
-}
-
-}  // namespace
 
 float linear_of_byte(std::uint8_t srgb) {
   return tables().linear[srgb];

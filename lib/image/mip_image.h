@@ -31,6 +31,10 @@ class MipImage {
   Kind kind_;
 };
 
+/// Returns the image with sides half as long, rounded down, at least 1: each texel is the mean of four, in linear light
+/// and by how much they cover if they are colours.
+[[nodiscard]] TextureImage halved(const TextureImage& image, MipImage::Kind kind);
+
 /// Convert 8-bit sRGB to linear light, and back to the nearest.
 [[nodiscard]] float linear_of_byte(std::uint8_t srgb);
 [[nodiscard]] std::uint8_t byte_of_linear(float linear);

@@ -2,9 +2,37 @@
 
 #include <algorithm>
 
+#include "lib/core/vec3.h"
 #include "lib/volume/reduce.h"
 
 namespace bp {
+
+namespace {
+
+/// Returns bounds relative to `origin`, in 3D Tiles' axes, where z is up. Exact, since both are points of a lattice.
+Bounds3d local(const Bounds3d& bounds, const Vec3d& origin, UpAxis up) {
+  Bounds3d out;
+  for (const Vec3d& p : {bounds.min, bounds.max}) out.add(turned(p - origin, up, UpAxis::z));
+  return out;
+}
+
+}  // namespace
+
+Tile tile_at(const TreeTile& tile, const Vec3d& parent, UpAxis up) {
+  Tile out;
+  const Vec3d from = turned(parent, up, UpAxis::z), to = turned(tile.origin, up, UpAxis::z);
+  for (std::size_t i = 0; i < 3; ++i) out.transform[12 + i] = to[i] - from[i];
+  out.volume.box = box_of(local(tile.bounds, tile.origin, up));
+  out.geometric_error = tile.error_world;
+  out.uri = tile.uri;
+  return out;
+}
+
+Vec3d middle_of(const Bounds3d& box) {
+  Vec3d middle;
+  for (std::size_t i = 0; i < 3; ++i) middle[i] = box.min[i] + (box.max[i] - box.min[i]) / 2;
+  return middle;
+}
 
 Bounds3d cell_bounds(const Cells& cells, const GridFrame& frame, CellCoord cell) {
   const VoxelBox box = cells.box(cell);
@@ -18,10 +46,8 @@ Bounds3d cell_bounds(const Cells& cells, const GridFrame& frame, CellCoord cell)
 
 Bounds3d octant_of(const Bounds3d& box, int k) {
   Bounds3d out = box;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double middle = box.min[i] + (box.max[i] - box.min[i]) / 2;
-    ((k >> i & 1) != 0 ? out.min[i] : out.max[i]) = middle;
-  }
+  const Vec3d middle = middle_of(box);
+  for (std::size_t i = 0; i < 3; ++i) ((k >> i & 1) != 0 ? out.min[i] : out.max[i]) = middle[i];
   return out;
 }
 
@@ -126,7 +152,7 @@ Tileset TileTree::finish(double diameter, const std::optional<Placement>& placem
   Tileset tileset;
   tileset.up = up_;
   tileset.placement = placement;
-  if (placement) tileset.placement->at = z_up(placement->at);
+  if (placement) tileset.placement->at = turned(placement->at, up_, UpAxis::z);
   tileset.root = tile_of(*root_, Vec3d{}, diameter);
   tileset.root.refine = "REPLACE";
   tileset.geometric_error = std::max(diameter, tileset.root.geometric_error);
@@ -137,13 +163,9 @@ Tileset TileTree::finish(double diameter, const std::optional<Placement>& placem
 /// must not stop there. Above all contents its error is that of drawing nothing. Below a content there is no such node:
 /// a viewer may be so far from it, and so near to the tile above, that it refines only that one.
 Tile TileTree::tile_of(const Node& node, const Vec3d& parent, double above) const {
-  Tile tile;
-  const Vec3d from = z_up(parent), to = z_up(node.tile.origin);
-  for (std::size_t i = 0; i < 3; ++i) tile.transform[12 + i] = to[i] - from[i];
-  tile.volume.box = box_of(local(node.tile.bounds, node.tile.origin));
-  if (node.cell) tile.cell = local(*node.cell, node.tile.origin);
-  tile.geometric_error = node.tile.uri.empty() ? above : node.tile.error_world;
-  tile.uri = node.tile.uri;
+  Tile tile = tile_at(node.tile, parent, up_);
+  if (node.cell) tile.cell = local(*node.cell, node.tile.origin, up_);
+  if (node.tile.uri.empty()) tile.geometric_error = above;
   tile.is_leaf = node.is_leaf;
   for (const Node* child : nodes_below(node))
     tile.children.push_back(tile_of(*child, node.tile.origin, tile.geometric_error));
@@ -168,21 +190,6 @@ std::vector<const TileTree::Node*> TileTree::nodes_below(const Node& node) {
   };
   add(node, add);
   return below;
-}
-
-/// Returns bounds relative to `origin`; exact, since both are points of the lattice.
-Bounds3d TileTree::local(const Bounds3d& bounds, const Vec3d& origin) const {
-  Bounds3d out;
-  for (Vec3d p : {bounds.min, bounds.max}) {
-    for (std::size_t i = 0; i < 3; ++i) p[i] -= origin[i];
-    out.add(z_up(p));
-  }
-  return out;
-}
-
-/// Converts from the scene to 3D Tiles, where z is up. Exact.
-Vec3d TileTree::z_up(const Vec3d& p) const {
-  return turned(p, up_, UpAxis::z);
 }
 
 }  // namespace bp

@@ -60,8 +60,6 @@ class TileTree {
   void raise();
   [[nodiscard]] static std::vector<const Node*> nodes_below(const Node& node);
   [[nodiscard]] Tile tile_of(const Node& node, const Vec3d& parent, double above) const;
-  [[nodiscard]] Bounds3d local(const Bounds3d& bounds, const Vec3d& origin) const;
-  [[nodiscard]] Vec3d z_up(const Vec3d& p) const;
 
   UpAxis up_;
   Cells cells_;
@@ -73,6 +71,10 @@ class TileTree {
   std::optional<double> leaf_error_;  ///< of leaves, if there are any
 };
 
+/// Returns a tile of this content: its place below a tile whose vertices are relative to `parent`, in 3D Tiles' axes.
+[[nodiscard]] Tile tile_at(const TreeTile& tile, const Vec3d& parent, UpAxis up);
+
+[[nodiscard]] Vec3d middle_of(const Bounds3d& box);
 /// Returns octant k of a box: bit i of k chooses the half along axis i.
 [[nodiscard]] Bounds3d octant_of(const Bounds3d& box, int k);
 /// Returns the bounds of a cell of a level, scene units.

@@ -1,7 +1,11 @@
 #pragma once
 #include <map>
+#include <memory>
 
 #include "lib/core/error.h"
+#include "lib/geometry/triangle_bvh.h"
+#include "lib/pass/bake/scene_looks.h"
+#include "lib/store/memory_scratch.h"
 #include "tests/support/memory_scene.h"
 
 /// Scenes with images, in memory.
@@ -87,5 +91,23 @@ class TexturedSource final : public TriangleSource {
   TexturedScene scene_;
   MemorySource plain_;
 };
+
+/// Returns the looks of a scene, which is read once.
+inline std::unique_ptr<SceneLooks> looks_of(const TexturedScene& scene,
+                                            const std::shared_ptr<const TextureSet>& textures,
+                                            const MemoryShare& memory = {}) {
+  TexturedSource source(scene);
+  const SceneLooks::Scene read{source, bounds_of(scene.triangles), scene.triangles.size(), textures};
+  return std::make_unique<SceneLooks>(read, std::make_unique<MemoryScratch>(), memory);
+}
+
+/// Returns a set with one material, number 0, whose image is brown.
+inline std::shared_ptr<MemoryTextures> one_material() {
+  auto textures = std::make_shared<MemoryTextures>();
+  textures->images.emplace_back(4, 4, TextureImage::Texel{200, 100, 50, 255});
+  textures->materials.push_back({});
+  textures->materials.back().image = 0;
+  return textures;
+}
 
 }  // namespace bp::test

@@ -13,9 +13,6 @@ namespace bp {
 
 namespace {
 
-/// Texels along the level's error. A level is drawn where its error is less than a pixel; CesiumJS by default draws it
-/// up to 16 pixels.
-constexpr double kTexelsPerError = 4;
 /// Least texels for a face, which take about as many bytes as the face.
 constexpr double kTexelsPerFace = 64;
 /// Reach of the search for the scene along the normal, in errors or scales of the level.

@@ -18,6 +18,10 @@ namespace bp {
 /// The shares of the memory for work that looks have while levels are made, and afterwards.
 constexpr double kLooksBeside = 0.4, kLooksAfter = 0.6;
 
+/// Texels along the error of a level. A level is drawn where its error is less than a pixel; CesiumJS by default draws
+/// it up to 16 pixels.
+constexpr double kTexelsPerError = 4;
+
 /// Returns the error, or an estimate from scale and voxel if it is 0 (not known). It decides how fine the texture of a
 /// level is.
 [[nodiscard]] double error_or(double error_world, double scale_world, double voxel);

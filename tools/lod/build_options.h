@@ -70,6 +70,8 @@ struct BuildOptions {
   [[nodiscard]] const char* mode_name() const;  ///< the word of --mode
   [[nodiscard]] bool is_cage() const { return profile == LodProfile::cage; }
   [[nodiscard]] bool is_tileset() const { return profile == LodProfile::tiles; }
+  /// Returns whether the tiles are the scene's own triangles: nothing is voxelized, closed or enclosed.
+  [[nodiscard]] bool shows_scene() const { return is_tileset() && proxy.visual; }
 };
 
 /// Throws bad_argument if options contradict each other.

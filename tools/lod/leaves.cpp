@@ -13,45 +13,12 @@
 #include "lib/store/hex.h"
 #include "lib/store/packing.h"
 #include "lib/store/result_key.h"
+#include "tools/lod/tiles/image_files.h"
 #include "tools/run/provenance.h"
 
 namespace bp {
 
 namespace {
-
-/// Returns the ending of an image's file.
-std::string extension_of(std::span<const std::byte> file) {
-  const std::string type = image_type(file);
-  return type == "image/jpeg" ? "jpg" : type.substr(type.find('/') + 1);
-}
-
-/// Names image files after their contents, so that a changed image gets another name.
-class ImageNames {
- public:
-  explicit ImageNames(const TextureSet* images) : images_(images) {}
-
-  /// Returns the file name of an image; empty if the image is missing or broken.
-  std::string operator()(std::uint32_t image) {
-    const std::lock_guard lock(mutex_);
-    const auto [found, is_new] = names_.try_emplace(image);
-    if (is_new && images_->size(image)[0] > 0) {
-      const std::vector<std::byte> file = images_->file(image);
-      if (file.empty()) return found->second;
-      const ResultKey hash = content_hash(file);
-      found->second = hex_of(hash.words[0], hash.words[1]) + "." + extension_of(file);
-      number_.try_emplace(found->second, image);
-    }
-    return found->second;
-  }
-  /// Returns the image's number of a name that operator() returned.
-  [[nodiscard]] std::uint32_t number_of(const std::string& name) const { return number_.at(name); }
-
- private:
-  const TextureSet* images_;
-  std::mutex mutex_;
-  std::map<std::uint32_t, std::string> names_;
-  std::map<std::string, std::uint32_t> number_;
-};
 
 /// A leaf as the store keeps it.
 struct KeptLeaf {
@@ -189,7 +156,7 @@ class LeafMaker {
     });
     for (const std::uint32_t material : materials) {
       for (const std::uint32_t image : looks_.images()->material(material).images()) {
-        const std::string name = image == TextureMaterial::kNoImage ? "" : names_(image);
+        const std::string name = image == TextureMaterial::kNoImage ? "" : names_.name_of(image);
         const std::lock_guard lock(mutex_);
         if (!name.empty()) used_.insert(name);
       }
@@ -200,7 +167,7 @@ class LeafMaker {
     const SceneLeaf cut = cut_leaf(looks_, leaf.box.box, unit_);
     KeptLeaf made{cut.bounds, cut.triangles(), ""};
     if (made.triangles == 0) return made;
-    const LeafLooks looks{looks_.images(), [this](std::uint32_t image) { return names_(image); },
+    const LeafLooks looks{looks_.images(), [this](std::uint32_t image) { return names_.name_of(image); },
                           build_.options.colors(), build_.options.compression};
     made.content = leaf_glb(build_.options.name + "_" + leaf.name, cut, looks, task_.frame.up, provenance_);
     return made;
@@ -216,11 +183,9 @@ class LeafMaker {
       const std::string file = leaf_folder(build_.options) + "/" + leaf.name + ".glb";
       made.files.push_back({file, leaf.content});
       const Bounds3d& box = leaf.box.box;
-      Vec3d middle;
-      for (std::size_t i = 0; i < 3; ++i) middle[i] = box.min[i] + (box.max[i] - box.min[i]) / 2;
-      made.places.push_back({leaf.cell, {{file, middle, leaf.bounds, leaf_error(unit_)}, box, leaf.box.path}});
+      made.places.push_back({leaf.cell, {{file, middle_of(box), leaf.bounds, leaf_error(unit_)}, box, leaf.box.path}});
     }
-    for (const std::string& name : used_) made.images.emplace(name, names_.number_of(name));
+    for (const std::string& name : used_) made.images.emplace(name, names_.image_of(name));
     return made;
   }
 
@@ -229,7 +194,7 @@ class LeafMaker {
   const SceneLooks& looks_;
   const Cells cells_;
   const double unit_;
-  ImageNames names_;
+  ImageFiles names_;
   std::vector<Provenance> provenance_;
   std::vector<Leaf> leaves_;
   std::mutex mutex_;

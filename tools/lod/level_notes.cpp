@@ -137,7 +137,7 @@ std::string origin_note(const BuildOptions& o, const StreamHeader& header) {
 }
 
 std::string voxel_note(const BuildOptions& o, const SceneSize& scene) {
-  if (!is_by_scene(o) || scene.triangles <= kTilesetFaces) return "";
+  if (o.shows_scene() || !is_by_scene(o) || scene.triangles <= kTilesetFaces) return "";
   const double voxel = voxel_size(o, scene);
   return fmt::format(
       "the scene has {} triangles, and its voxels of {:.4g} suit {}; --voxel {:.2g} shows more and takes about 4 times "

@@ -1,12 +1,14 @@
 #include "lib/pass/leaf/fewer_triangles.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <queue>
 #include <tuple>
 
 #include "lib/mesh/quadric.h"
 #include "lib/pass/leaf/detail/leaf_mesh.h"
+#include "lib/pass/leaf/detail/tile_parts.h"
 
 namespace bp {
 
@@ -67,24 +69,34 @@ double turn_of(const std::array<float, 2>& a, const std::array<float, 2>& b, con
 
 class EdgeCollapses {
  public:
-  EdgeCollapses(const SceneLeaf& leaf, LeafFolds folds)
+  /// `tile`: the box of a tile; null: the leaf is the whole scene.
+  EdgeCollapses(const SceneLeaf& leaf, LeafFolds folds, const Bounds3d* tile = nullptr)
       : whole_(leaf), folds_(folds), mesh_(leaf), quadrics_(mesh_.point_count()), stamps_(mesh_.point_count(), 0) {
     for (Index p = 0; p < mesh_.point_count(); ++p) {
       for (const Index f : mesh_.faces_of(p)) add_planes(p, f);
     }
+    if (tile != nullptr) parts_.emplace(mesh_, leaf, *tile);
   }
 
   SceneLeaf run(std::uint64_t triangles) {
     while (mesh_.face_count() > triangles) {
-      if (order_.empty()) {
-        if (mesh_.face_count() == rated_faces_) break;
+      if (order_.empty() && mesh_.face_count() != rated_faces_) {
         rated_faces_ = mesh_.face_count();
         rate_all();  // edges that were not possible may be now
-        if (order_.empty()) break;
       }
+      if (drops_part()) continue;
+      if (order_.empty()) break;
       take_next();
     }
     return mesh_.leaf(whole_);
+  }
+
+  /// Returns what run() left of a tile.
+  FewerTriangles run_tile(std::uint64_t triangles) {
+    FewerTriangles fewer;
+    fewer.leaf = run(triangles);
+    parts_->tell(mesh_, whole_, fewer);
+    return fewer;
   }
 
  private:
@@ -94,6 +106,20 @@ class EdgeCollapses {
     std::vector<Index> others_u, others_v;
     bool holds_u = false, holds_v = false;  ///< a seam goes on from the end elsewhere, so that this must not move
   };
+
+  /// Drops the cheapest part of a tile if nothing that costs less is left to do. The last part of all stays.
+  bool drops_part() {
+    const double cost = parts_ ? parts_->least_cost() : HUGE_VAL;
+    if (cost == HUGE_VAL || (!order_.empty() && order_.top().cost < cost)) return false;
+    const std::vector<Index> faces = parts_->take_cheapest(mesh_);
+    if (faces.size() == mesh_.face_count()) return false;
+    for (const Index f : faces) {
+      for (std::size_t k = 0; k < 3; ++k) ++stamps_[mesh_.point_of(f, k)];
+      mesh_.erase(f);
+    }
+    return true;
+  }
+  [[nodiscard]] bool stays(Index p) const { return parts_ && parts_->stays(p); }
 
   // --- quadrics
 
@@ -151,6 +177,7 @@ class EdgeCollapses {
     for (const Index v : mesh_.neighbours(u)) {
       if (v == last || (once && v < u)) continue;
       last = v;
+      if (stays(u) && stays(v)) continue;
       const Index a = std::min(u, v), b = std::max(u, v);
       order_.push({places(a, b).front().cost, a, b, stamps_[a], stamps_[b]});
     }
@@ -167,6 +194,8 @@ class EdgeCollapses {
     const auto rated = [&](const Vec3d& to, double part) {
       return Place{std::max(q.value(to), 0.0) + extra, to, part};
     };
+    if (stays(u)) return {rated({}, 0)};
+    if (stays(v)) return {rated(d, 1)};
     std::vector<Place> all{rated({}, 0), rated(d, 1)};
     if (all[1].cost < all[0].cost) std::swap(all[0], all[1]);
     if (const Place between = rated(best, share); between.cost < kWorthMoving * all[0].cost)
@@ -203,6 +232,7 @@ class EdgeCollapses {
     q.add(quadrics_[u]);
     quadrics_[u] = q.about(place.to);
     mesh_.collapse(u, v, mesh_.at(u) + place.to, changes);
+    if (stays(v)) parts_->let_stay(u);
     ++stamps_[u];
     ++stamps_[v];
     rate_edges_of(u, false);
@@ -323,7 +353,8 @@ class EdgeCollapses {
   LeafMesh mesh_;
   std::vector<Quadric> quadrics_;  // by point, relative to it
   std::vector<std::uint32_t> stamps_;
-  std::size_t rated_faces_ = 0;  // when all edges were rated the last time
+  std::optional<TileParts> parts_;  // none: the leaf is the whole scene
+  std::size_t rated_faces_ = 0;     // when all edges were rated the last time
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> order_;
 };
 
@@ -342,6 +373,11 @@ std::vector<SceneLeaf> with_fewer_triangles(const SceneLeaf& leaf, std::span<con
     all.push_back(collapses->run(triangles));
   }
   return all;
+}
+
+FewerTriangles tile_with_fewer_triangles(const SceneLeaf& tile, const Bounds3d& box, std::uint64_t most,
+                                         LeafFolds folds) {
+  return EdgeCollapses(tile, folds, &box).run_tile(most);
 }
 
 }  // namespace bp

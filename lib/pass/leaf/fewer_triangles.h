@@ -22,4 +22,17 @@ enum class LeafFolds { plain, held };
 [[nodiscard]] std::vector<SceneLeaf> with_fewer_triangles(const SceneLeaf& leaf, std::span<const std::uint64_t> most,
                                                           LeafFolds folds = LeafFolds::plain);
 
+/// A tile with fewer triangles, and what it was made from.
+struct FewerTriangles {
+  SceneLeaf leaf;
+  std::vector<TriangleD> before;  ///< the triangles of the parts that are left, as they were; scene units
+  double vanished_world = 0;      ///< width of the widest part that vanished; 0: none did
+};
+
+/// Returns a tile with at most so many triangles, as above, but: points on the faces of its box stay, since the tiles
+/// beside it have them, too, so that no gap opens between them, whichever tiles are drawn side by side; and parts that
+/// end within the box vanish where they are so small that this costs less than what else could go.
+[[nodiscard]] FewerTriangles tile_with_fewer_triangles(const SceneLeaf& tile, const Bounds3d& box, std::uint64_t most,
+                                                       LeafFolds folds = LeafFolds::held);
+
 }  // namespace bp

@@ -6,13 +6,13 @@
 #include <cmath>
 #include <map>
 #include <tuple>
-#include <unordered_map>
 
 #include "lib/core/vec3.h"
 #include "lib/geometry/triangle_bvh.h"
 #include "lib/pass/bake/textured_triangle.h"
 #include "lib/pass/leaf/detail/corner_normals.h"
 #include "lib/pass/leaf/detail/cut_triangle.h"
+#include "lib/pass/leaf/detail/growing_part.h"
 #include "lib/tileset/tile_tree.h"
 
 namespace bp {
@@ -50,34 +50,10 @@ std::vector<TexturedTriangle> triangles_in(const SceneLooks& looks, const Bounds
   return all;
 }
 
-/// A part while it grows.
-struct GrowingPart {
-  LeafPart part;
-  struct Hash {
-    std::size_t operator()(const LeafVertex& v) const {
-      std::uint64_t h = 0;
-      const auto mix = [&h](std::uint64_t x) { h = (h ^ x) * 0x9E3779B97F4A7C15, h ^= h >> 29; };
-      for (const std::int32_t x : v.at) mix(std::uint32_t(x));
-      for (const float x : v.normal) mix(std::bit_cast<std::uint32_t>(x));
-      for (const auto* uv : {&v.uv, &v.second_uv})
-        for (const float x : *uv) mix(std::bit_cast<std::uint32_t>(x));
-      mix(std::uint64_t(v.color.r) << 32 | std::uint64_t(v.color.g) << 16 | v.color.b);
-      return std::size_t(h);
-    }
-  };
-  std::unordered_map<LeafVertex, std::uint32_t, Hash> numbers;
-
-  std::uint32_t number_of(const LeafVertex& v) {
-    const auto [found, is_new] = numbers.try_emplace(v, std::uint32_t(part.vertices.size()));
-    if (is_new) part.vertices.push_back(v);
-    return found->second;
-  }
-};
-
 class LeafCutter {
  public:
   LeafCutter(const SceneLooks& looks, const Bounds3d& box, double unit) : looks_(looks), box_(box) {
-    for (std::size_t i = 0; i < 3; ++i) leaf_.origin[i] = box.min[i] + (box.max[i] - box.min[i]) / 2;
+    leaf_.origin = middle_of(box);
     leaf_.unit = unit;
   }
 
@@ -176,18 +152,21 @@ LeafBox counted(const SceneLooks& looks, const Bounds3d& box, std::string path) 
 }
 
 /// Divides a box into octants if that helps: if few triangles reach into several of them.
-void find_boxes(const SceneLooks& looks, const LeafBox& at, std::vector<LeafBox>& out) {
-  if (at.triangles == 0) return;
-  std::array<LeafBox, 8> octants;
+void divide(const SceneLooks& looks, std::uint64_t most, LeafTree& at) {
+  if (at.box.triangles <= most || at.box.path.size() >= kMostDeep) return;
   std::uint64_t sum = 0;
-  if (at.triangles > kMostLeafTriangles && at.path.size() < kMostDeep) {
-    for (std::size_t k = 0; k < 8; ++k) {
-      octants[k] = counted(looks, octant_of(at.box, int(k)), at.path + char('0' + k));
-      sum += octants[k].triangles;
-    }
+  for (std::size_t k = 0; k < 8; ++k) {
+    LeafBox octant = counted(looks, octant_of(at.box.box, int(k)), at.box.path + char('0' + k));
+    sum += octant.triangles;
+    if (octant.triangles > 0) at.octants.push_back({std::move(octant), {}});
   }
-  if (sum == 0 || sum > 2 * at.triangles) return out.push_back(at);
-  for (const LeafBox& octant : octants) find_boxes(looks, octant, out);
+  if (sum > 2 * at.box.triangles) return at.octants.clear();
+  for (LeafTree& octant : at.octants) divide(looks, most, octant);
+}
+
+void collect(const LeafTree& at, std::vector<LeafBox>& out) {
+  if (at.octants.empty() && at.box.triangles > 0) out.push_back(at.box);
+  for (const LeafTree& octant : at.octants) collect(octant, out);
 }
 
 }  // namespace
@@ -198,10 +177,30 @@ std::uint64_t SceneLeaf::triangles() const {
   return n;
 }
 
+std::vector<TriangleD> world_triangles(const SceneLeaf& leaf) {
+  std::vector<TriangleD> all;
+  all.reserve(leaf.triangles());
+  for (const LeafPart& part : leaf.parts) {
+    const auto at = [&](std::uint32_t v) {
+      Vec3d p;
+      for (std::size_t i = 0; i < 3; ++i) p[i] = leaf.origin[i] + leaf.unit * part.vertices[v].at[i];
+      return p;
+    };
+    for (const auto& t : part.triangles) all.push_back({at(t[0]), at(t[1]), at(t[2])});
+  }
+  return all;
+}
+
 std::vector<LeafBox> leaf_boxes(const SceneLooks& looks, const Bounds3d& cell) {
   std::vector<LeafBox> boxes;
-  find_boxes(looks, counted(looks, cell, ""), boxes);
+  collect(leaf_tree(looks, cell, kMostLeafTriangles), boxes);
   return boxes;
+}
+
+LeafTree leaf_tree(const SceneLooks& looks, const Bounds3d& cell, std::uint64_t most) {
+  LeafTree root{counted(looks, cell, ""), {}};
+  divide(looks, most, root);
+  return root;
 }
 
 double leaf_unit(double voxel, std::int32_t edge_vox) {

@@ -36,6 +36,9 @@ struct SceneLeaf {
   [[nodiscard]] std::uint64_t triangles() const;
 };
 
+/// Returns the triangles of all parts, scene units.
+[[nodiscard]] std::vector<TriangleD> world_triangles(const SceneLeaf& leaf);
+
 /// A box, and its octants from the cell down to it, one digit each (octant_of()).
 struct LeafBox {
   Bounds3d box;
@@ -49,6 +52,14 @@ constexpr std::uint64_t kMostLeafTriangles = std::uint64_t(1) << 16;
 /// Memory while a leaf is cut and written. Triangles around it count, too.
 constexpr std::uint64_t kLeafBytesPerTriangle = 1000;
 
+/// A box, and those of its octants that have triangles, if it has too many itself.
+struct LeafTree {
+  LeafBox box;
+  std::vector<LeafTree> octants;
+};
+/// Divides a box into octants, and these again, until none has more than `most` triangles or it does not help: if too
+/// many of them reach into several octants.
+[[nodiscard]] LeafTree leaf_tree(const SceneLooks& looks, const Bounds3d& cell, std::uint64_t most);
 /// Returns a cell, or octants of it that have few enough triangles; nothing if there are no triangles.
 [[nodiscard]] std::vector<LeafBox> leaf_boxes(const SceneLooks& looks, const Bounds3d& cell);
 

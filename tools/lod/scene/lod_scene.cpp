@@ -13,6 +13,7 @@
 #include "lib/enclosed/enclosed_triangles.h"
 #include "lib/exact/predicates.h"
 #include "lib/geometry/triangle_bvh.h"
+#include "lib/geometry/triangle_totals.h"
 #include "lib/grid/shelf_stream.h"
 #include "lib/levels/margin.h"
 #include "lib/levels/symmetry.h"
@@ -176,6 +177,29 @@ LodScene read_scene(Build& build, const ReadOptions& read) {
   scene.colored = source->has_colors();
   scene.textured = choose_textures(build, *source, scene, !read.ground);
   if (scene.colored && !scene.textured) scene.colors = gathered_colors(build, *source, voxels);
+  return scene;
+}
+
+LodScene measure_scene(Build& build) {
+  const BuildOptions& o = build.options;
+  build.place();
+  build.report.begin("read");
+  LodScene scene;
+  SceneOptions how = build.scene_options();
+  how.colors = o.colors();
+  if (o.may_have_textures()) how.textures = scene.textures = std::make_shared<TextureTable>();
+  const auto source = build.open_scene(how);
+  StreamHeader& header = scene.voxels.header;
+  header.bounds = bounds_of(*source);
+  if (header.bounds.empty()) fail(ErrorCode::bad_input, "{}: no triangles; a scene needs at least one", source->name());
+  header.frame.up = o.voxels.up.value_or(source->up().value_or(UpAxis::y));
+  header.fill = FillMode::none;
+  const SceneCounts& counts = scene.voxels.counts.scene = source->counts();
+  scene.size = {header.bounds, counts.triangles, counts.kept_degenerate};
+  question_proportions(o, scene.size);
+  note_scene(build, scene, source->up());
+  scene.colored = source->has_colors();
+  scene.textured = choose_textures(build, *source, scene, true);
   return scene;
 }
 

@@ -44,6 +44,9 @@ struct ReadOptions {
 /// Reads and voxelizes the scene of the options. Notes tell about the scene, unless it is read again for the ground.
 [[nodiscard]] LodScene read_scene(Build& build, const ReadOptions& read);
 
+/// Reads the bounds, the size and the materials of the scene, without voxels. Notes tell about the scene.
+[[nodiscard]] LodScene measure_scene(Build& build);
+
 /// The room that a cage leaves around its scene.
 struct CageRoom {
   double margin_world = 0, voxel = 0;

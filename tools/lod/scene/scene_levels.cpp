@@ -21,20 +21,6 @@ namespace {
 /// A level that shows less than this share of its pixels otherwise than the scene needs no fit beside it.
 constexpr double kLooksTheSame = 0.02;
 
-std::vector<TriangleD> triangles_of(const SceneLeaf& leaf) {
-  std::vector<TriangleD> all;
-  all.reserve(leaf.triangles());
-  for (const LeafPart& part : leaf.parts) {
-    const auto at = [&](std::uint32_t v) {
-      Vec3d p;
-      for (std::size_t i = 0; i < 3; ++i) p[i] = leaf.origin[i] + leaf.unit * part.vertices[v].at[i];
-      return p;
-    };
-    for (const auto& t : part.triangles) all.push_back({at(t[0]), at(t[1]), at(t[2])});
-  }
-  return all;
-}
-
 /// Returns the whole scene as one piece. The unit is so small that numbers of 32 bits hold what floats hold.
 SceneLeaf whole_scene(const SceneLooks& looks, const Bounds3d& bounds) {
   constexpr int kBits = 30;
@@ -95,7 +81,7 @@ SceneLevels::SceneLevels(Build& build, const LodScene& scene, const std::vector<
     build.note(fault + "; levels from the scene leave it out");
     broken_.insert(image);
   }
-  const std::vector<TriangleD> all = triangles_of(whole);
+  const std::vector<TriangleD> all = world_triangles(whole);
   if (all.empty()) return;  // no triangle has an area
   const TriangleBvh tree(all);
   const bool has_colors = build.options.colors() && scene.has_colors();
@@ -113,7 +99,7 @@ SceneLevels::SceneLevels(Build& build, const LodScene& scene, const std::vector<
   }
   for (Level& level : levels_) {
     if (level.leaf == nullptr || is_whole(level.leaf, whole)) continue;
-    const std::vector<TriangleD> own = triangles_of(*level.leaf);
+    const std::vector<TriangleD> own = world_triangles(*level.leaf);
     const double tolerance = bounds.diagonal() / 1000;
     level.error_world = std::max(largest_distance(own, tree, tolerance).at_most,
                                  shown.empty() ? 0 : largest_distance(shown, TriangleBvh(own), tolerance).at_most);
@@ -122,7 +108,7 @@ SceneLevels::SceneLevels(Build& build, const LodScene& scene, const std::vector<
 
 /// Gives a level these triangles unless it has some that look nearer.
 void SceneLevels::offer(Level& level, SceneLeaf&& leaf, const LeafImages& images) const {
-  const double difference = views_->difference(triangles_of(leaf), paint_of(leaf, images));
+  const double difference = views_->difference(world_triangles(leaf), paint_of(leaf, images));
   if (level.leaf != nullptr && level.difference <= difference) return;
   level.leaf = std::make_shared<const SceneLeaf>(std::move(leaf));
   level.difference = difference;

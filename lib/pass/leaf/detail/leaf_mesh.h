@@ -36,7 +36,8 @@ class LeafMesh {
   [[nodiscard]] SceneLeaf leaf(const SceneLeaf& whole) const;
 
   [[nodiscard]] std::size_t point_count() const { return points_.size(); }
-  [[nodiscard]] std::size_t face_count() const { return alive_; }
+  [[nodiscard]] std::size_t face_count() const { return alive_; }  ///< of faces that are left
+  [[nodiscard]] bool is_alive(Index f) const { return is_alive_[f] != 0; }
   /// Returns a point's place in the leaf's units, from its origin.
   [[nodiscard]] const Vec3d& at(Index point) const { return points_[point].at; }
   /// Returns the faces around a point.
@@ -61,11 +62,12 @@ class LeafMesh {
   /// Where two faces of a part come to lie on each other, one is gone, too. If they turned their backs to each other,
   /// both sides of the other one are shown, or each shows its own side if they look different.
   void collapse(Index u, Index v, const Vec3d& to, const std::vector<Change>& changes);
+  /// Takes a face away.
+  void erase(Index f);
 
  private:
   void part_fans(Index point);
   void give_point(Index point, const std::vector<Index>& fan);
-  void erase(Index f);
   void erase_doubles(Index point);
   [[nodiscard]] bool joins(Index f, Index g) const;
   [[nodiscard]] bool turns_like(Index f, Index g) const;

@@ -45,18 +45,6 @@ LatticeMesh box_mesh(LatticeBox box) {
   return mesh;
 }
 
-Bounds3d bounds_of_scene(const TexturedScene& scene) {
-  Bounds3d bounds;
-  for (const TriangleD& t : scene.triangles) bounds.merge(bp::bounds_of(t));
-  return bounds;
-}
-
-std::unique_ptr<SceneLooks> looks_of(const TexturedScene& scene, const std::shared_ptr<const TextureSet>& textures,
-                                     const MemoryShare& memory = {}) {
-  TexturedSource source(scene);
-  const SceneLooks::Scene read{source, bounds_of_scene(scene), scene.triangles.size(), textures};
-  return std::make_unique<SceneLooks>(read, std::make_unique<MemoryScratch>(), memory);
-}
 
 ResultKey key_near_origin(const SceneLooks& looks) {
   KeyHash hash("test");

@@ -5,7 +5,6 @@
 #include "lib/core/vec3.h"
 #include "lib/geometry/triangle_bvh.h"
 #include "lib/pass/leaf/scene_leaf.h"
-#include "lib/store/memory_scratch.h"
 #include "lib/store/result_key.h"
 #include "lib/tileset/tile_tree.h"
 #include "tests/catch.h"
@@ -15,22 +14,6 @@ using namespace bp;
 using namespace bp::test;
 
 namespace {
-
-std::unique_ptr<SceneLooks> looks_of(const TexturedScene& scene, const std::shared_ptr<const TextureSet>& textures) {
-  TexturedSource source(scene);
-  Bounds3d bounds;
-  for (const TriangleD& t : scene.triangles) bounds.merge(bounds_of(t));
-  const SceneLooks::Scene read{source, bounds, scene.triangles.size(), textures};
-  return std::make_unique<SceneLooks>(read, std::make_unique<MemoryScratch>(), MemoryShare{});
-}
-
-std::shared_ptr<MemoryTextures> one_material() {
-  auto textures = std::make_shared<MemoryTextures>();
-  textures->images.emplace_back(4, 4, TextureImage::Texel{200, 100, 50, 255});
-  textures->materials.push_back({});
-  textures->materials.back().image = 0;
-  return textures;
-}
 
 /// Triangles of all sizes in a box from 0 to 16; places in images are their x and y.
 TexturedScene random_scene(int count) {

@@ -1,0 +1,314 @@
+#include "tools/lod/tiles/visual_tiles.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/mesh/leaf_writer.h"
+#include "lib/core/error.h"
+#include "lib/core/parallel.h"
+#include "lib/pass/bake/textured_triangle.h"
+#include "lib/store/packing.h"
+#include "lib/store/result_key.h"
+#include "lib/tileset/tile_tree.h"
+#include "tools/lod/bake_levels.h"
+#include "tools/run/provenance.h"
+
+namespace bp {
+
+namespace {
+
+/// The part of the memory for work that one image may take while it is made smaller.
+constexpr double kImageShare = 0.25;
+
+std::string text_of(const std::vector<std::byte>& bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+std::span<const std::byte> bytes_of_text(const std::string& text) {
+  return std::as_bytes(std::span(text));
+}
+
+}  // namespace
+
+std::uint64_t most_tile_triangles(const BuildOptions& options) {
+  return options.levels.faces.empty() ? kVisualTileTriangles : options.levels.faces.front();
+}
+
+VisualTiles::VisualTiles(Build& build, const LodScene& scene, const SceneLooks& looks, Scratch& files,
+                         ResultStore* results)
+    : build_(build),
+      scene_(scene),
+      looks_(looks),
+      files_(files),
+      results_(results),
+      cube_(tile_cube(scene.size.bounds)),
+      most_(most_tile_triangles(build.options)),
+      memory_(build.context(nullptr, 1 - kImageShare).memory),
+      images_(looks.images(), &files, part_of(build.budget.work, kImageShare).bytes) {
+  OptionText text;
+  text.add("mode", "visual").add("faces", most_);
+  if (build.options.compression == TileCompression::none) text.add("compression", "none");
+  provenance_ = {make_provenance("bplod", text)};
+  add(leaf_tree(looks, cube_.box, most_), 0);
+  if (results == nullptr) return;
+  number_materials();
+  for (std::size_t i = jobs_.size(); i-- > 0;) add_key(jobs_[i]);
+}
+
+std::size_t VisualTiles::add(const LeafTree& tree, std::size_t depth) {
+  const std::size_t number = jobs_.size();
+  jobs_.push_back({tree.box, depth});
+  for (const LeafTree& octant : tree.octants) {
+    const std::size_t below = add(octant, depth + 1);
+    jobs_[number].below.push_back(below);
+  }
+  return number;
+}
+
+/// Sets the key of a job; those of the tiles below it are set.
+void VisualTiles::add_key(Job& job) const {
+  KeyHash hash("visual tile");
+  hash.add(build_.options.name, job.box.path, cube_.unit, build_.options.appearance, scene_.voxels.header.frame.up,
+           provenance_.front().options, looks_.finest_texel(), job.below.size());
+  if (job.below.empty()) {
+    add_leaf_to(hash, looks_, job.box.box);
+  } else {
+    hash.add(job.box.box);
+  }
+  for (const std::size_t i : job.below) hash.add(jobs_[i].key);
+  job.key = hash.key();
+}
+
+/// Kept tiles name materials by what they look like, since numbers change with the scene.
+void VisualTiles::number_materials() {
+  looks_.visit(cube_.box, [&](const TexturedTriangle& t) {
+    const std::uint32_t material = t.texture.material;
+    const auto [found, is_new] = materials_.try_emplace(looks_.key_of(material), material);
+    if (!is_new) found->second = std::min(found->second, material);
+  });
+}
+
+std::size_t VisualTiles::depths() const {
+  std::size_t most = 0;
+  for (const Job& job : jobs_) most = std::max(most, job.depth + 1);
+  return most;
+}
+
+/// Returns the name of a tile's file: a digit for each octant from the root down to it.
+std::string VisualTiles::name_of(const Job& job) const {
+  return fmt::format("{}/0{}.glb", folder(), job.box.path);
+}
+
+void VisualTiles::make() {
+  require_memory();
+  for (std::size_t depth = depths(); depth-- > 0;) {
+    std::vector<std::size_t> jobs;
+    for (std::size_t i = 0; i < jobs_.size(); ++i) {
+      if (jobs_[i].depth == depth) jobs.push_back(i);
+    }
+    std::size_t next = 0;
+    run_jobs<std::size_t>(
+        at_once(jobs),
+        [&](std::size_t& i) {
+          if (next == jobs.size()) return false;
+          i = jobs[next++];
+          return true;
+        },
+        [&](const std::size_t& i) { make(jobs_[i]); });
+  }
+}
+
+/// Returns a bound on the triangles of a tile before it is made: those that meet its box, or as many as it may have.
+std::uint64_t VisualTiles::planned(const Job& job) const {
+  if (job.below.empty()) return job.box.triangles;
+  std::uint64_t sum = 0;
+  for (const std::size_t i : job.below) sum += planned(jobs_[i]);
+  return std::min(sum, most_);
+}
+
+/// Returns the memory that a tile takes while it is made. `of`: returns the triangles of a tile below.
+template <class Triangles>
+std::uint64_t VisualTiles::bytes_of(const Job& job, const Triangles& of) const {
+  if (job.below.empty()) return job.box.triangles * kLeafBytesPerTriangle;
+  std::uint64_t triangles = 0;
+  for (const std::size_t i : job.below) triangles += of(jobs_[i]);
+  return triangles * kTileBytesPerTriangle;
+}
+
+/// Refuses before the work if a tile will not fit.
+void VisualTiles::require_memory() const {
+  std::uint64_t most = 0;
+  for (const Job& job : jobs_) most = std::max(most, bytes_of(job, [&](const Job& below) { return planned(below); }));
+  if (most > memory_.bytes) throw NeedsMemory("a tile of the scene", most, memory_.bytes, memory_.limit_for(most));
+}
+
+/// Returns how many of the jobs are done at the same time: the largest fit into the memory together. Those below are
+/// done.
+int VisualTiles::at_once(const std::vector<std::size_t>& jobs) const {
+  std::uint64_t most = 1;
+  for (const std::size_t i : jobs)
+    most = std::max(most, bytes_of(jobs_[i], [](const Job& below) { return below.triangles; }));
+  return int(std::clamp(memory_.bytes / most, std::uint64_t(1), std::uint64_t(thread_count())));
+}
+
+void VisualTiles::make(Job& job) {
+  SceneTile tile;
+  std::string content;
+  job.kept = results_ != nullptr && get_kept(job, tile, content);
+  if (!job.kept) tile = made(job);
+  job.bounds = tile.leaf.bounds;
+  for (const std::size_t i : job.below) {
+    if (jobs_[i].triangles == 0) continue;
+    job.bounds.merge(jobs_[i].bounds);
+    files_.drop(jobs_[i].tile);
+  }
+  job.error_world = tile.error_world;
+  job.triangles = tile.leaf.triangles();
+  const ImageNames images = images_of(tile);
+  if (!job.kept) {
+    if (job.triangles > 0) content = content_of(job, tile, images);
+    if (results_ != nullptr) keep(job, tile, content);
+  }
+  if (job.triangles == 0) return;
+  job.bytes = content.size();
+  job.content = files_.put(bytes_of_text(content));
+  std::string bytes;
+  pack(bytes, tile);
+  job.tile = files_.put(bytes_of_text(bytes));
+}
+
+SceneTile VisualTiles::made(const Job& job) const {
+  if (job.below.empty()) return leaf_tile(looks_, job.box.box, cube_.unit);
+  std::vector<SceneTile> below;
+  for (const std::size_t i : job.below) {
+    if (jobs_[i].triangles > 0) below.push_back(taken(jobs_[i]));
+  }
+  if (below.empty()) return {};
+  return tile_above(below, job.box.box, most_, [&](std::uint32_t material) { return looks_.key_of(material); });
+}
+
+SceneTile VisualTiles::taken(const Job& job) const {
+  std::vector<std::byte> bytes;
+  files_.get(job.tile, bytes);
+  std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  SceneTile tile;
+  if (!unpack(text, tile)) fail(ErrorCode::failed, "a tile that waits in the scratch is damaged");
+  return tile;
+}
+
+bool VisualTiles::get_kept(const Job& job, SceneTile& tile, std::string& content) const {
+  std::string bytes;
+  if (!results_->get(job.key, bytes)) return false;
+  std::string_view text = bytes;
+  std::vector<ResultKey> looks;
+  if (!unpack(text, tile) || !unpack(text, looks) || looks.size() != tile.leaf.parts.size()) return false;
+  for (std::size_t i = 0; i < looks.size(); ++i) {
+    const auto found = materials_.find(looks[i]);
+    if (found == materials_.end()) return false;
+    tile.leaf.parts[i].material = found->second;
+  }
+  content = text;
+  return true;
+}
+
+void VisualTiles::keep(const Job& job, SceneTile tile, const std::string& content) const {
+  std::vector<ResultKey> looks;
+  for (LeafPart& part : tile.leaf.parts) {
+    looks.push_back(looks_.key_of(part.material));
+    part.material = 0;
+  }
+  std::string bytes;
+  pack(bytes, tile);
+  pack(bytes, looks);
+  results_->put(job.key, bytes + content);
+}
+
+/// Returns the files of the images that a tile shows. They are so small that a viewer does not tell their texels where
+/// it draws the tile: as fine as textures of levels are.
+VisualTiles::ImageNames VisualTiles::images_of(const SceneTile& tile) {
+  ImageNames names;
+  if (looks_.images() == nullptr) return names;
+  const double texel = looks_.finest_texel(), wanted = tile.error_world / kTexelsPerError;
+  const int halvings = texel > 0 && wanted > texel ? int(std::log2(wanted / texel)) : 0;
+  for (const LeafPart& part : tile.leaf.parts) {
+    if (part.material == TriangleTexture::kNoMaterial) continue;
+    const TextureMaterial& m = looks_.images()->material(part.material);
+    for (const std::uint32_t image : m.images()) {
+      if (image == kNoTextureImage) continue;
+      const bool is_color = image == m.image || image == m.surface.emission.image;
+      names.try_emplace(image,
+                        images_.name_of(image, halvings, is_color ? MipImage::Kind::color : MipImage::Kind::numbers));
+    }
+  }
+  const std::lock_guard lock(mutex_);
+  for (const auto& [image, name] : names) {
+    if (!name.empty()) used_images_.insert(name);
+  }
+  return names;
+}
+
+std::string VisualTiles::content_of(const Job& job, const SceneTile& tile, const ImageNames& images) const {
+  const auto name_of_image = [&](std::uint32_t image) {
+    const auto found = images.find(image);
+    return found == images.end() ? std::string() : found->second;
+  };
+  const LeafLooks looks{looks_.images(), name_of_image, build_.options.colors(), build_.options.compression};
+  const std::string name = build_.options.name + "_0" + job.box.path;
+  return leaf_glb(name, tile.leaf, looks, scene_.voxels.header.frame.up, provenance_, false);
+}
+
+Tile VisualTiles::tile_of(const Job& job, const Vec3d& parent) const {
+  const Vec3d origin = middle_of(job.box.box);
+  Tile tile = tile_at({name_of(job), origin, job.bounds, job.error_world}, parent, scene_.voxels.header.frame.up);
+  for (const std::size_t i : job.below) {
+    if (jobs_[i].triangles > 0) tile.children.push_back(tile_of(jobs_[i], origin));
+  }
+  return tile;
+}
+
+Tileset VisualTiles::tileset() const {
+  Tileset tileset;
+  tileset.up = scene_.voxels.header.frame.up;
+  tileset.root = tile_of(jobs_.front(), {});
+  tileset.root.refine = "REPLACE";
+  tileset.geometric_error = std::max(scene_.size.bounds.diagonal(), tileset.root.geometric_error);
+  tileset.placement = build_.placed.placement;
+  if (tileset.placement) tileset.placement->at = turned(tileset.placement->at, tileset.up, UpAxis::z);
+  for (const std::string& name : used_images_) tileset.images.push_back(folder() + "/" + name);
+  return tileset;
+}
+
+void VisualTiles::write_to(TilesetFolder& out) const {
+  parallel_for(std::int64_t(jobs_.size()), [&](std::int64_t i) {  // each waits for the disk
+    const Job& job = jobs_[std::size_t(i)];
+    if (job.triangles == 0) return;
+    std::vector<std::byte> bytes;
+    files_.get(job.content, bytes);
+    out.write(name_of(job), text_of(bytes));
+  });
+  for (const std::string& name : used_images_) out.write(folder() + "/" + name, images_.bytes_of(name));
+}
+
+std::vector<LevelRow> VisualTiles::rows() const {
+  std::vector<LevelRow> rows(depths());
+  std::vector<std::uint64_t> kept(rows.size());
+  for (const Job& job : jobs_) {
+    const std::size_t i = rows.size() - 1 - job.depth;
+    LevelRow& row = rows[i];
+    kept[i] += job.kept;
+    if (job.triangles == 0) continue;
+    row.tiles += 1;
+    row.faces += job.triangles;
+    row.bytes += job.bytes;
+    row.error_world = std::max(row.error_world, job.error_world);
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].file = fmt::format("{}/{}.glb", folder(), std::string(rows.size() - i, '?'));
+    rows[i].more = {{"kept", kept[i]}};
+  }
+  return rows;
+}
+
+}  // namespace bp

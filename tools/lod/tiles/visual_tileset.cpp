@@ -1,0 +1,62 @@
+#include "tools/lod/tiles/visual_tileset.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "io/files/file.h"
+#include "io/store/scratch.h"
+#include "io/tiles/tileset_file.h"
+#include "lib/check/counted.h"
+#include "tools/lod/bake_levels.h"
+#include "tools/lod/kept_results.h"
+#include "tools/lod/tiles/visual_tiles.h"
+
+namespace bp {
+
+void build_visual_tileset(const BuildOptions& o) {
+  TilesetFolder folder(o.out, {o.name + "_tiles"}, o.common.overwrite);
+  Build build(o);
+  build.note(cache_note(o));
+  std::string fault;  // the reason why the cache keeps nothing, known after the tiles are made
+  const std::unique_ptr<ResultStore> results = open_kept_results(o, fault);
+  const LodScene scene = measure_scene(build);
+  build.report.begin("looks");
+  const std::unique_ptr<SceneLooks> looks = read_looks(build, scene, part_of(build.budget.work, kLooksBeside));
+  build.report.begin("tiles");
+  const std::unique_ptr<Scratch> files = make_scratch(build.budget.store, o.common.temp);
+  VisualTiles tiles(build, scene, *looks, *files, results.get());
+  tiles.make();
+  build.progress.end();
+  if (!fault.empty()) build.note(fault + "; what is not in the cache was made, and is not kept");
+  for (const std::string& text : tiles.faults()) build.note(text + "; it is left out");
+  build.report.begin("write");
+  tiles.write_to(folder);
+  folder.write("tileset.json", tileset_text(tiles.tileset(), tiles.provenance()));
+  folder.commit();
+  if (!folder.complaint().empty())
+    build.note(folder.complaint() + "; tiles of the tileset that was there before are not known, and stay");
+  finish(build, scene.told(), tiles.rows(), folder.bytes());
+}
+
+void explain_visual_tileset(const BuildOptions& o) {
+  Build build(o);
+  const LodScene scene = measure_scene(build);
+  const std::uint64_t triangles = scene.size.triangles, most = most_tile_triangles(o);
+  // A tile has about as many triangles as each of the four below it, if the scene is a surface.
+  const auto tiles = std::uint64_t(std::ceil(double(triangles) / double(most) * 4 / 3 * 2));
+  const double lattice = tile_cube(scene.size.bounds).unit;
+  Json& counts = build.report.counts;
+  counts = {{"triangles", triangles}, {"min", scene.size.bounds.min},   {"max", scene.size.bounds.max},
+            {"lattice", lattice},     {"tile_triangles_at_most", most}, {"tiles_about", tiles}};
+  build.report.bytes_in = size_of_files(o.voxels.scenes);
+  build.report.write(o.common);
+  const Vec3d &lo = scene.size.bounds.min, &hi = scene.size.bounds.max;
+  print(
+      fmt::format("scene\t{} from {:.6g} {:.6g} {:.6g} to {:.6g} {:.6g} {:.6g}\n"
+                  "tiles\tabout {}, of at most {} triangles; those at the ends are the scene itself\n"
+                  "lattice\t{:.3g}: vertices are rounded to this\n",
+                  counted(triangles, "triangle"), lo[0], lo[1], lo[2], hi[0], hi[1], hi[2], tiles, most, lattice));
+}
+
+}  // namespace bp
