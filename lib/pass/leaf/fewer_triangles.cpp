@@ -93,10 +93,8 @@ class EdgeCollapses {
 
   /// Returns what run() left of a tile.
   FewerTriangles run_tile(std::uint64_t triangles) {
-    FewerTriangles fewer;
-    fewer.leaf = run(triangles);
-    parts_->tell(mesh_, whole_, fewer);
-    return fewer;
+    SceneLeaf leaf = run(triangles);
+    return {std::move(leaf), parts_->left_of(whole_, mesh_), parts_->widest_gone(mesh_) * whole_.unit};
   }
 
  private:

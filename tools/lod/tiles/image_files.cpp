@@ -20,10 +20,6 @@ std::string hashed_name(std::span<const std::byte> file, const std::string& type
   return hex_of(hash.words[0], hash.words[1]) + "." + ending;
 }
 
-std::string text_of(const std::vector<std::byte>& bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
 }  // namespace
 
 /// The names of an image's smaller files: halved once, twice, ...; empty: the image is broken.
@@ -87,10 +83,13 @@ void ImageFiles::make_smaller(std::uint32_t image, MipImage::Kind kind, Smaller&
 
 std::string ImageFiles::bytes_of(const std::string& name) const {
   const Source& source = sources_.at(name);
-  if (!source.smaller) return text_of(images_->file(source.image));
   std::vector<std::byte> bytes;
-  store_->get(*source.smaller, bytes);
-  return text_of(bytes);
+  if (source.smaller) {
+    store_->get(*source.smaller, bytes);
+  } else {
+    bytes = images_->file(source.image);
+  }
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 std::vector<std::string> ImageFiles::faults() const {

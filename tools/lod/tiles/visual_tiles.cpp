@@ -144,8 +144,8 @@ void VisualTiles::require_memory() const {
   if (most > memory_.bytes) throw NeedsMemory("a tile of the scene", most, memory_.bytes, memory_.limit_for(most));
 }
 
-/// Returns how many of the jobs are done at the same time: the largest fit into the memory together. Those below are
-/// done.
+/// Returns how many of the jobs are done at the same time: the largest fit into the memory together. The tiles below
+/// are done.
 int VisualTiles::at_once(const std::vector<std::size_t>& jobs) const {
   std::uint64_t most = 1;
   for (const std::size_t i : jobs)

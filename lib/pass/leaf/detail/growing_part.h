@@ -2,7 +2,7 @@
 #include <bit>
 #include <unordered_map>
 
-#include "lib/pass/leaf/scene_leaf.h"
+#include "lib/pass/leaf/leaf_part.h"
 
 namespace bp {
 

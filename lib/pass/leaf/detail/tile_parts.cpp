@@ -63,15 +63,26 @@ std::vector<LeafMesh::Index> TileParts::take_cheapest(const LeafMesh& mesh) {
   return left;
 }
 
-void TileParts::tell(const LeafMesh& mesh, const SceneLeaf& tile, FewerTriangles& fewer) const {
-  const std::vector<TriangleD> before = world_triangles(tile);
+bool TileParts::is_left(const Part& part, const LeafMesh& mesh) {
+  return std::any_of(part.faces.begin(), part.faces.end(), [&](Index f) { return mesh.is_alive(f); });
+}
+
+std::vector<TriangleD> TileParts::left_of(const SceneLeaf& tile, const LeafMesh& mesh) const {
+  const std::vector<TriangleD> all = world_triangles(tile);
+  std::vector<TriangleD> left;
   for (const Part& part : parts_) {
-    const bool is_left = std::any_of(part.faces.begin(), part.faces.end(), [&](Index f) { return mesh.is_alive(f); });
-    if (!is_left) fewer.vanished_world = std::max(fewer.vanished_world, part.width * tile.unit);
-    for (const Index f : part.faces) {
-      if (is_left) fewer.before.push_back(before[f]);
-    }
+    if (!is_left(part, mesh)) continue;
+    for (const Index f : part.faces) left.push_back(all[f]);
   }
+  return left;
+}
+
+double TileParts::widest_gone(const LeafMesh& mesh) const {
+  double widest = 0;
+  for (const Part& part : parts_) {
+    if (!is_left(part, mesh)) widest = std::max(widest, part.width);
+  }
+  return widest;
 }
 
 }  // namespace bp

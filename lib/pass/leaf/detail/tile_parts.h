@@ -2,11 +2,10 @@
 #include <vector>
 
 #include "lib/pass/leaf/detail/leaf_mesh.h"
-#include "lib/pass/leaf/fewer_triangles.h"
 
 namespace bp {
 
-/// The parts of a tile: surface that is joined by edges and points. Those that have no point on the faces of the tile's
+/// The parts of a tile: surface that is joined by edges and points. Parts without a point on the faces of the tile's
 /// box may vanish.
 class TileParts {
  public:
@@ -22,8 +21,10 @@ class TileParts {
   [[nodiscard]] double least_cost() const;
   /// Returns the faces that are left of that part, and forgets it. Empty: none are, or there is no such part.
   std::vector<Index> take_cheapest(const LeafMesh& mesh);
-  /// Sets `before` and `vanished_world` of a tile whose mesh has become `mesh`.
-  void tell(const LeafMesh& mesh, const SceneLeaf& tile, FewerTriangles& fewer) const;
+  /// Returns the triangles of `tile` in parts that are left in `mesh`, which the tile's has become; scene units.
+  [[nodiscard]] std::vector<TriangleD> left_of(const SceneLeaf& tile, const LeafMesh& mesh) const;
+  /// Returns the width of the widest part that is gone, units; 0: none is.
+  [[nodiscard]] double widest_gone(const LeafMesh& mesh) const;
 
  private:
   struct Part {
@@ -33,6 +34,7 @@ class TileParts {
     std::vector<Index> faces;
   };
   void find(const LeafMesh& mesh);
+  [[nodiscard]] static bool is_left(const Part& part, const LeafMesh& mesh);
 
   std::vector<char> stays_;  // by point
   std::vector<Part> parts_;

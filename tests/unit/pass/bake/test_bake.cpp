@@ -45,7 +45,6 @@ LatticeMesh box_mesh(LatticeBox box) {
   return mesh;
 }
 
-
 ResultKey key_near_origin(const SceneLooks& looks) {
   KeyHash hash("test");
   looks.add_to(hash, Bounds3d{{-1, -1, -1}, {1, 1, 1}});
