@@ -142,8 +142,9 @@ fi
 if [ -n "${NODE_PATH:-}" ]; then
   node "$root/tests/viewers/shot.cjs" cesium city-tiles/tileset.json guide-tileset.png 'width=520&radii=1.3&pixels=4' > /dev/null
   "$root/tests/viewers/run.sh" viewers > /dev/null && cp viewers/all.png guide-viewers.png
-  bplod town/town.obj --profile 3dtiles --leaves scene --resolution 512 --tile 128 -q -o town-tiles > /dev/null
-  node "$root/tests/viewers/shot.cjs" cesium town-tiles/tileset.json guide-leaves.png 'width=520&radii=0.35' > /dev/null
+  "$root/samples/town.py" town-view 4000 > /dev/null
+  bplod town-view/town.obj --profile 3dtiles --mode visual --faces 16384 -q -o town-tiles > /dev/null
+  node "$root/tests/viewers/shot.cjs" cesium town-tiles/tileset.json guide-visual-tileset.png 'width=520&metres=220' > /dev/null
   bplod town/town.obj --faces 6000,1000,300 -q -o town-lod > /dev/null
   node "$root/tests/viewers/shot.cjs" three town-lod/town_LOD0.glb guide-textures.png 'width=420&radii=0.33' > /dev/null
 fi

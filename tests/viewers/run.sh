@@ -32,6 +32,7 @@ bplod scenes/truck.obj --faces 3000 --levels 1 --resolution 160 -o data/truck > 
 bplod scenes/city.obj --up z --faces 4000 --levels 1 --appearance texture -o data/city > /dev/null
 bplod scenes/engine.obj --faces 3000 --levels 1 -o data/engine > /dev/null
 bplod scenes/city.obj --up z --profile 3dtiles --appearance texture -o data/city-tiles > /dev/null
+bplod scenes/city.obj --up z --profile 3dtiles --mode visual --faces 5000 -o data/city-view > /dev/null
 bplod scenes/city.obj --up z --profile 3dtiles --place 4.36,52.01,43 -o data/globe-tiles > /dev/null
 bplod scenes/figure.obj --resolution 192 --profile 3dtiles -o data/figure-tiles > /dev/null
 bplod scenes/engine.obj --profile 3dtiles -o data/engine-tiles > /dev/null
@@ -52,6 +53,7 @@ picture() {
 picture three data/bpmesh.glb three-bpmesh
 picture cesium data/leaves/tileset.json cesium-leaves
 picture cesium data/globe-tiles/tileset.json cesium-globe placed=1
+picture cesium data/city-view/tileset.json cesium-view
 for scene in plant town figure truck city engine; do
   picture three data/$scene/${scene}_LOD0.glb three-$scene radii=0.75
   picture blender data/$scene/${scene}_LOD0.glb blender-$scene

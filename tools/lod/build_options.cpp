@@ -204,7 +204,7 @@ void declare_profile(Args& args, BuildOptions& o) {
   args.group("Profile");
   args.option("--profile",
               {{"gltf", LodProfile::gltf, "levels of detail as GLB"},
-               {"3dtiles", LodProfile::tiles, "a tileset for CesiumJS and the like"},
+               {"3dtiles", LodProfile::tiles, "a tileset for CesiumJS; to be looked at with --mode visual"},
                {"collision", LodProfile::collision,
                 "a body for physics: one mesh for Godot and Unity, convex hulls for Unreal"},
                {"occluder", LodProfile::occluder, "one mesh inside, for culling in Godot"},
