@@ -3,7 +3,7 @@
 #include <optional>
 #include <sstream>
 
-#include "io/scene/detail/ahead/obj_vertices.h"
+#include "io/scene/detail/ahead/obj_blocks.h"
 #include "io/scene/detail/mtl_file.h"
 #include "io/scene/detail/text_scanner.h"
 #include "io/scene/detail/vertex_pool.h"
@@ -14,7 +14,8 @@
 // else is skipped. If colours or walls are asked for, "usemtl" and "mtllib" are read, too, and the three numbers after
 // a vertex' position (an extension of many programs). One pass streams faces while the vertices before them are added
 // to the pool. A face that names a later vertex makes all other vertices load at once, so that a vertex is called
-// missing only if the file does not have it.
+// missing only if the file does not have it. If the bounds were asked for, all vertices are known before the first
+// face, and the faces of a file with plain lines only are read on all cores.
 
 namespace bp {
 
@@ -26,6 +27,7 @@ class ObjSource final : public PolygonSource {
       : PolygonSource(options),
         file_(file),
         text_(file),
+        fans_(options.fans),
         pool_(options.memory_bytes, temp_dir_of(options)),
         materials_(options.document),
         walls_only_(options.walls_only),
@@ -39,6 +41,10 @@ class ObjSource final : public PolygonSource {
   [[nodiscard]] bool has_colors() const override { return has_colors_; }
   [[nodiscard]] bool has_textures() const override { return has_textures_; }
   [[nodiscard]] std::optional<Bounds3d> bounds() override;
+  bool next(RawBatch& batch) override;
+  void complete(RawBatch& batch) const override {
+    if (blocks_) blocks_->read_faces(std::size_t(batch.records), pool_, fans_, batch);
+  }
 
  private:
   bool next_face(std::vector<std::uint64_t>& corners) override;
@@ -51,6 +57,7 @@ class ObjSource final : public PolygonSource {
   [[nodiscard]] std::uint64_t lines() const override { return lines_; }
   void rewind_faces() override {
     lines_ = 0;
+    block_ = 0;
     text_.seek({});
     seen_ = seen_places_ = seen_normals_ = 0;
     texture_ = TriangleTexture::kNoMaterial;
@@ -82,7 +89,10 @@ class ObjSource final : public PolygonSource {
 
   SceneFilePtr file_;
   TextScanner text_;
+  const bool fans_;
   VertexPool pool_;
+  std::optional<ObjBlocks> blocks_;          // if faces are read in blocks
+  std::size_t block_ = 0;                    // the next one
   std::optional<VertexPool> vertex_colors_;  // if colours are asked for; up to the last vertex that has one
   std::optional<VertexPool> places_;         // "vt" lines, if asked for
   std::optional<VertexPool> normals_;        // "vn" lines, if asked for
@@ -158,13 +168,25 @@ char ObjSource::keyword(TextScanner& text) {
 std::optional<Bounds3d> ObjSource::bounds() {
   if (vertex_colors_ || !parts_.takes_all() || pool_.size() > 0) return {};
   Bounds3d all;
-  all_loaded_ = read_plain_vertices(*file_, [&](const std::vector<Vec3d>& vertices) {
+  ObjBlocks blocks(file_);
+  all_loaded_ = blocks.read_vertices([&](const std::vector<Vec3d>& vertices) {
     for (const Vec3d& p : vertices) {
       pool_.push(p);
       all.add(p);
     }
   });
+  if (blocks.has_plain_faces() && !pool_.spilled() && !walls_only_ && !parts_.asks())
+    blocks_.emplace(std::move(blocks));
   return all_loaded_ ? std::optional(all) : std::nullopt;
+}
+
+bool ObjSource::next(RawBatch& batch) {
+  if (!blocks_) return PolygonSource::next(batch);
+  batch.bad_faces = 0;
+  batch.triangles.clear();
+  batch.inner_edges.clear();
+  batch.records = block_;
+  return block_++ < blocks_->size();
 }
 
 void ObjSource::read_vertex(TextScanner& text) {

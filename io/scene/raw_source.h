@@ -162,7 +162,7 @@ class PolygonSource : public RawSource {
   bool read_colored(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors) final {
     return read(out, &colors, nullptr);
   }
-  bool next(RawBatch& batch) final;
+  bool next(RawBatch& batch) override;
   void rewind() final;
   [[nodiscard]] std::uint64_t points() const final { return vertex_count(); }
 

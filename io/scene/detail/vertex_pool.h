@@ -17,6 +17,8 @@ class VertexPool {
   [[nodiscard]] Vec3d operator[](std::uint64_t i) {
     return i >= spilled_ ? chunks_[std::size_t((i - spilled_) / kChunk)][i % kChunk] : read_spilled(i);
   }
+  /// Returns a vertex while none is spilled. Thread-safe.
+  [[nodiscard]] const Vec3d& in_memory(std::uint64_t i) const { return chunks_[std::size_t(i / kChunk)][i % kChunk]; }
   [[nodiscard]] std::uint64_t size() const { return size_; }
   [[nodiscard]] bool spilled() const { return spilled_ > 0; }
 

@@ -23,6 +23,7 @@ Bounds3d box_of(const std::vector<TriangleD>& triangles) {
 struct Outcome {
   std::vector<TriangleD> triangles;
   std::string complaint;
+  std::uint64_t bad_faces = 0;
   friend bool operator==(const Outcome&, const Outcome&) = default;
 };
 
@@ -33,6 +34,7 @@ Outcome outcome_of(const std::string& path, bool ahead, std::optional<Bounds3d>&
     const auto source = open_scene(path);
     if (ahead) told = source->bounds();
     outcome.triangles = read_all(*source);
+    outcome.bad_faces = source->counts().bad_faces;
     source->rewind();
     CHECK((read_all(*source) == outcome.triangles));
   } catch (const Error& e) {
@@ -75,6 +77,8 @@ std::string long_obj(unsigned seed, const std::string& line_end) {
     }
     text += "f -1 -2 -3" + line_end;
     if (vertices > 9) text += "f 1/2/3 5//7 " + std::to_string(vertices) + line_end;
+    if (random() % 3 == 0) text += " f\t-1 -2/1\t-3 -" + std::to_string(1 + random() % 9) + " " + line_end;
+    if (random() % 9 == 0) text += "f 1 2 " + std::to_string(random() % 99999) + line_end;  // it may be missing
   }
   return text;
 }
@@ -125,6 +129,46 @@ TEST_CASE("an OBJ with odd lines is read, or refused, as if nobody had asked for
   const std::string text = long_obj(2, "\n");
   (void)check_ahead(dir.file("d.obj", "#" + std::string(600000, 'v') + "\n" + text));
   CHECK(check_ahead(dir.file("e.obj", "#" + std::string(261000, ' ') + "v 9 9 9\n" + text)));
+}
+
+TEST_CASE("odd faces of an OBJ are read, or refused, as if nobody had asked for its bounds", "[quick][io][bounds]") {
+  const TempDir dir;
+  const std::vector<std::string> odd{"f 1 2 3#c\n",
+                                     "f 1 2 # 3\n",
+                                     "f 1 2 x\n",
+                                     "f +1 2 3\n",
+                                     "f 1/\\\n 2 3\n",
+                                     "f 1 2 \\\n3\n",
+                                     "f 1 2\n",
+                                     "f\n",
+                                     "f 1 2 3 1 2\n",
+                                     "surf 0 1\n",
+                                     "surface\n",
+                                     "l 1 2\n",
+                                     "f 0 1 2\n",
+                                     "f -99999999 1 2\n",
+                                     "f 1/a 2/b 3/\n",
+                                     "f 99999999999999999999 1 2\n",
+                                     "f 9223372036854775808 1 2\n",
+                                     "f 1 2 3\v1\n",
+                                     "f\v1 2 3\n",
+                                     "f 1\\ 2 3\n",
+                                     "f 1.5 2 3\n",
+                                     "f 1 2 3",
+                                     "f 1 2",
+                                     "f 1 2 99999999",
+                                     "f 1 2 3\r",
+                                     "usemtl f\n",
+                                     "fo 1 2 3\n",
+                                     "f -0 1 2\n",
+                                     "f 1 2 - 3\n",
+                                     "f 1,2,3\n"};
+  for (const std::string& line : odd) {
+    CAPTURE(line);
+    (void)bounds_ahead(dir.file("a.obj", kTriangle + line));
+    (void)bounds_ahead(dir.file("b.obj", kTriangle + line + kTriangle));
+    (void)bounds_ahead(dir.file("c.obj", long_obj(3, "\n") + line));
+  }
 }
 
 TEST_CASE("an OBJ tells no bounds if colours or some of its parts are asked for", "[quick][io][bounds]") {
