@@ -27,6 +27,7 @@ constexpr double kSharpCosine = 0.1;  // between faces at a fold that may be hel
 constexpr double kLeastCosine = 0.2;
 
 Look between(const Look& a, const Look& b, double t) {
+  if (t == 0 || t == 1) return t == 0 ? a : b;  // points that stay keep their looks to the last bit
   const auto mix = [t](double x, double y) { return x + t * (y - x); };
   Look out = a;
   double length = 0;
@@ -94,7 +95,7 @@ class EdgeCollapses {
   /// Returns what run() left of a tile.
   FewerTriangles run_tile(std::uint64_t triangles) {
     SceneLeaf leaf = run(triangles);
-    return {std::move(leaf), parts_->left_of(whole_, mesh_), parts_->widest_gone(mesh_) * whole_.unit};
+    return {std::move(leaf), parts_->triangles_of(whole_, mesh_, true), parts_->triangles_of(whole_, mesh_, false)};
   }
 
  private:
@@ -118,6 +119,18 @@ class EdgeCollapses {
     return true;
   }
   [[nodiscard]] bool stays(Index p) const { return parts_ && parts_->stays(p); }
+  /// Returns whether a collapse would take all faces from a point that stays.
+  [[nodiscard]] bool bares_point(Index u, Index v) const {
+    if (!parts_) return false;
+    const auto has_others = [&](Index p) {
+      const auto& faces = mesh_.faces_of(p);
+      return std::any_of(faces.begin(), faces.end(),
+                         [&](Index f) { return mesh_.place_in(f, u) == 3 || mesh_.place_in(f, v) == 3; });
+    };
+    if ((stays(u) || stays(v)) && !has_others(u) && !has_others(v)) return true;
+    const std::vector<Index> thirds = thirds_of(u, v);
+    return std::any_of(thirds.begin(), thirds.end(), [&](Index p) { return stays(p) && !has_others(p); });
+  }
 
   // --- quadrics
 
@@ -205,7 +218,7 @@ class EdgeCollapses {
     const Entry e = order_.top();
     order_.pop();
     if (e.stamp_u != stamps_[e.u] || e.stamp_v != stamps_[e.v]) return;
-    if (!keeps_parts(e.u, e.v)) return;
+    if (!keeps_parts(e.u, e.v) || bares_point(e.u, e.v)) return;
     const Corners corners = corners_of_edge(e.u, e.v);
     for (const Place& place : places(e.u, e.v)) {
       if (is_held(corners, place, mesh_.at(e.v) - mesh_.at(e.u))) continue;

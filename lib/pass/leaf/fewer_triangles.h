@@ -17,8 +17,8 @@ enum class LeafFolds { plain, held };
 /// the order of their quadric errors [GH97], and each corner keeps a look of its own [Hop99]. Borders, and seams where
 /// texture coordinates, colours or materials meet, keep their course. Parts and holes stay, so that more triangles may
 /// be left than were wanted. The result need not be closed, and may intersect itself. It does not depend on the number
-/// of threads. O(n log n); of a point with k faces, O(k) at
-/// each collapse there.
+/// of threads. O(n log n); of a point with k faces, O(k)
+/// at each collapse there.
 [[nodiscard]] std::vector<SceneLeaf> with_fewer_triangles(const SceneLeaf& leaf, std::span<const std::uint64_t> most,
                                                           LeafFolds folds = LeafFolds::plain);
 
@@ -26,7 +26,7 @@ enum class LeafFolds { plain, held };
 struct FewerTriangles {
   SceneLeaf leaf;
   std::vector<TriangleD> before;  ///< the triangles of the parts that are left, as they were; scene units
-  double vanished_world = 0;      ///< width of the widest part that vanished; 0: none did
+  std::vector<TriangleD> gone;    ///< those of the parts that vanished
 };
 
 /// Returns a tile with at most so many triangles, as above, but: points on the faces of its box stay, since the tiles

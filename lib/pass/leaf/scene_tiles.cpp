@@ -5,6 +5,7 @@
 
 #include "lib/geometry/surface_distance.h"
 #include "lib/geometry/triangle_bvh.h"
+#include "lib/pass/leaf/detail/filled_square.h"
 #include "lib/pass/leaf/fewer_triangles.h"
 #include "lib/pass/leaf/joined_leaves.h"
 #include "lib/tileset/tile_tree.h"
@@ -13,20 +14,23 @@ namespace bp {
 
 namespace {
 
-/// Half of the cube has at most 2^24 units, which float32 holds. Its corners are multiples of 2^13 units, so that
+/// Half of the cube has at most 2^24 units, which float32 holds. Its edge is a multiple of 2^13 units, so that
 /// twelve halvings leave boxes whose middles are whole units.
 constexpr int kCubeBits = 24, kStepBits = 13;
+/// The cube begins so many units before a multiple of 2^13, so that the faces of all boxes lie at odd multiples of the
+/// unit. Scenes like round numbers: a ground at 0 would lie in a face, where points stay.
+constexpr double kOffRound = 3127;
 /// Distances are measured to this share of a box's diagonal. A tile is looked at when its box is about as large as the
 /// screen, so that this is about a pixel.
 constexpr double kToleranceShare = 1.0 / 1024;
 
 /// Returns how far the surface moved: a bound on the distance from any point of what is left to what was there, and the
-/// other way round. A part that vanished counts as if it had shrunk to a line along its middle, which shows nothing:
-/// how far the next part is from it says nothing about what is missing in a picture.
+/// other way round, and what parts that vanished leave missing in a picture.
 double moved(const FewerTriangles& fewer, double tolerance) {
   const std::vector<TriangleD> now = world_triangles(fewer.leaf);
+  const TriangleBvh left(now);
   return std::max({largest_distance(now, TriangleBvh(fewer.before), tolerance).at_most,
-                   largest_distance(fewer.before, TriangleBvh(now), tolerance).at_most, fewer.vanished_world / 2});
+                   largest_distance(fewer.before, left, tolerance).at_most, missing_length(fewer.gone, left)});
 }
 
 }  // namespace
@@ -39,8 +43,8 @@ TileCube tile_cube(const Bounds3d& scene) {
   const double step = std::ldexp(cube.unit, kStepBits);
   double edge = step;
   for (std::size_t i = 0; i < 3; ++i) {
-    cube.box.min[i] = std::floor(scene.min[i] / step) * step;
-    edge = std::max(edge, std::ceil((scene.max[i] - cube.box.min[i]) / step) * step);
+    cube.box.min[i] = std::floor(scene.min[i] / step) * step - kOffRound * cube.unit;
+    edge = std::max(edge, (std::floor((scene.max[i] - cube.box.min[i]) / step) + 1) * step);
   }
   for (std::size_t i = 0; i < 3; ++i) cube.box.max[i] = cube.box.min[i] + edge;
   return cube;

@@ -29,3 +29,10 @@ for option in '--voxel 1' '--scale 1' '--levels 2' '--leaves scene' '--tile 64' 
 done
 try bplod - --format obj --profile 3dtiles --mode visual -o x
 try bplod part0.obj ball.obj --profile 3dtiles --mode visual -o x --memory 20M
+printf 'v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n' > line.obj
+try bplod line.obj --profile 3dtiles --mode visual -o x
+# A broken image is left out, and a part far away coarsens the lattice.
+head -c 60 chequered.png > broken.png && mv broken.png chequered.png
+{ cat part0.obj; echo 'v 1e6 0 0'; echo 'v 1e6 1 0'; echo 'v 1e6 0 1'; echo 'f -1 -2 -3'; } > far.obj
+said 'bplod far.obj --profile 3dtiles --mode visual -o far | cut -f 1,2'
+ls far/far_tiles

@@ -13,6 +13,9 @@ namespace bp {
 
 namespace {
 
+/// Memory of an image while it is decoded and made smaller.
+constexpr std::uint64_t kBytesPerTexel = 12;
+
 /// Returns the name of an image file of this content and type ("image/png").
 std::string hashed_name(std::span<const std::byte> file, const std::string& type) {
   const ResultKey hash = content_hash(file);
@@ -22,62 +25,62 @@ std::string hashed_name(std::span<const std::byte> file, const std::string& type
 
 }  // namespace
 
-/// The names of an image's smaller files: halved once, twice, ...; empty: the image is broken.
-struct ImageFiles::Smaller {
-  std::once_flag once;
-  std::vector<std::string> names;
-};
+ImageFiles::ImageFiles(const TextureSet* images, Scratch& store, const MemoryShare& memory)
+    : images_(images), store_(&store), memory_(memory) {}
 
-ImageFiles::ImageFiles(const TextureSet* images, Scratch* store, std::uint64_t most_bytes)
-    : images_(images), store_(store), most_bytes_(most_bytes) {}
-
-ImageFiles::~ImageFiles() = default;
-
-std::string ImageFiles::own_name(std::uint32_t image) {
-  const std::lock_guard lock(mutex_);
-  const auto [found, is_new] = own_.try_emplace(image);
-  if (is_new && images_->size(image)[0] > 0) {
-    const std::vector<std::byte> file = images_->file(image);
-    if (file.empty()) return found->second;
-    found->second = hashed_name(file, image_type(file));
-    sources_.try_emplace(found->second, Source{image, {}});
+void ImageFiles::require_memory() const {
+  std::uint64_t most = 0;
+  for (std::uint32_t i = 0; images_ != nullptr && i < images_->image_count(); ++i) {
+    const auto [width, height] = images_->size(i);
+    most = std::max(most, kBytesPerTexel * std::uint64_t(width) * std::uint64_t(height));
   }
-  return found->second;
+  if (most > memory_.bytes)
+    throw NeedsMemory("an image of the scene", most, memory_.bytes, memory_.limit_for(most), {Remedy::no_textures});
 }
 
 std::string ImageFiles::name_of(std::uint32_t image, int halvings, MipImage::Kind kind) {
-  if (halvings <= 0) return own_name(image);
-  Smaller* smaller = nullptr;
+  Names* names = nullptr;
   {
     const std::lock_guard lock(mutex_);
-    std::unique_ptr<Smaller>& slot = smaller_[{image, kind}];
-    if (slot == nullptr) slot = std::make_unique<Smaller>();
-    smaller = slot.get();
+    std::unique_ptr<Names>& slot = names_[{image, kind}];
+    if (slot == nullptr) slot = std::make_unique<Names>();
+    names = slot.get();
   }
-  std::call_once(smaller->once, [&] { make_smaller(image, kind, *smaller); });
-  if (smaller->names.empty()) return "";
-  return smaller->names[std::min(std::size_t(halvings), smaller->names.size()) - 1];
+  std::call_once(names->once, [&] { make(image, kind, *names); });
+  if (halvings <= 0 || names->smaller.empty()) return names->own;
+  return names->smaller[std::min(std::size_t(halvings), names->smaller.size()) - 1];
+}
+
+void ImageFiles::make(std::uint32_t image, MipImage::Kind kind, Names& out) {
+  if (images_->size(image)[0] == 0) return;
+  if (store_ != nullptr) {
+    const std::lock_guard alone(one_at_a_time_);
+    try {
+      make_smaller(images_->image(image, memory_.bytes), image, kind, out);
+    } catch (const Error& e) {
+      if (e.code() != ErrorCode::bad_input) throw;
+      const std::lock_guard lock(mutex_);
+      faults_[image] = e.what();
+      return;
+    }
+  }
+  const std::vector<std::byte> file = images_->file(image);
+  if (file.empty()) return;
+  out.own = hashed_name(file, image_type(file));
+  const std::lock_guard lock(mutex_);
+  sources_.try_emplace(out.own, Source{image, {}});
 }
 
 /// Encodes all smaller images of one: a third of its texels together.
-void ImageFiles::make_smaller(std::uint32_t image, MipImage::Kind kind, Smaller& out) {
-  const std::lock_guard alone(one_at_a_time_);
-  try {
-    TextureImage last = images_->image(image, most_bytes_);
-    do {
-      last = halved(last, kind);
-      const EncodedImage file = encode_texture(last);
-      const auto bytes = std::as_bytes(std::span(file.bytes));
-      out.names.push_back(hashed_name(bytes, file.type));
-      const std::lock_guard lock(mutex_);
-      const auto [source, is_new] = sources_.try_emplace(out.names.back());
-      if (is_new) source->second = {image, store_->put(bytes)};
-    } while (last.width > 1 || last.height > 1);
-  } catch (const Error& e) {
-    if (e.code() != ErrorCode::bad_input) throw;
+void ImageFiles::make_smaller(TextureImage image, std::uint32_t number, MipImage::Kind kind, Names& out) {
+  while (image.width > 1 || image.height > 1) {
+    image = halved(image, kind);
+    const EncodedImage file = encode_texture(image);
+    const auto bytes = std::as_bytes(std::span(file.bytes));
+    out.smaller.push_back(hashed_name(bytes, file.type));
     const std::lock_guard lock(mutex_);
-    faults_[image] = e.what();
-    out.names.clear();
+    const auto [source, is_new] = sources_.try_emplace(out.smaller.back());
+    if (is_new) source->second = {number, store_->put(bytes)};
   }
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "lib/core/memory_share.h"
 #include "lib/core/texture.h"
 #include "lib/image/mip_image.h"
 #include "lib/store/scratch.h"
@@ -17,12 +18,15 @@ namespace bp {
 /// Thread-safe.
 class ImageFiles {
  public:
-  /// `images`: null: there are none. Smaller images wait in `store`; null: none is asked for. `most_bytes`: memory for
-  /// one image that is made smaller; one is at a time.
-  explicit ImageFiles(const TextureSet* images, Scratch* store = nullptr, std::uint64_t most_bytes = 0);
-  ~ImageFiles();
+  /// `images`: null: there are none. Images are not decoded: a broken one is passed on.
+  explicit ImageFiles(const TextureSet* images) : images_(images) {}
+  /// Images are decoded, one at a time, within `memory`. Smaller ones wait in `store`.
+  ImageFiles(const TextureSet* images, Scratch& store, const MemoryShare& memory);
   ImageFiles(const ImageFiles&) = delete;
   ImageFiles& operator=(const ImageFiles&) = delete;
+
+  /// Throws NeedsMemory if an image cannot be decoded within the memory.
+  void require_memory() const;
 
   /// Returns the file name of an image whose sides were halved so many times, or until one texel is left; empty if the
   /// image is missing or broken.
@@ -31,25 +35,29 @@ class ImageFiles {
   [[nodiscard]] std::uint32_t image_of(const std::string& name) const { return sources_.at(name).image; }
   /// Returns the bytes of a file that name_of() named.
   [[nodiscard]] std::string bytes_of(const std::string& name) const;
-  /// Returns why images could not be made smaller; they are left out.
+  /// Returns why images are left out.
   [[nodiscard]] std::vector<std::string> faults() const;
 
  private:
-  struct Smaller;
+  /// The names of an image's files: its own, and those of smaller ones. Empty: it is missing or broken.
+  struct Names {
+    std::once_flag once;
+    std::string own;
+    std::vector<std::string> smaller;  ///< halved once, twice, ...
+  };
   struct Source {
     std::uint32_t image = 0;
     std::optional<Scratch::Handle> smaller;  ///< none: the scene's own file
   };
-  std::string own_name(std::uint32_t image);
-  void make_smaller(std::uint32_t image, MipImage::Kind kind, Smaller& out);
+  void make(std::uint32_t image, MipImage::Kind kind, Names& out);
+  void make_smaller(TextureImage image, std::uint32_t number, MipImage::Kind kind, Names& out);
 
   const TextureSet* images_;
-  Scratch* store_;
-  const std::uint64_t most_bytes_;
+  Scratch* store_ = nullptr;  // null: images are not decoded
+  const MemoryShare memory_{};
   mutable std::mutex mutex_;
   std::mutex one_at_a_time_;
-  std::map<std::uint32_t, std::string> own_;
-  std::map<std::pair<std::uint32_t, MipImage::Kind>, std::unique_ptr<Smaller>> smaller_;
+  std::map<std::pair<std::uint32_t, MipImage::Kind>, std::unique_ptr<Names>> names_;
   std::map<std::string, Source> sources_;
   std::map<std::uint32_t, std::string> faults_;
 };

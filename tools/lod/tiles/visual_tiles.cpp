@@ -8,19 +8,23 @@
 #include "io/mesh/leaf_writer.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
+#include "lib/core/vec3.h"
 #include "lib/pass/bake/textured_triangle.h"
 #include "lib/store/packing.h"
 #include "lib/store/result_key.h"
 #include "lib/tileset/tile_tree.h"
 #include "tools/lod/bake_levels.h"
+#include "tools/lod/tiles/texel_size.h"
 #include "tools/run/provenance.h"
 
 namespace bp {
 
 namespace {
 
-/// The part of the memory for work that one image may take while it is made smaller.
-constexpr double kImageShare = 0.25;
+/// The parts of the memory for work that tiles have, and one image while it is made smaller. Looks have kLooksBeside.
+constexpr double kTileShare = 0.45, kImageShare = 0.15;
+/// The lattice is coarse where a mean edge has fewer units.
+constexpr double kUnitsPerEdge = 64;
 
 std::string text_of(const std::vector<std::byte>& bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
@@ -45,8 +49,8 @@ VisualTiles::VisualTiles(Build& build, const LodScene& scene, const SceneLooks& 
       results_(results),
       cube_(tile_cube(scene.size.bounds)),
       most_(most_tile_triangles(build.options)),
-      memory_(build.context(nullptr, 1 - kImageShare).memory),
-      images_(looks.images(), &files, part_of(build.budget.work, kImageShare).bytes) {
+      memory_(build.context(nullptr, kTileShare).memory),
+      images_(looks.images(), files, part_of(build.budget.work, kImageShare)) {
   OptionText text;
   text.add("mode", "visual").add("faces", most_);
   if (build.options.compression == TileCompression::none) text.add("compression", "none");
@@ -58,11 +62,18 @@ VisualTiles::VisualTiles(Build& build, const LodScene& scene, const SceneLooks& 
 }
 
 std::size_t VisualTiles::add(const LeafTree& tree, std::size_t depth) {
+  if (tree.octants.size() == 1) return add(tree.octants.front(), depth);  // a tile above one would be the same
   const std::size_t number = jobs_.size();
   jobs_.push_back({tree.box, depth});
   for (const LeafTree& octant : tree.octants) {
     const std::size_t below = add(octant, depth + 1);
     jobs_[number].below.push_back(below);
+  }
+  if (tree.octants.empty() && tree.box.triangles > most_) {  // it cannot be divided, but has fewer from afar
+    constexpr char kWhole = '8';                             // after the digits of octants
+    jobs_.push_back({tree.box, depth + 1});
+    jobs_.back().box.path += kWhole;
+    jobs_[number].below.push_back(jobs_.size() - 1);
   }
   return number;
 }
@@ -71,7 +82,7 @@ std::size_t VisualTiles::add(const LeafTree& tree, std::size_t depth) {
 void VisualTiles::add_key(Job& job) const {
   KeyHash hash("visual tile");
   hash.add(build_.options.name, job.box.path, cube_.unit, build_.options.appearance, scene_.voxels.header.frame.up,
-           provenance_.front().options, looks_.finest_texel(), job.below.size());
+           provenance_.front().options, job.below.size());
   if (job.below.empty()) {
     add_leaf_to(hash, looks_, job.box.box);
   } else {
@@ -118,9 +129,33 @@ void VisualTiles::make() {
         },
         [&](const std::size_t& i) { make(jobs_[i]); });
   }
+  if (jobs_.front().triangles == 0)
+    fail(ErrorCode::bad_input, "no triangle of the scene has an area on a lattice of {:.3g}", cube_.unit);
 }
 
-/// Returns a bound on the triangles of a tile before it is made: those that meet its box, or as many as it may have.
+std::vector<std::string> VisualTiles::notes() const {
+  std::vector<std::string> all;
+  for (const std::string& fault : images_.faults()) all.push_back(fault + "; it is left out");
+  std::uint64_t over = 0, largest = 0, leaves = 0;
+  double area = 0;
+  for (const Job& job : jobs_) {
+    over += job.triangles > most_;
+    largest = std::max(largest, job.triangles);
+    if (job.below.empty()) leaves += job.triangles, area += job.area;
+  }
+  if (over > 0)
+    all.push_back(fmt::format(
+        "{} of {} tiles have more than {} triangles, {} at most: those that many large triangles meet, or whose sides "
+        "cut through much of the scene",
+        over, jobs_.size(), most_, largest));
+  if (leaves > 0 && std::sqrt(area / double(leaves)) < kUnitsPerEdge * cube_.unit)
+    all.push_back(fmt::format("vertices are rounded to {:.3g}, since the scene spans {:.4g}: is a part of it far away?",
+                              cube_.unit, scene_.size.bounds.longest_side()));
+  return all;
+}
+
+/// Returns about how many triangles a tile will have: those that meet its box, or as many as it may have. It has more
+/// if much of it stays on the faces of its box.
 std::uint64_t VisualTiles::planned(const Job& job) const {
   if (job.below.empty()) return job.box.triangles;
   std::uint64_t sum = 0;
@@ -142,6 +177,7 @@ void VisualTiles::require_memory() const {
   std::uint64_t most = 0;
   for (const Job& job : jobs_) most = std::max(most, bytes_of(job, [&](const Job& below) { return planned(below); }));
   if (most > memory_.bytes) throw NeedsMemory("a tile of the scene", most, memory_.bytes, memory_.limit_for(most));
+  images_.require_memory();
 }
 
 /// Returns how many of the jobs are done at the same time: the largest fit into the memory together. The tiles below
@@ -166,6 +202,9 @@ void VisualTiles::make(Job& job) {
   }
   job.error_world = tile.error_world;
   job.triangles = tile.leaf.triangles();
+  if (job.below.empty()) {
+    for (const TriangleD& t : world_triangles(tile.leaf)) job.area += area_of(t);
+  }
   const ImageNames images = images_of(tile);
   if (!job.kept) {
     if (job.triangles > 0) content = content_of(job, tile, images);
@@ -225,22 +264,30 @@ void VisualTiles::keep(const Job& job, SceneTile tile, const std::string& conten
   results_->put(job.key, bytes + content);
 }
 
-/// Returns the files of the images that a tile shows. They are so small that a viewer does not tell their texels where
-/// it draws the tile: as fine as textures of levels are.
+/// Returns the files of the images that a tile shows. An image is halved while its texels are finer than a share of the
+/// tile's error, as textures of levels are: a viewer does not tell them where it draws the tile.
 VisualTiles::ImageNames VisualTiles::images_of(const SceneTile& tile) {
-  ImageNames names;
-  if (looks_.images() == nullptr) return names;
-  const double texel = looks_.finest_texel(), wanted = tile.error_world / kTexelsPerError;
-  const int halvings = texel > 0 && wanted > texel ? int(std::log2(wanted / texel)) : 0;
+  struct Use {
+    MipImage::Kind kind = MipImage::Kind::numbers;
+    Texels texels;
+  };
+  std::map<std::uint32_t, Use> uses;
+  const TextureSet* const set = looks_.images();
   for (const LeafPart& part : tile.leaf.parts) {
-    if (part.material == TriangleTexture::kNoMaterial) continue;
-    const TextureMaterial& m = looks_.images()->material(part.material);
+    if (set == nullptr || part.material == TriangleTexture::kNoMaterial) continue;
+    const TextureMaterial& m = set->material(part.material);
     for (const std::uint32_t image : m.images()) {
       if (image == kNoTextureImage) continue;
-      const bool is_color = image == m.image || image == m.surface.emission.image;
-      names.try_emplace(image,
-                        images_.name_of(image, halvings, is_color ? MipImage::Kind::color : MipImage::Kind::numbers));
+      Use& use = uses[image];
+      if (image == m.image || image == m.surface.emission.image) use.kind = MipImage::Kind::color;
+      if (tile.error_world > 0) add_texels(tile.leaf, part, places_of(m, image), set->size(image), use.texels);
     }
+  }
+  ImageNames names;
+  for (auto& [image, use] : uses) {
+    const double texel = finest_of(use.texels), wanted = tile.error_world / kTexelsPerError;
+    const int halvings = texel > 0 && wanted > texel ? int(std::log2(wanted / texel)) : 0;
+    names[image] = images_.name_of(image, halvings, use.kind);
   }
   const std::lock_guard lock(mutex_);
   for (const auto& [image, name] : names) {

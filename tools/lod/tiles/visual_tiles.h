@@ -27,7 +27,8 @@ class VisualTiles {
   /// Divides the scene. Keeps references. `results`: null: nothing is kept.
   VisualTiles(Build& build, const LodScene& scene, const SceneLooks& looks, Scratch& files, ResultStore* results);
 
-  /// Makes all tiles. Throws NeedsMemory if one of them does not fit.
+  /// Makes all tiles. Throws NeedsMemory before the work if one of them, or an image, does not fit; bad_input if no
+  /// triangle has an area.
   void make();
   /// Returns the tree of the tiles, once they are made.
   [[nodiscard]] Tileset tileset() const;
@@ -36,7 +37,8 @@ class VisualTiles {
   /// Returns a row for each depth of the octree, the deepest first.
   [[nodiscard]] std::vector<LevelRow> rows() const;
   [[nodiscard]] const std::vector<Provenance>& provenance() const { return provenance_; }
-  [[nodiscard]] std::vector<std::string> faults() const { return images_.faults(); }
+  /// Returns what users should know about the tiles.
+  [[nodiscard]] std::vector<std::string> notes() const;
 
  private:
   /// A tile of the octree.
@@ -49,8 +51,8 @@ class VisualTiles {
     Scratch::Handle tile = 0;     ///< the SceneTile, until the tile above is made
     Scratch::Handle content = 0;  ///< the file
     std::uint64_t triangles = 0, bytes = 0;
-    double error_world = 0;
-    Bounds3d bounds{};  ///< of the tile and those below it
+    double error_world = 0, area = 0;  ///< area: of leaves only
+    Bounds3d bounds{};                 ///< of the tile and those below it
     bool kept = false;
   };
   using ImageNames = std::map<std::uint32_t, std::string>;

@@ -29,7 +29,7 @@ void build_visual_tileset(const BuildOptions& o) {
   tiles.make();
   build.progress.end();
   if (!fault.empty()) build.note(fault + "; what is not in the cache was made, and is not kept");
-  for (const std::string& text : tiles.faults()) build.note(text + "; it is left out");
+  for (const std::string& text : tiles.notes()) build.note(text);
   build.report.begin("write");
   tiles.write_to(folder);
   folder.write("tileset.json", tileset_text(tiles.tileset(), tiles.provenance()));
@@ -54,7 +54,7 @@ void explain_visual_tileset(const BuildOptions& o) {
   const Vec3d &lo = scene.size.bounds.min, &hi = scene.size.bounds.max;
   print(
       fmt::format("scene\t{} from {:.6g} {:.6g} {:.6g} to {:.6g} {:.6g} {:.6g}\n"
-                  "tiles\tabout {}, of at most {} triangles; those at the ends are the scene itself\n"
+                  "tiles\tabout {}, of at most {} triangles; leaf tiles are the scene itself\n"
                   "lattice\t{:.3g}: vertices are rounded to this\n",
                   counted(triangles, "triangle"), lo[0], lo[1], lo[2], hi[0], hi[1], hi[2], tiles, most, lattice));
 }

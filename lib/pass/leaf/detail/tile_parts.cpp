@@ -41,8 +41,8 @@ void TileParts::find(const LeafMesh& mesh) {
   }
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     const double size = bounds[i].diagonal(), area = parts_[i].cost;
-    parts_[i].width = size > 0 ? std::min(size, area / size) : 0;
-    parts_[i].cost = area * parts_[i].width * parts_[i].width;
+    const double width = size > 0 ? std::min(size, area / size) : 0;
+    parts_[i].cost = area * width * width;
     if (parts_[i].may_go) may_go_.push_back(i);
   }
   std::stable_sort(may_go_.begin(), may_go_.end(),
@@ -67,22 +67,14 @@ bool TileParts::is_left(const Part& part, const LeafMesh& mesh) {
   return std::any_of(part.faces.begin(), part.faces.end(), [&](Index f) { return mesh.is_alive(f); });
 }
 
-std::vector<TriangleD> TileParts::left_of(const SceneLeaf& tile, const LeafMesh& mesh) const {
+std::vector<TriangleD> TileParts::triangles_of(const SceneLeaf& tile, const LeafMesh& mesh, bool left) const {
   const std::vector<TriangleD> all = world_triangles(tile);
-  std::vector<TriangleD> left;
+  std::vector<TriangleD> wanted;
   for (const Part& part : parts_) {
-    if (!is_left(part, mesh)) continue;
-    for (const Index f : part.faces) left.push_back(all[f]);
+    if (is_left(part, mesh) != left) continue;
+    for (const Index f : part.faces) wanted.push_back(all[f]);
   }
-  return left;
-}
-
-double TileParts::widest_gone(const LeafMesh& mesh) const {
-  double widest = 0;
-  for (const Part& part : parts_) {
-    if (!is_left(part, mesh)) widest = std::max(widest, part.width);
-  }
-  return widest;
+  return wanted;
 }
 
 }  // namespace bp

@@ -19,17 +19,15 @@ class TileParts {
   /// Returns what it costs to drop the cheapest part that may vanish: its area times its squared size, which compares
   /// with quadrics. Infinite if there is none.
   [[nodiscard]] double least_cost() const;
-  /// Returns the faces that are left of that part, and forgets it. Empty: none are, or there is no such part.
+  /// Returns the faces that are left of that part, which may be none, and forgets the part.
   std::vector<Index> take_cheapest(const LeafMesh& mesh);
-  /// Returns the triangles of `tile` in parts that are left in `mesh`, which the tile's has become; scene units.
-  [[nodiscard]] std::vector<TriangleD> left_of(const SceneLeaf& tile, const LeafMesh& mesh) const;
-  /// Returns the width of the widest part that is gone, units; 0: none is.
-  [[nodiscard]] double widest_gone(const LeafMesh& mesh) const;
+  /// Returns the triangles of `tile` in parts of which something is left in `mesh`, which the tile's has become, or in
+  /// those that are gone; scene units.
+  [[nodiscard]] std::vector<TriangleD> triangles_of(const SceneLeaf& tile, const LeafMesh& mesh, bool left) const;
 
  private:
   struct Part {
     double cost = 0;
-    double width = 0;  ///< its area over the diagonal of its box, at most that diagonal; units
     bool may_go = true;
     std::vector<Index> faces;
   };

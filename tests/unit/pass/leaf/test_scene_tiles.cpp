@@ -5,6 +5,7 @@
 #include "lib/core/vec3.h"
 #include "lib/geometry/surface_distance.h"
 #include "lib/geometry/triangle_bvh.h"
+#include "lib/pass/leaf/detail/filled_square.h"
 #include "lib/pass/leaf/scene_tiles.h"
 #include "lib/tileset/tile_tree.h"
 #include "tests/catch.h"
@@ -119,6 +120,72 @@ TEST_CASE("tiles of any levels have the same vertices and normals where they mee
   CHECK(met > 0);
 }
 
+TEST_CASE("separate pieces across a face keep their points there", "[quick][leaf]") {
+  TexturedScene scene = ground(40, 0);
+  scene.triangles.clear();
+  scene.textures.clear();
+  for (int i = 0; i < 40; ++i) {
+    for (int k = 0; k < 40; ++k) {  // triangles that touch nothing
+      const Vec3d a{i + 0.37 * (k % 3), double(k), 0.01 * ((i * 7 + k * 3) % 10)};
+      scene.triangles.push_back({a, a + Vec3d{0.8, 0.1, 0}, a + Vec3d{0.2, 0.8, 0.1}});
+      scene.textures.emplace_back().material = 0;
+    }
+  }
+  const auto looks = looks_of(scene, one_material());
+  const TileCube cube = tile_cube(bounds_of(scene.triangles));
+  constexpr std::uint64_t kFew = 150;
+  const Branch root = branch_of(*looks, leaf_tree(*looks, cube.box, kFew), cube.unit, kFew);
+  std::size_t met = 0;
+  for (const Branch& a : root.below) {
+    for (const Branch& b : root.below) {
+      if (a.box.max[0] != b.box.min[0] || a.box.min[1] != b.box.min[1] || a.box.min[2] != b.box.min[2]) continue;
+      CHECK(a.tile.leaf.triangles() < 400);  // of about 800
+      CHECK(vertices_at(a.tile, 0, a.box.max[0]).size() > 10);
+      CHECK((vertices_at(a.tile, 0, a.box.max[0]) == vertices_at(b.tile, 0, a.box.max[0])));
+      ++met;
+    }
+  }
+  CHECK(met > 0);
+}
+
+TEST_CASE("a ground at a round height is reduced as any other", "[quick][leaf]") {
+  TexturedScene scene;
+  for (int i = 0; i < 64; ++i)
+    for (int k = 0; k < 64; ++k) scene.add({double(i - 32), double(k - 32), 0}, {1, 0, 0}, {0, 1, 0}, 0);
+  const auto looks = looks_of(scene, one_material());
+  const TileCube cube = tile_cube(bounds_of(scene.triangles));
+  const LeafTree tree = leaf_tree(*looks, cube.box, kMost);
+  CHECK(tree.octants.size() == 4);  // and not eight: none lies in a face
+  std::uint64_t below = 0;
+  for (const LeafTree& octant : tree.octants) below += octant.box.triangles;
+  CHECK(below < scene.triangles.size() * 11 / 10);
+}
+
+TEST_CASE("what is missing in a picture counts by its size, and by its distance from what is left", "[quick][leaf]") {
+  const std::vector<TriangleD> floor{{{{0, 0, 0}, {100, 0, 0}, {0, 100, 0}}}};
+  const TriangleBvh left(floor);
+  const auto plate = [](double side, double height) {
+    return std::vector<TriangleD>{{{{1, 1, height}, {1 + side, 1, height}, {1 + side, 1 + side, height}}},
+                                  {{{1, 1, height}, {1 + side, 1 + side, height}, {1, 1 + side, height}}}};
+  };
+  CHECK(missing_length({}, left) == 0);
+  const double far = missing_length(plate(10, 50), left), near = missing_length(plate(10, 0.5), left);
+  CHECK(far >= 5);
+  CHECK(far <= 10.1);  // half of a square of side 14, at most, by a step of 1.4
+  CHECK(near >= 0.35);
+  CHECK(near <= 0.5);
+  // Many small plates in a cube count as one large thing.
+  std::vector<TriangleD> leaves;
+  for (int i = 0; i < 1000; ++i) {
+    for (TriangleD t : plate(0.4, 40)) {
+      for (Vec3d& p : t) p = p + Vec3d{double(i % 10), double(i / 10 % 10), double(i / 100)};
+      leaves.push_back(t);
+    }
+  }
+  CHECK(missing_length(plate(0.4, 40), left) < 0.5);
+  CHECK(missing_length(leaves, left) > 3);
+}
+
 TEST_CASE("tiles keep to their number of triangles and to their error", "[quick][leaf]") {
   const TexturedScene scene = ground(60, 0);
   const auto looks = looks_of(scene, one_material());
@@ -152,7 +219,7 @@ TEST_CASE("parts vanish from tiles where they are small, and their width is the 
 }
 
 TEST_CASE("joined leaves are what was cut", "[quick][leaf]") {
-  const TexturedScene scene = ground(12, 5);
+  const TexturedScene scene = ground(48, 5);
   const auto looks = looks_of(scene, one_material());
   const TileCube cube = tile_cube(bounds_of(scene.triangles));
   std::vector<SceneTile> below;
