@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "lib/core/error.h"
@@ -37,6 +38,7 @@ class LeakSearch {
   explicit LeakSearch(Clearance clearance)
       : clearance_(std::move(clearance)),
         box_(clearance_.box()),
+        steps_{1, Index(box_.size().x), Index(box_.size().x) * Index(box_.size().y)},
         state_(std::size_t(box_.volume())),
         next_(state_.size()),
         queue_(std::size_t(clearance_.largest()) + 1, kNone) {}
@@ -48,7 +50,7 @@ class LeakSearch {
     }
     Leaks out;
     for (std::size_t i = 0; i < state_.size(); ++i)
-      out.closed_voxels += std::uint64_t(state_[i] == 0 && clearance_[i] > 0);
+      out.closed_voxels += std::uint64_t((state_[i] & kReached) == 0 && clearance_[i] > 0);
     std::sort(leaks_.begin(), leaks_.end(), [](const Leak& a, const Leak& b) {
       return a.room_voxels != b.room_voxels ? a.room_voxels > b.room_voxels : a.place < b.place;
     });
@@ -59,20 +61,27 @@ class LeakSearch {
 
  private:
   using Index = std::uint32_t;
-  static constexpr std::uint8_t kReached = 1, kInRoom = 2, kOnWay = 4;
+  static constexpr std::uint8_t kReached = 1, kInRoom = 2, kOnWay = 4, kAtSide = 8;
 
   /// Begins at the sides of the box. From there a straight way leads out, and its clearance never falls: all solid
   /// voxels lie behind. On the ground that side is solid.
   void enter() {
-    for_each(box_, [&](VoxelCoord p) {
-      if (is_at_side(p) && clearance_[index_of(p)] > 0) push(index_of(p));
-    });
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const bool high : {false, true}) {
+        VoxelBox side = box_;
+        (high ? side.min : side.max)[axis] = high ? box_.max[axis] - 1 : box_.min[axis] + 1;
+        for_each(side, [&](VoxelCoord p) { state_[index_of(p)] = kAtSide; });
+      }
+    }
+    for (std::size_t i = 0; i < state_.size(); ++i) {
+      if (state_[i] == kAtSide && clearance_[i] > 0) push(Index(i));
+    }
   }
 
   /// Handles a voxel of the outside whose clearance is the least so far. Neighbours with more are behind an opening.
   void flood(Index i, std::int32_t level) {
     for_each_neighbor(i, [&](Index next) {
-      if (state_[next] != 0 || clearance_[next] == 0) return;
+      if ((state_[next] & kReached) != 0 || clearance_[next] == 0) return;
       if (clearance_[next] > level) {
         fill_room(next, level);
       } else {
@@ -95,7 +104,7 @@ class LeakSearch {
       next_[i] = std::exchange(room_, i);
       most = std::max(most, clearance_[i]);
       for_each_neighbor(i, [&](Index next) {
-        if (state_[next] != 0 || clearance_[next] == 0) return;
+        if ((state_[next] & kReached) != 0 || clearance_[next] == 0) return;
         push(next);
         key = std::max(key, clearance_[next]);
       });
@@ -128,8 +137,7 @@ class LeakSearch {
     for_each_in_room([&](Index i) { for_each_neighbor(i, [&](Index next) { add(next, kNone); }); });
     std::optional<Index> last;  // of the way
     for (std::size_t k = 0; k < way_.size() && !last; ++k) {
-      const VoxelCoord p = coord_of(way_[k].voxel);
-      if (is_at_side(p)) last = Index(k), leak.outer = p;
+      if ((state_[way_[k].voxel] & kAtSide) != 0) last = Index(k), leak.outer = coord_of(way_[k].voxel);
       for_each_neighbor(way_[k].voxel, [&](Index next) {
         const bool outside = clearance_[next] > level && (state_[next] & (kReached | kInRoom)) == kReached;
         if (outside && !last) last = Index(k), leak.outer = coord_of(next);
@@ -238,7 +246,7 @@ class LeakSearch {
   }
 
   void push(Index i) {
-    state_[i] = kReached;
+    state_[i] |= kReached;
     next_[i] = std::exchange(queue_[std::size_t(clearance_[i])], i);
   }
   Index pop(std::int32_t key) {
@@ -251,17 +259,18 @@ class LeakSearch {
     for (Index i = room_; i != kNone; i = next_[i]) f(i);
   }
 
-  [[nodiscard]] bool is_at_side(VoxelCoord p) const {
-    for (int axis = 0; axis < 3; ++axis) {
-      if (p[axis] == box_.min[axis] || p[axis] + 1 == box_.max[axis]) return true;
-    }
-    return false;
-  }
   [[nodiscard]] Index index_of(VoxelCoord p) const { return Index(clearance_.index_of(p)); }
   [[nodiscard]] VoxelCoord coord_of(Index i) const { return clearance_.coord_of(i); }
 
   template <class F>
   void for_each_neighbor(Index i, const F& f) const {
+    if ((state_[i] & kAtSide) == 0) {  // nearly all; no coordinates are needed
+      for (const Index step : steps_) {
+        f(i - step);
+        f(i + step);
+      }
+      return;
+    }
     const VoxelCoord p = coord_of(i);
     for (int axis = 0; axis < 3; ++axis) {
       for (const std::int32_t way : {-1, 1}) {
@@ -278,6 +287,7 @@ class LeakSearch {
   };
   const Clearance clearance_;
   const VoxelBox box_;
+  const Index steps_[3];  // between neighbours along the axes
   std::vector<std::uint8_t> state_;
   std::vector<Index> next_;   // the next voxel of the list that holds one: of queue_, or of the room
   std::vector<Index> queue_;  // first voxel by clearance
@@ -287,7 +297,7 @@ class LeakSearch {
 };
 
 /// Returns the solid voxels' bounds with padding; the ground has none below it.
-VoxelBox box_of(const BitBox& solid, const std::optional<Ground>& ground) {
+VoxelBox box_of(const BitBox& solid, const std::optional<GroundSide>& ground) {
   VoxelBox box = bounds_of(solid);
   if (box.empty()) return box;
   const VoxelBox tight = box;
@@ -297,7 +307,7 @@ VoxelBox box_of(const BitBox& solid, const std::optional<Ground>& ground) {
 }
 
 /// Makes the lowest layer of the box solid.
-void add_ground(const VoxelBox& box, const Ground& ground, BitBox& solid) {
+void add_ground(const VoxelBox& box, const GroundSide& ground, BitBox& solid) {
   VoxelBox layer = box;
   (ground.down ? layer.min : layer.max)[ground.axis] =
       ground.down ? box.max[ground.axis] - 1 : box.min[ground.axis] + 1;
@@ -310,13 +320,13 @@ std::uint64_t leaks_bytes(const VoxelBox& box) {
   return std::uint64_t(box.grown(kPadding).volume()) * kBytesPerVoxel;
 }
 
-Leaks find_leaks(const BitBox& solid, const std::optional<Ground>& ground, const MemoryShare& memory) {
+Leaks find_leaks(const BitBox& solid, const std::optional<GroundSide>& ground, const MemoryShare& memory) {
   const VoxelBox box = box_of(solid, ground);
   if (box.empty()) return {};
   const std::uint64_t needed = leaks_bytes(bounds_of(solid));
   if (needed > memory.bytes)
     throw NeedsMemory("looking for leaks", needed, memory.bytes, memory.limit_for(needed), {Remedy::larger_voxels});
-  if (box.volume() > std::int64_t(~std::uint32_t(0)))
+  if (box.volume() > std::numeric_limits<std::uint32_t>::max())
     fail(ErrorCode::out_of_resource, {Remedy::larger_voxels}, "looking for leaks: the grid has more than 2^32 voxels");
   BitBox walls(box);
   copy_voxels(solid, walls);
@@ -324,7 +334,7 @@ Leaks find_leaks(const BitBox& solid, const std::optional<Ground>& ground, const
   return LeakSearch(Clearance(std::move(walls), box)).run();
 }
 
-GroundedLeaks find_grounded_leaks(const BitBox& solid, const Ground& ground, const MemoryShare& memory) {
+GroundedLeaks find_grounded_leaks(const BitBox& solid, const GroundSide& ground, const MemoryShare& memory) {
   Leaks floating = find_leaks(solid, {}, memory), grounded = find_leaks(solid, ground, memory);
   const bool gains = double(grounded.all_voxels()) > kGroundAdds * double(floating.all_voxels());
   return {gains ? std::move(grounded) : std::move(floating), gains};

@@ -38,7 +38,7 @@ struct Leaks {
 };
 
 /// The ground: all voxels up to the lowest solid ones count as solid. `axis` points up; `down`: it points down.
-struct Ground {
+struct GroundSide {
   int axis = 1;
   bool down = false;
 };
@@ -47,7 +47,7 @@ struct Ground {
 /// open sky are no rooms. If several openings of a room are equally wide, the one is told that needs the shortest way.
 /// Throws NeedsMemory if `memory` has less than leaks_bytes(). Cost: the voxels of the bounds times the mean clearance.
 /// The work is parallel only in part. The result does not depend on threads or memory.
-[[nodiscard]] Leaks find_leaks(const BitBox& solid, const std::optional<Ground>& ground = {},
+[[nodiscard]] Leaks find_leaks(const BitBox& solid, const std::optional<GroundSide>& ground = {},
                                const MemoryShare& memory = {});
 /// Returns the bytes that find_leaks() takes at most for solid voxels within such a box.
 [[nodiscard]] std::uint64_t leaks_bytes(const VoxelBox& box);
@@ -56,7 +56,7 @@ struct Ground {
 struct GroundedLeaks : Leaks {
   bool on_ground = false;
 };
-[[nodiscard]] GroundedLeaks find_grounded_leaks(const BitBox& solid, const Ground& ground,
+[[nodiscard]] GroundedLeaks find_grounded_leaks(const BitBox& solid, const GroundSide& ground,
                                                 const MemoryShare& memory = {});
 
 }  // namespace bp

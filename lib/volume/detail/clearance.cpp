@@ -9,17 +9,31 @@ namespace bp {
 
 namespace {
 
-/// Sets out(i) to the least max(|i - k|, line(k)) over all k. Cost: the sum of the results.
-void spread(const std::vector<std::int32_t>& line, std::vector<std::int32_t>& out) {
+/// A voxel of a line whose values hold from `begin` on, until the next one's.
+struct Span {
+  std::int32_t voxel, begin;
+};
+
+/// Returns the last position at which voxel i of the line is as near as voxel u, which comes later: max(|x - i|, d(i))
+/// is at most max(|x - u|, d(u)).
+std::int32_t last_nearer(const std::vector<std::int32_t>& d, std::int32_t i, std::int32_t u) {
+  const std::int32_t of_i = d[std::size_t(i)], of_u = d[std::size_t(u)], middle = (i + u) / 2;
+  return of_i <= of_u ? std::max(i + of_u, middle) : std::min(u - of_i, middle);
+}
+
+/// Sets out(x) to the least max(|x - i|, line(i)) over all i, in linear time ([MRH00]). `spans` is scratch.
+void spread(const std::vector<std::int32_t>& line, std::vector<std::int32_t>& out, std::vector<Span>& spans) {
   const auto n = std::int32_t(line.size());
-  for (std::int32_t i = 0; i < n; ++i) {
-    const std::int32_t least = i > 0 ? out[std::size_t(i - 1)] - 1 : 0;  // neighbours differ by at most 1
-    std::int32_t best = line[std::size_t(i)];
-    for (std::int32_t k = 1; k < best && best > least && (k <= i || i + k < n); ++k) {
-      if (k <= i) best = std::min(best, std::max(k, line[std::size_t(i - k)]));
-      if (i + k < n) best = std::min(best, std::max(k, line[std::size_t(i + k)]));
-    }
-    out[std::size_t(i)] = best;
+  const auto at = [&](std::int32_t x, std::int32_t i) { return std::max(std::abs(x - i), line[std::size_t(i)]); };
+  spans.assign(1, {0, 0});
+  for (std::int32_t u = 1; u < n; ++u) {
+    while (!spans.empty() && at(spans.back().begin, spans.back().voxel) > at(spans.back().begin, u)) spans.pop_back();
+    const std::int32_t begin = spans.empty() ? 0 : 1 + last_nearer(line, spans.back().voxel, u);
+    if (begin < n) spans.push_back({u, begin});
+  }
+  for (std::int32_t x = n - 1; x >= 0; --x) {
+    out[std::size_t(x)] = at(x, spans.back().voxel);
+    if (x == spans.back().begin) spans.pop_back();
   }
 }
 
@@ -55,6 +69,7 @@ void Clearance::measure_along(int axis) {
   const auto length = std::size_t(box_.size()[axis]);
   parallel_for(box_.size()[third], [&](std::int64_t slice) {
     std::vector<std::int32_t> line(length), out(length);
+    std::vector<Span> spans;
     VoxelCoord first = box_.min;
     first[third] += std::int32_t(slice);
     VoxelCoord next = first;
@@ -63,7 +78,7 @@ void Clearance::measure_along(int axis) {
     for (; first[second] < box_.max[second]; ++first[second]) {
       std::uint16_t* const d = distance_.data() + index_of(first);
       for (std::size_t i = 0; i < length; ++i) line[i] = d[i * step];
-      axis == 0 ? spread_solid(line, out) : spread(line, out);
+      axis == 0 ? spread_solid(line, out) : spread(line, out, spans);
       for (std::size_t i = 0; i < length; ++i) d[i * step] = std::uint16_t(out[i]);
     }
   });

@@ -11,7 +11,7 @@ using namespace bp;
 
 namespace {
 
-constexpr Ground kYUp{1, false};
+constexpr GroundSide kYUp{1, false};
 
 void put(BitBox& voxels, const VoxelBox& box) {
   for_each(box, [&](VoxelCoord p) { voxels.set(p); });
