@@ -55,6 +55,8 @@ void check_leaks(Options& o, const bp::Args& args) {
 
 /// Checks the options that print one thing only.
 void check_alone(const Options& o) {
+  if (o.json && o.dump) bp::fail(bp::ErrorCode::bad_argument, "--json and --dump exclude each other");
+  if (o.in.size() > 1 && (o.json || o.dump)) bp::fail(bp::ErrorCode::bad_argument, "--json and --dump take one INPUT");
   if (o.picture.image.pick && (o.json || o.dump))
     bp::fail(bp::ErrorCode::bad_argument, "--pick prints a point and nothing else; leave out --json and --dump");
   if (!o.boxes.empty() &&
@@ -95,13 +97,11 @@ Options parse(bp::Args& args) {
   bp::check_stdin_once(o.in);
   bp::keep_inputs(o.in);
   if (!o.picture.image.file.empty()) bp::check_panel_size(o.picture.image.panel_size, o.in.size());
-  if (o.json && o.dump) bp::fail(bp::ErrorCode::bad_argument, "--json and --dump exclude each other");
   check_leaks(o, args);
   o.picture.image.check(args, o.leaks);
   check_alone(o);
   o.picture.several = o.in.size() > 1;
   o.picture.overwrite = o.common.overwrite;
-  if (o.in.size() > 1 && (o.json || o.dump)) bp::fail(bp::ErrorCode::bad_argument, "--json and --dump take one INPUT");
   return o;
 }
 
@@ -304,7 +304,8 @@ void show_leaks(const Options& o, const std::string& in, bp::Picture& picture) {
   bp::print(o.json ? bp::leak_json(info).dump(2, ' ', false, bp::Json::error_handler_t::replace) + "\n"
                    : bp::leak_text(info, in == "-" ? "stdin" : in));
   if (!picture.wanted()) return;
-  if (!stream) show_mesh(o, in, picture);
+  if (is_tileset(o, in)) draw_tileset(o, bp::read_tileset(in), in, picture);
+  if (!stream && !is_tileset(o, in)) show_mesh(o, in, picture);
   point_at_leaks(o, info, voxels, picture);
 }
 

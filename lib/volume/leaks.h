@@ -11,9 +11,9 @@
 /// The clearance of an empty voxel is its distance to the nearest solid voxel along the farthest axis (Chebyshev), so
 /// the cubes of a closing at scale S fill every voxel whose clearance is at most S, in voxels. The bottleneck of a way
 /// over faces of empty voxels is its least clearance. A room with a leak of clearance d is a connected set of voxels of
-/// more than d that the outside reaches by ways with a bottleneck of d, but of no more. Hence a closing separates it
-/// from the outside if S >= d, and it needs no less. These are the merges of the tree of components over falling
-/// clearance (a maximum spanning tree); they are exact.
+/// more than d that the outside reaches by ways with a bottleneck of d, but of no more. Hence no closing with S < d
+/// separates it from the outside, and the dilation of one with S >= d does. These are the merges of the tree of
+/// components over falling clearance (a maximum spanning tree); they are exact.
 namespace bp {
 
 struct Leak {

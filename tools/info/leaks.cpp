@@ -38,7 +38,7 @@ std::set<std::string> parts_near(const StreamHeader& header, SceneOptions how, c
 
 std::string row_text(const PlacedLeak& leak, const GridFrame& frame, std::size_t number) {
   return fmt::format(
-      "leak {:<6} {}, {:.3g} wide{}; --scale {:.4g} closes it\n"
+      "leak {:<6} {}, {:.3g} wide{}; needs --scale {:.4g}\n"
       "  room      {:.4g}, up to {:.3g} wide; --scale {:.4g} fills it\n",
       number, place_text(middle_of(leak.place, frame), frame), leak.width * frame.voxel, parts_text(leak.parts),
       closing_scale(leak, frame), room_volume(leak, frame), 2 * filling_scale(leak, frame), filling_scale(leak, frame));
@@ -48,7 +48,7 @@ Json row_json(const PlacedLeak& leak, const GridFrame& frame) {
   return {{"place", middle_of(leak.place, frame)},
           {"width", leak.width * frame.voxel},
           {"width_voxels", leak.width},
-          {"scale", closing_scale(leak, frame)},
+          {"least_scale", closing_scale(leak, frame)},
           {"inside", middle_of(leak.inner, frame)},
           {"outside", middle_of(leak.outer, frame)},
           {"parts", leak.parts},

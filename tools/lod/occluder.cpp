@@ -8,6 +8,7 @@
 #include "tools/cli/names.h"
 #include "tools/lod/choices.h"
 #include "tools/lod/lod_outputs.h"
+#include "tools/notes/leak_words.h"
 #include "tools/run/hiding_recipe.h"
 
 namespace bp {
@@ -37,7 +38,11 @@ OptionText option_text(const BuildOptions& o, const BuiltOccluder& built) {
   return text.add("opening", built.made.opening_world).add("tighten", true);
 }
 
-Json json_of(const BuiltOccluder& built) {
+double closed_gap(const BuildOptions& o, const BuiltOccluder& built) {
+  return recipe_of(o, built).hiding.closed_gap();  // as bpcheck says
+}
+
+Json json_of(const BuildOptions& o, const BuiltOccluder& built) {
   Json tried = Json::array();
   const double voxel_volume = std::pow(built.scene.voxels.header.frame.voxel, 3);
   for (const HiddenScene::Tried& t : built.hidden.tried)
@@ -46,9 +51,31 @@ Json json_of(const BuiltOccluder& built) {
   return {{"scales", tried},
           {"ground", built.ground},
           {"hidden", hidden_volume(built)},
+          {"closed_gap", closed_gap(o, built)},
           {"opening", built.made.opening_world},
           {"parts", counts.levels.front().measures.shells},
           {"parts_dropped", counts.dropped_parts}};
+}
+
+/// Returns where the scene leaks, as "; " and a sentence. Without the memory to look for it: the command that does.
+std::string leak_clause(const Build& build, const VoxelizedScene& scene) {
+  const VoxelBox bounds = voxel_bounds(scene.header.frame, scene.header.bounds);
+  const MemoryShare& work = build.budget.work;
+  if (leaks_bytes(bounds) + std::uint64_t(bounds.volume() / 4) > work.bytes)
+    return "; bpinfo --leaks tells where, with more --memory";
+  BitBox walls(bounds);
+  load_voxels(*scene.solid, walls);
+  const GroundedLeaks found = find_grounded_leaks(walls, ground_of(scene.header.frame), work);
+  if (found.leaks.empty()) return "; it has no room that is wider than the way into it";
+  return "; " + leak_sentence(found.leaks.front(), scene.header.frame) + " (bpinfo --leaks shows it)";
+}
+
+/// Throws `failed` if the occluder holds less than --min-hidden.
+void require_hidden(const Build& build, const BuiltOccluder& built, double volume) {
+  const double share = volume / volume_of(built.scene.voxels.header.bounds);
+  if (!(share < build.options.min_hidden)) return;
+  fail(ErrorCode::failed, "the occluder holds {:.2g} % of the scene's bounding box, less than --min-hidden {:.4g}%{}",
+       100 * share, 100 * build.options.min_hidden, leak_clause(build, built.scene.voxels));
 }
 
 void note(Build& build, const BuiltOccluder& built, double volume) {
@@ -56,9 +83,10 @@ void note(Build& build, const BuiltOccluder& built, double volume) {
   const double hidden = hidden_volume(built), share = hidden / volume_of(built.scene.voxels.header.bounds);
   if (share < kLittle)
     build.note(fmt::format(
-        "the scene hides {:.2g} % of its bounding box only: walls are missing, or wider open than {}", 100 * share,
+        "the scene hides {:.2g} % of its bounding box only: walls are missing, or wider open than {}{}", 100 * share,
         build.options.closing.scale ? "is closed; without --scale bplod looks for the one that hides enough"
-                                    : "any scale closes that hides more"));
+                                    : "any scale closes that hides more",
+        leak_clause(build, built.scene.voxels)));
   if (volume < kHalf * hidden)
     build.note(fmt::format("{} faces hold {:.2g} % of the volume that the scene hides; more --faces hold more",
                            made.level.mesh.triangles.size(), 100 * volume / hidden));
@@ -67,9 +95,10 @@ void note(Build& build, const BuiltOccluder& built, double volume) {
     build.note(fmt::format(
         "openings narrower than {:.4g} may count as closed, and then the rooms behind them are filled, as are "
         "valleys as narrow; --scale 0 keeps free what one enters",
-        recipe_of(build.options, built).hiding.closed_gap()));  // as bpcheck says
+        closed_gap(build.options, built)));
   else if (!build.options.closing.scale)
-    build.note("openings stay open: closing them would hide little more");
+    build.note(fmt::format("openings wider than {:.4g} stay open: closing them would hide little more",
+                           closed_gap(build.options, built)));
   if (!made.level.reached)
     build.note(fmt::format("{} faces instead of {}: no further edge can be merged", made.level.mesh.triangles.size(),
                            made.faces_asked));
@@ -97,9 +126,9 @@ BuiltOccluder make(Build& build) {
   }
   if (built.hidden.voxels.count == 0)
     fail(ErrorCode::bad_input,
-         "the scene hides nothing: it is open, also at a scale of {:.4g}, or thinner than its voxels of {:.4g}; try "
+         "the scene hides nothing: it is open, also at a scale of {:.4g}, or thinner than its voxels of {:.4g}{}; try "
          "another --scale, or smaller voxels",
-         built.hidden.scale_world, header.frame.voxel);
+         built.hidden.scale_world, header.frame.voxel, leak_clause(build, built.scene.voxels));
   build.report.begin("mesh");
   built.made = make_occluder(header, built.hidden, build.backends, request);
   return built;
@@ -112,7 +141,9 @@ BuiltOccluder built_occluder(Build& build) {
   LodLevel& level = built.made.level;
   const OptionText text = option_text(build.options, built);
   level.mesh.provenance = {make_provenance("bplod", text, built.scene.voxels.counts.input_hash)};
-  note(build, built, facts_of(level, {}).volume);
+  const double volume = facts_of(level, {}).volume;
+  require_hidden(build, built, volume);
+  note(build, built, volume);
   return built;
 }
 
@@ -124,7 +155,7 @@ void build_occluder(const BuildOptions& o) {
   const LevelFacts facts = facts_of(level, {});
   build.progress.end();
   build.report.begin("write");
-  const Json more = json_of(built);
+  const Json more = json_of(o, built);
   CompleteLevels made;
   made.levels.push_back(std::move(level));
   const StreamHeader& header = built.scene.voxels.header;

@@ -54,4 +54,11 @@ try bpinfo house.obj --resolution 10
 said 'bpvox house.obj --resolution 60 | bpinfo --leaks --voxel 1'
 said 'bpvox house.obj --resolution 60 --fill inside | bpinfo --leaks'
 said 'bpinfo --leaks --format obj --resolution 60 --image x.png < house.obj'
+# What an occluder holds must be enough, or the message names the leak.
+try bplod house.obj --profile occluder --resolution 120 --scale 0.2 --min-hidden 50% -o out
+try bplod house.obj --profile occluder --resolution 120 --scale 0.52 --min-hidden 50% --report report.json -q -o out
+grep -oE '"(closed_gap|min_hidden)": [0-9.]*' report.json
+try bplod house.obj --profile occluder --min-hidden 5 -o out
+try bplod house.obj --min-hidden 5% -o out
+try bplod slit.obj --profile occluder --scale 0 --voxel 0.04 -o slit
 files

@@ -50,6 +50,7 @@ constexpr OptionOfTools kOptionsOfTools[] = {
     {"--look-at", "bpinfo"},
     {"--margin", "bpcheck and bplod"},
     {"--memory", "bpvox, bpscale, bpclose, bpmesh, bpcheck, bpdeform, bplod, bpinfo and bpview"},
+    {"--min-hidden", "bplod"},
     {"--mode", "bpmesh and bplod"},
     {"--name", "bplod"},
     {"--no-open", "bpview"},
