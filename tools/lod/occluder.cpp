@@ -2,9 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "lib/check/counted.h"
 #include "lib/core/error.h"
+#include "lib/levels/footprints.h"
 #include "tools/cli/names.h"
 #include "tools/lod/choices.h"
 #include "tools/lod/lod_outputs.h"
@@ -16,6 +20,7 @@ namespace bp {
 namespace {
 
 constexpr double kLittle = 5e-3;  // of the bounds' volume
+constexpr double kMuch = 0.3;     ///< of the bounds' volume: then no large rooms are missing
 constexpr double kHalf = 0.5;     ///< of the hidden volume
 
 double hidden_volume(const BuiltOccluder& built) {
@@ -57,17 +62,66 @@ Json json_of(const BuildOptions& o, const BuiltOccluder& built) {
           {"parts_dropped", counts.dropped_parts}};
 }
 
-/// Returns where the scene leaks, as "; " and a sentence. Without the memory to look for it: the command that does.
-std::string leak_clause(const Build& build, const VoxelizedScene& scene) {
+/// Returns where the scene leaks; nothing without the memory to look for it.
+std::optional<GroundedLeaks> leaks_of(const Build& build, const VoxelizedScene& scene) {
   const VoxelBox bounds = voxel_bounds(scene.header.frame, scene.header.bounds);
   const MemoryShare& work = build.budget.work;
-  if (leaks_bytes(bounds) + std::uint64_t(bounds.volume() / 4) > work.bytes)
-    return "; bpinfo --leaks tells where, with more --memory";
+  if (leaks_bytes(bounds) + std::uint64_t(bounds.volume() / 4) > work.bytes) return {};
   BitBox walls(bounds);
   load_voxels(*scene.solid, walls);
-  const GroundedLeaks found = find_grounded_leaks(walls, ground_of(scene.header.frame), work);
-  if (found.leaks.empty()) return "; it has no room that is wider than the way into it";
-  return "; " + leak_sentence(found.leaks.front(), scene.header.frame) + " (bpinfo --leaks shows it)";
+  return find_grounded_leaks(walls, ground_of(scene.header.frame), work);
+}
+
+/// Returns "; " and a sentence about the largest leak.
+std::string leak_clause(const Build& build, const VoxelizedScene& scene) {
+  const std::optional<GroundedLeaks> found = leaks_of(build, scene);
+  if (!found) return "; bpinfo --leaks tells where, with more --memory";
+  if (found->leaks.empty()) return "; it has no room that is wider than the way into it";
+  return "; " + leak_sentence(found->leaks.front(), scene.header.frame) + " (bpinfo --leaks shows it)";
+}
+
+/// Returns a note if the scale that was asked for fills rooms that a smaller one would enclose, and these are more than
+/// all that is hidden.
+std::string filled_note(const Build& build, const BuiltOccluder& built) {
+  const GridFrame& frame = built.scene.voxels.header.frame;
+  const double scale = built.hidden.scale_world;
+  const std::optional<GroundedLeaks> found = leaks_of(build, built.scene.voxels);
+  std::size_t rooms = 0;
+  double volume = 0, below = 0;
+  for (std::size_t i = 0; found && i < found->leaks.size(); ++i) {
+    const Leak& leak = found->leaks[i];
+    if (filling_scale(leak, frame) > scale) continue;
+    ++rooms;
+    volume += room_volume(leak, frame);
+    below = std::max(below, filling_scale(leak, frame));
+  }
+  if (volume < hidden_volume(built)) return "";
+  return fmt::format("--scale {:.4g} fills {} ({:.3g}) instead of closing openings; below {:.4g} more may be hidden",
+                     scale, counted(rooms, "room"), volume, below);
+}
+
+/// Returns a note if large parts of the scene that stand apart, as houses, hide next to nothing.
+std::string apart_note(const BuiltOccluder& built) {
+  constexpr std::uint64_t kLarge = 10;  // one part in so many of the largest one's columns
+  constexpr double kInWalls = 0.1;      // of the part's columns, over its height: its walls alone may hide that
+  const int up = ground_of(built.scene.voxels.header.frame).axis;
+  const StreamHeader& header = built.scene.voxels.header;
+  std::vector<Footprint> parts = footprints(*built.scene.voxels.solid, *built.hidden.voxels.voxels, up);
+  std::uint64_t most = 0;
+  for (const Footprint& part : parts) most = std::max(most, part.columns);
+  std::erase_if(parts, [&](const Footprint& part) { return part.columns < most / kLarge; });
+  const auto bare = [&](const Footprint& part) {
+    return double(part.hidden) < kInWalls * double(part.columns) * double(part.box.size()[up]);
+  };
+  const auto first = std::find_if(parts.begin(), parts.end(), bare);
+  if (parts.size() < 2 || first == parts.end()) return "";
+  const VoxelCoord sum = first->box.min + first->box.max;
+  return fmt::format("{} of {} parts that stand apart hide next to nothing, as the one around {}{}",
+                     std::count_if(parts.begin(), parts.end(), bare), parts.size(),
+                     place_text(middle_of({sum.x / 2, sum.y / 2, sum.z / 2}, header.frame), header.frame),
+                     built.ground ? ": the ground is a plane at the lowest point of all, and a house above it is open "
+                                    "below; give houses on a slope one by one"
+                                  : "; bpinfo --leaks tells where parts are open");
 }
 
 /// Throws `failed` if the occluder holds less than --min-hidden.
@@ -90,6 +144,9 @@ void note(Build& build, const BuiltOccluder& built, double volume) {
   if (volume < kHalf * hidden)
     build.note(fmt::format("{} faces hold {:.2g} % of the volume that the scene hides; more --faces hold more",
                            made.level.mesh.triangles.size(), 100 * volume / hidden));
+  if (build.options.closing.scale && built.hidden.scale_world > 0 && share < kMuch)
+    build.note(filled_note(build, built));
+  build.note(apart_note(built));
   if (built.ground) build.note("the scene is open below: it is taken to stand on the ground, and eyes to be above it");
   if (built.hidden.scale_world > 0)
     build.note(fmt::format(
