@@ -368,7 +368,7 @@ Json options_json(const BuildOptions& o) {
           {"tile", o.tile_vox},
           {"symmetry", o.is_cage() ? Json(name_of(o.symmetry)) : Json(nullptr)},
           {"margin", o.is_cage() ? Json(o.margin.text()) : Json(nullptr)},
-          {"min_hidden", o.min_hidden},
+          {"min_hidden", o.min_hidden > 0 ? Json(o.min_hidden) : Json(nullptr)},
           {"hulls", o.hulls > 0 ? Json(o.hulls) : Json(nullptr)},
           {"hull_corners", o.hull_corners},
           {"hull_files", o.hull_files == HullFiles::none ? Json(nullptr) : Json(name_of(o.hull_files))},
