@@ -65,7 +65,8 @@ void draw_mark(Image& image, int left, int top, int side, double x, double y, co
     for (int i = 0; i < side; ++i) {
       int inside = 0, around = 0;
       for (int ray = 0; ray < kRays * kRays; ++ray) {
-        const double u = i + (ray % kRays + 0.5) / kRays - px, v = j + (ray / kRays + 0.5) / kRays - py;
+        const int across = ray % kRays, down = ray / kRays;
+        const double u = i + (across + 0.5) / kRays - px, v = j + (down + 0.5) / kRays - py;
         const Point p{u * d[0] + v * d[1], v * d[0] - u * d[1]};
         inside += int(arrow.holds(p, 0));
         around += int(arrow.holds(p, rim));
