@@ -68,6 +68,8 @@ bplod truck.obj --profile collision --faces 500 -q -o truck-collision > /dev/nul
 draw guide-collision.png 360 truck.obj truck-collision/truck_godot.glb truck-collision/truck_unreal.glb
 bplod house.obj --profile occluder -q -o house-occluder > /dev/null
 draw guide-occluder.png 400 house.obj house-occluder/house_occluder.glb
+mkdir -p occluder
+draw occluder/leaks.png 640 house.obj --leaks -q
 bpvox figure.obj --resolution 256 -q | bpclose --scale 2% -q | bpmesh --faces 1000 --quads -q -o figure_pairs.obj --overwrite
 bplod figure.obj --profile cage -q -o figure-cage > /dev/null
 cp figure-cage/figure_cage.obj .

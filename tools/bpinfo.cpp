@@ -8,19 +8,25 @@
 #include "io/scene/scene_parts.h"
 #include "io/scene/scene_reader.h"
 #include "io/scene/texture_table.h"
+#include "io/stream/brick_shelf.h"
 #include "io/stream/brick_stream.h"
 #include "io/tiles/tileset_file.h"
 #include "io/tiles/tileset_level.h"
+#include "lib/check/counted.h"
 #include "lib/core/error.h"
+#include "lib/levels/voxel_choice.h"
 #include "lib/pass/voxelize/empty_scene.h"
 #include "tools/cli/options/voxel.h"
 #include "tools/cli/run_tool.h"
+#include "tools/info/leak_view.h"
+#include "tools/info/leaks.h"
 #include "tools/info/mesh_info.h"
 #include "tools/info/part_places.h"
 #include "tools/info/picture.h"
 #include "tools/info/stream_info.h"
 #include "tools/info/tileset_info.h"
 #include "tools/info/weight_info.h"
+#include "tools/notes/leak_words.h"
 #include "tools/run/inputs.h"
 
 namespace {
@@ -31,8 +37,33 @@ struct Options {
   std::string format, boxes;
   bp::PictureOptions picture;
   std::optional<std::size_t> level;
-  bool json = false, dump = false, quiet = false;
+  bp::VoxelOptions voxels;  ///< of --leaks
+  bool json = false, dump = false, leaks = false, quiet = false;
 };
+
+/// Checks the options that belong to --leaks.
+void check_leaks(Options& o, const bp::Args& args) {
+  args.needs({"--voxel", "--resolution", "--memory", "--temp"}, "--leaks");
+  if (!o.leaks) return;
+  for (const char* other : {"--dump", "--boxes", "--level", "--pick"}) args.excludes(other, "--leaks");
+  o.voxels.check_size();
+  if (o.in.size() > 1) bp::fail(bp::ErrorCode::bad_argument, "--leaks takes one INPUT");
+  o.voxels.scenes = o.in;
+  o.voxels.format = o.format;
+  o.voxels.up = o.picture.image.up;
+}
+
+/// Checks the options that print one thing only.
+void check_alone(const Options& o) {
+  if (o.json && o.dump) bp::fail(bp::ErrorCode::bad_argument, "--json and --dump exclude each other");
+  if (o.in.size() > 1 && (o.json || o.dump)) bp::fail(bp::ErrorCode::bad_argument, "--json and --dump take one INPUT");
+  if (o.picture.image.pick && (o.json || o.dump))
+    bp::fail(bp::ErrorCode::bad_argument, "--pick prints a point and nothing else; leave out --json and --dump");
+  if (!o.boxes.empty() &&
+      (o.in.size() > 1 || o.json || o.dump || !o.picture.image.file.empty() || o.picture.image.pick))
+    bp::fail(bp::ErrorCode::bad_argument,
+             "--boxes takes one INPUT and prints boxes only; leave out --image, --pick, --json and --dump");
+}
 
 Options parse(bp::Args& args) {
   Options o;
@@ -44,15 +75,20 @@ Options parse(bp::Args& args) {
   args.flag("--dump", o.dump, "print a stream as text, one line for each brick");
   args.option("--boxes", "NAME", o.boxes,
               "print boxes around the parts of a scene with this name or material (* and ? as in file names)");
+  args.flag("--leaks", o.leaks,
+            "tell where the inside of a scene or stream is open: the narrowest place on the widest way into each room");
+  o.voxels.add_size(args, std::to_string(bp::kOccluderResolution) + ", for --leaks of a scene");
   o.picture.image.add_to(args);
   args.group("Input");
   args.option("--level", "N", o.level,
               "level of a glTF file to show, or of a tileset to draw; 0, the finest (default)");
   bp::add_scene_format(args, o.format, "INPUTs are meshes, and this is the ");
-  o.common.add_to(args, bp::CommonOptions::threads_part | bp::CommonOptions::overwrite_part);
+  o.common.add_to(args,
+                  bp::CommonOptions::threads_part | bp::CommonOptions::memory_part | bp::CommonOptions::overwrite_part);
   args.flag("-q,--quiet", o.quiet, "show no notes");
   args.removed("--checksum", "the text and --json have it");
-  args.often({"--json", "--image", "--view", "--zoom", "--look-at", "--pick", "--boxes", "--level", "--overwrite"});
+  args.often(
+      {"--json", "--leaks", "--image", "--view", "--zoom", "--look-at", "--pick", "--boxes", "--level", "--overwrite"});
   args.example("bpinfo scene.glb closed.bpv proxy.glb --image all.png");
   args.parse();
   if (o.in.empty()) o.in = {"-"};
@@ -61,17 +97,11 @@ Options parse(bp::Args& args) {
   bp::check_stdin_once(o.in);
   bp::keep_inputs(o.in);
   if (!o.picture.image.file.empty()) bp::check_panel_size(o.picture.image.panel_size, o.in.size());
-  if (o.json && o.dump) bp::fail(bp::ErrorCode::bad_argument, "--json and --dump exclude each other");
-  o.picture.image.check(args);
-  if (o.picture.image.pick && (o.json || o.dump))
-    bp::fail(bp::ErrorCode::bad_argument, "--pick prints a point and nothing else; leave out --json and --dump");
-  if (!o.boxes.empty() &&
-      (o.in.size() > 1 || o.json || o.dump || !o.picture.image.file.empty() || o.picture.image.pick))
-    bp::fail(bp::ErrorCode::bad_argument,
-             "--boxes takes one INPUT and prints boxes only; leave out --image, --pick, --json and --dump");
+  check_leaks(o, args);
+  o.picture.image.check(args, o.leaks);
+  check_alone(o);
   o.picture.several = o.in.size() > 1;
   o.picture.overwrite = o.common.overwrite;
-  if (o.in.size() > 1 && (o.json || o.dump)) bp::fail(bp::ErrorCode::bad_argument, "--json and --dump take one INPUT");
   return o;
 }
 
@@ -174,7 +204,7 @@ void show_mesh(const Options& o, const std::string& in, bp::Picture& picture) {
   info.extras = extras;
   info.level = scene.level;
   info.names = *scene.part_names;
-  if (!o.picture.image.pick)
+  if (!o.picture.image.pick && !o.leaks)
     bp::print(o.json ? bp::mesh_json(info).dump(2, ' ', false, bp::Json::error_handler_t::replace) + "\n"
                      : bp::mesh_text(info, in == "-" ? "stdin" : in));
   if (!picture.wanted()) return;
@@ -220,6 +250,65 @@ void show_weights(const Options& o, const std::string& in, bp::Picture& picture)
   bp::print(o.json ? bp::weight_json(info).dump(2) + "\n" : bp::weight_text(info, in));
 }
 
+/// Reads the last layer of a stream, and adds it to the picture.
+bp::WallVoxels stream_walls(const Options& o, const std::string& in, const bp::LeakMemory& memory,
+                            bp::Picture& picture) {
+  bp::BrickReader source(in);
+  bp::WallVoxels walls{source.header(), bp::make_shelf(memory.shelf, o.common.temp)};
+  const bp::Layer layer = walls.header.has_closing ? bp::Layer::closing : bp::Layer::solid;
+  if (walls.header.fill == bp::FillMode::inside)
+    bp::fail(bp::ErrorCode::bad_input, "{}: holds the inside without its walls (--fill inside); give --leaks the scene",
+             in == "-" ? "stdin" : in);
+  bp::CoarseView cells(walls.header.bricks);
+  for (bp::Brick brick; source.read(brick);) {
+    if (picture.wanted()) cells.add(brick);
+    if (brick.layer == layer) walls.bricks->put(brick.coord, brick.fill, brick.bits);
+  }
+  if (picture.wanted()) picture.add_stream(cells, walls.header, source.totals(), in);
+  return walls;
+}
+
+/// Points at the leaks in the picture, from a direction that shows the first.
+void point_at_leaks(const Options& o, const bp::LeakInfo& info, const bp::BitBox& walls, bp::Picture& picture) {
+  if (info.leaks.empty()) return;
+  bp::LeakView view = bp::view_of(info.leaks[0], walls, info.frame);
+  if (o.picture.image.view_given) view = {o.picture.image.azimuth, o.picture.image.elevation};
+  const auto place = [&](const bp::Leak& leak) { return bp::middle_of(leak.place, info.frame); };
+  std::vector<bp::Mark> marks;
+  std::size_t hidden = 0;
+  for (std::size_t i = 0; i < info.leaks.size(); ++i) {
+    const bool seen = bp::is_seen(info.leaks[i], view, walls, info.frame);
+    hidden += std::size_t(!seen);
+    if (seen || i == 0) marks.push_back({place(info.leaks[i]), fmt::format("{}{}", i + 1, seen ? "" : ", behind")});
+  }
+  std::string text = "leak 1: " + bp::place_text(place(info.leaks[0]), info.frame);
+  if (hidden > 0) text += fmt::format("\n{} of {} behind walls", hidden, bp::counted(info.leaks.size(), "leak"));
+  picture.point_at(std::move(marks), view.azimuth, view.elevation, text);
+}
+
+void show_leaks(const Options& o, const std::string& in, bp::Picture& picture) {
+  const bool stream = is_stream(o, in);
+  if (stream && (o.voxels.voxel || o.voxels.resolution))
+    bp::fail(bp::ErrorCode::bad_argument, "{}: is a stream, which has its voxels; leave out --voxel and --resolution",
+             in == "-" ? "stdin" : in);
+  if (!stream && in == "-" && picture.wanted())
+    bp::fail(bp::ErrorCode::bad_argument, "a scene from stdin is read once; --leaks with --image takes a file");
+  const bp::LeakMemory memory(o.common.memory_bytes);
+  const bp::WallVoxels walls = stream ? stream_walls(o, in, memory, picture) : bp::wall_voxels(o.voxels, o.common);
+  const bp::BitBox voxels = bp::dense_voxels(walls, memory.search);
+  bp::LeakInfo info = bp::leak_info(walls.header, voxels, memory.search);
+  bp::SceneOptions how;
+  how.temp_dir = o.common.temp;
+  how.walls_only = !stream;
+  bp::name_parts(walls.header, how, info);
+  bp::print(o.json ? bp::leak_json(info).dump(2, ' ', false, bp::Json::error_handler_t::replace) + "\n"
+                   : bp::leak_text(info, in == "-" ? "stdin" : in));
+  if (!picture.wanted()) return;
+  if (is_tileset(o, in)) draw_tileset(o, bp::read_tileset(in), in, picture);
+  if (!stream && !is_tileset(o, in)) show_mesh(o, in, picture);
+  point_at_leaks(o, info, voxels, picture);
+}
+
 /// Returns the places of parts, as text: of the scene that a stream was made of, or of a scene in a file.
 std::string part_places(const Options& o, const std::string& in) {
   if (is_tileset(o, in)) bp::fail(bp::ErrorCode::bad_argument, "{}: --boxes is for scenes; tiles have no parts", in);
@@ -248,7 +337,8 @@ void run(const Options& o) {
   if (!o.boxes.empty()) return bp::print(part_places(o, o.in[0]));
   bp::Picture picture(o.picture);
   for (const std::string& in : o.in)
-    (is_tileset(o, in)   ? show_tileset
+    (o.leaks             ? show_leaks
+     : is_tileset(o, in) ? show_tileset
      : is_weights(o, in) ? show_weights
      : is_stream(o, in)  ? show_stream
                          : show_mesh)(o, in, picture);

@@ -169,6 +169,15 @@ std::vector<std::array<Vec3d, 2>> edges_of(const View& view, const Camera& camer
   return edges;
 }
 
+/// Draws the arrows of panel i; the first one lies over the others.
+void draw_marks(Image& image, const View& view, const Camera& camera, std::size_t i, const RenderOptions& options) {
+  for (auto mark = view.marks.rbegin(); mark != view.marks.rend(); ++mark) {
+    const int left = int(i) * options.panel_width, side = std::min(options.panel_width, options.panel_height);
+    const Vec3d p = camera.project(mark->at);
+    draw_mark(image, left, 0, side, left + p[0] / kSamples, p[1] / kSamples, mark->text, options.typeface);
+  }
+}
+
 /// Draws axes, ruler and label of panel i.
 void draw_legend(Image& image, const Legend& legend, const View& view, const Camera& camera, std::size_t i,
                  const RenderOptions& options) {
@@ -224,6 +233,7 @@ Image render(std::span<const View> views, const RenderOptions& options) {
       if (views[i].edges) canvas.draw_lines(edges_of(views[i], camera), options.ink, 0.9);
     }
     canvas.resolve(image, int(i) * w, 0);
+    if (anything) draw_marks(image, views[i], camera, i, options);
     draw_legend(image, legend, views[i], camera, i, options);
   }
   if (options.marks) draw_borders(image, options);

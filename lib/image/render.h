@@ -3,6 +3,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "lib/core/grid_frame.h"
 #include "lib/core/indexed_mesh.h"
@@ -10,6 +11,7 @@
 #include "lib/image/color_bar.h"
 #include "lib/image/image.h"
 #include "lib/image/image_cache.h"
+#include "lib/image/mark.h"
 #include "lib/image/render_options.h"
 
 /// A small software rasteriser: it draws meshes side by side, each with its label below. It needs no display. The bytes
@@ -31,8 +33,9 @@ struct View {
   Bounds3d bounds;     ///< the part to show, at a scale of its own; empty: as RenderOptions say
   /// Directions that the panel shows as x, y, z.
   std::array<Vec3d, 3> axes{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
-  std::string label;  ///< lines separated by \n
-  ColorBar bar;       ///< the meaning of its colours
+  std::vector<Mark> marks;  ///< places that arrows point at, over everything else
+  std::string label;        ///< lines separated by \n
+  ColorBar bar;             ///< the meaning of its colours
 };
 
 constexpr int kLeastPanelSide = 16, kMostImageSide = 16384;  ///< pixels; the latter for all panels together

@@ -60,7 +60,7 @@ set(rules
   "tools/place:lib/* io/* tools/cli"
   "tools/check:lib/* io/* tools/cli tools/cli/options tools/run tools/place"
   "tools/deform:lib/* io/* tools/cli tools/run"
-  "tools/info:lib/* io/* tools/cli tools/run tools/notes tools/place"
+  "tools/info:lib/* io/* tools/cli tools/cli/options tools/run tools/notes tools/pipe tools/place"
   "tools/lod:lib/* io/* tools/cli tools/cli/options tools/run tools/notes tools/place"
   "tools/mesh:lib/* io/* tools/cli tools/cli/options tools/run tools/notes"
   "tools/view:lib/* io/* tools/cli tools/cli/options tools/run"

@@ -39,6 +39,7 @@ void ImageOptions::set_view(const std::string& text) {
   if (angles.size() != 2)
     fail(ErrorCode::bad_argument, "'{}' is not AZIMUTH,ELEVATION, two numbers in degrees such as 35,22", text);
   azimuth = angles[0], elevation = angles[1];
+  view_given = true;
 }
 
 void ImageOptions::set_pick(const std::string& text) {
@@ -48,8 +49,9 @@ void ImageOptions::set_pick(const std::string& text) {
   pick = {pixel(text.substr(0, comma)), pixel(text.substr(comma + 1))};
 }
 
-void ImageOptions::check(const Args& args) const {
-  if (!pick) args.needs({"--image-size", "--up", "--view", "--zoom", "--look-at"}, "--image");
+void ImageOptions::check(const Args& args, bool up_counts) const {
+  if (!pick) args.needs({"--image-size", "--view", "--zoom", "--look-at"}, "--image");
+  if (!pick && !up_counts) args.needs({"--up"}, "--image");
   check_png_name(file);
   if (!(zoom >= kLeastZoom && zoom <= kMostZoom))
     fail(ErrorCode::bad_argument, "--zoom {}: must be {} to {:.0f}; 2 draws everything twice as large", zoom,

@@ -82,6 +82,7 @@ void turn(Panel& panel, UpAxis from, UpAxis to) {
   }
   panel.bounds = bounds;
   for (Vec3d& axis : panel.view.axes) axis = turned(axis, from, to);
+  for (Mark& mark : panel.view.marks) mark.at = turned(mark.at, from, to);
   if (!panel.source) return;
   panel.source = std::make_unique<TurnedSource>(std::move(panel.source), from, to);
   panel.view.source = panel.source.get();
@@ -159,6 +160,13 @@ void Picture::add_mesh(MeshInfo& info, std::unique_ptr<TriangleSource> source, c
     panel->view.source = panel->source.get();
   }
   panels_.push_back(std::move(panel));
+}
+
+void Picture::point_at(std::vector<Mark> marks, double azimuth, double elevation, const std::string& text) {
+  View& view = panels_.back()->view;
+  view.marks = std::move(marks);
+  view.label += "\n" + text;
+  if (!o_.image.view_given) o_.image.azimuth = azimuth, o_.image.elevation = elevation;
 }
 
 /// Returns the axis of --up, else that of the first input that tells one.

@@ -49,6 +49,8 @@ class Picture {
   /// empty if there is one level. `textures`: images that the source may show; null: none.
   void add_mesh(MeshInfo& info, std::unique_ptr<TriangleSource> source, const std::string& in, const std::string& which,
                 std::shared_ptr<const TextureSet> textures = nullptr);
+  /// Points at places of the last input, from this direction unless the user chose one. `text`: lines for its label.
+  void point_at(std::vector<Mark> marks, double azimuth, double elevation, const std::string& text);
   /// Writes the picture; returns notes for the user.
   [[nodiscard]] std::vector<std::string> write();
   /// Returns the point of ImageOptions::pick as "X,Y,Z", in the axes of the input that is seen there. To be called

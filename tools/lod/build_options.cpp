@@ -33,6 +33,13 @@ Json optional_json(const std::optional<Length>& length) {
   return length ? Json(length->text()) : Json(nullptr);
 }
 
+/// Parses "5%" as 0.05.
+double parse_share(const std::string& text) {
+  const double percent = text.ends_with('%') ? parse_number(text.substr(0, text.size() - 1)) : -1;
+  if (!(percent >= 0 && percent <= 100)) fail(ErrorCode::bad_argument, "'{}' is no share from 0% to 100%", text);
+  return percent / 100;
+}
+
 Symmetry parse_symmetry(const std::string& text) {
   for (const Symmetry s : {Symmetry::x, Symmetry::y, Symmetry::z, Symmetry::off, Symmetry::automatic}) {
     if (text == name_of(s)) return s;
@@ -107,6 +114,7 @@ void check_profile(const Args& args, const BuildOptions& o) {
   needs({"--tile", "--tiles", "--cache", "--leaves", "--tile-compression", "--place", "--crs"}, LodProfile::tiles);
   needs({"--hulls", "--hull-corners", "--hull-files"}, LodProfile::collision);
   needs({"--margin", "--symmetry"}, LodProfile::cage);
+  needs({"--min-hidden"}, LodProfile::occluder);
   if (o.is_tileset() && args.given("--origin") && !(o.place.place && o.proxy.origin.kind == OriginOption::Kind::point))
     fail(ErrorCode::bad_argument,
          "--origin: a tileset holds its place in double, in the transforms of its tiles; leave it out, or name with "
@@ -223,6 +231,9 @@ void declare_profile(Args& args, BuildOptions& o) {
   args.option(
       "--symmetry", "auto|x|y|z|off", [&o](const std::string& text) { o.symmetry = parse_symmetry(text); },
       "cage: the axis across which its halves mirror each other (default: the scene's, if it has one)");
+  args.option(
+      "--min-hidden", "SHARE", [&o](const std::string& text) { o.min_hidden = parse_share(text); },
+      "occluder: fail if it holds less of the scene's bounds, as 5%");
   args.option("--margin", "LENGTH", o.margin, "cage: least distance from the scene");
   args.option(
       "--appearance",
@@ -372,6 +383,7 @@ Json options_json(const BuildOptions& o) {
           {"tile", o.tile_vox},
           {"symmetry", o.is_cage() ? Json(name_of(o.symmetry)) : Json(nullptr)},
           {"margin", o.is_cage() ? Json(o.margin.text()) : Json(nullptr)},
+          {"min_hidden", o.min_hidden > 0 ? Json(o.min_hidden) : Json(nullptr)},
           {"hulls", o.hulls > 0 ? Json(o.hulls) : Json(nullptr)},
           {"hull_corners", o.hull_corners},
           {"hull_files", o.hull_files == HullFiles::none ? Json(nullptr) : Json(name_of(o.hull_files))},

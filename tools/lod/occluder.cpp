@@ -2,12 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "lib/check/counted.h"
 #include "lib/core/error.h"
+#include "lib/levels/footprints.h"
 #include "tools/cli/names.h"
 #include "tools/lod/choices.h"
 #include "tools/lod/lod_outputs.h"
+#include "tools/notes/leak_words.h"
 #include "tools/run/hiding_recipe.h"
 
 namespace bp {
@@ -15,6 +20,7 @@ namespace bp {
 namespace {
 
 constexpr double kLittle = 5e-3;  // of the bounds' volume
+constexpr double kMuch = 0.3;     ///< of the bounds' volume: then no large rooms are missing
 constexpr double kHalf = 0.5;     ///< of the hidden volume
 
 double hidden_volume(const BuiltOccluder& built) {
@@ -37,7 +43,11 @@ OptionText option_text(const BuildOptions& o, const BuiltOccluder& built) {
   return text.add("opening", built.made.opening_world).add("tighten", true);
 }
 
-Json json_of(const BuiltOccluder& built) {
+double closed_gap(const BuildOptions& o, const BuiltOccluder& built) {
+  return recipe_of(o, built).hiding.closed_gap();  // as bpcheck says
+}
+
+Json json_of(const BuildOptions& o, const BuiltOccluder& built) {
   Json tried = Json::array();
   const double voxel_volume = std::pow(built.scene.voxels.header.frame.voxel, 3);
   for (const HiddenScene::Tried& t : built.hidden.tried)
@@ -46,9 +56,80 @@ Json json_of(const BuiltOccluder& built) {
   return {{"scales", tried},
           {"ground", built.ground},
           {"hidden", hidden_volume(built)},
+          {"closed_gap", closed_gap(o, built)},
           {"opening", built.made.opening_world},
           {"parts", counts.levels.front().measures.shells},
           {"parts_dropped", counts.dropped_parts}};
+}
+
+/// Returns where the scene leaks; nothing without the memory to look for it.
+std::optional<GroundedLeaks> leaks_of(const Build& build, const VoxelizedScene& scene) {
+  const VoxelBox bounds = voxel_bounds(scene.header.frame, scene.header.bounds);
+  const MemoryShare& work = build.budget.work;
+  if (leaks_bytes(bounds) + std::uint64_t(bounds.volume() / 4) > work.bytes) return {};
+  BitBox walls(bounds);
+  load_voxels(*scene.solid, walls);
+  return find_grounded_leaks(walls, ground_of(scene.header.frame), work);
+}
+
+/// Returns "; " and a sentence about the largest leak.
+std::string leak_clause(const Build& build, const VoxelizedScene& scene) {
+  const std::optional<GroundedLeaks> found = leaks_of(build, scene);
+  if (!found) return "; bpinfo --leaks tells where, with more --memory";
+  if (found->leaks.empty()) return "; it has no room that is wider than the way into it";
+  return "; " + leak_sentence(found->leaks.front(), scene.header.frame) + " (bpinfo --leaks shows it)";
+}
+
+/// Returns a note if the scale that was asked for fills rooms that a smaller one would enclose, and these are more than
+/// all that is hidden.
+std::string filled_note(const Build& build, const BuiltOccluder& built) {
+  const GridFrame& frame = built.scene.voxels.header.frame;
+  const double scale = built.hidden.scale_world;
+  const std::optional<GroundedLeaks> found = leaks_of(build, built.scene.voxels);
+  std::size_t rooms = 0;
+  double volume = 0, below = 0;
+  for (std::size_t i = 0; found && i < found->leaks.size(); ++i) {
+    const Leak& leak = found->leaks[i];
+    if (filling_scale(leak, frame) > scale) continue;
+    ++rooms;
+    volume += room_volume(leak, frame);
+    below = std::max(below, filling_scale(leak, frame));
+  }
+  if (volume < hidden_volume(built)) return "";
+  return fmt::format("--scale {:.4g} fills {} ({:.3g}) instead of closing openings; below {:.4g} more may be hidden",
+                     scale, counted(rooms, "room"), volume, below);
+}
+
+/// Returns a note if large parts of the scene that stand apart, as houses, hide next to nothing.
+std::string apart_note(const BuiltOccluder& built) {
+  constexpr std::uint64_t kLarge = 10;  // one part in so many of the largest one's columns
+  constexpr double kInWalls = 0.1;      // of the part's columns, over its height: its walls alone may hide that
+  const int up = ground_of(built.scene.voxels.header.frame).axis;
+  const StreamHeader& header = built.scene.voxels.header;
+  std::vector<Footprint> parts = footprints(*built.scene.voxels.solid, *built.hidden.voxels.voxels, up);
+  std::uint64_t most = 0;
+  for (const Footprint& part : parts) most = std::max(most, part.columns);
+  std::erase_if(parts, [&](const Footprint& part) { return part.columns < most / kLarge; });
+  const auto bare = [&](const Footprint& part) {
+    return double(part.hidden) < kInWalls * double(part.columns) * double(part.box.size()[up]);
+  };
+  const auto first = std::find_if(parts.begin(), parts.end(), bare);
+  if (parts.size() < 2 || first == parts.end()) return "";
+  const VoxelCoord sum = first->box.min + first->box.max;
+  return fmt::format("{} of {} parts that stand apart hide next to nothing, as the one around {}{}",
+                     std::count_if(parts.begin(), parts.end(), bare), parts.size(),
+                     place_text(middle_of({sum.x / 2, sum.y / 2, sum.z / 2}, header.frame), header.frame),
+                     built.ground ? ": the ground is a plane at the lowest point of all, and a house above it is open "
+                                    "below; give houses on a slope one by one"
+                                  : "; bpinfo --leaks tells where parts are open");
+}
+
+/// Throws `failed` if the occluder holds less than --min-hidden.
+void require_hidden(const Build& build, const BuiltOccluder& built, double volume) {
+  const double share = volume / volume_of(built.scene.voxels.header.bounds);
+  if (!(share < build.options.min_hidden)) return;
+  fail(ErrorCode::failed, "the occluder holds {:.2g} % of the scene's bounding box, less than --min-hidden {:.4g}%{}",
+       100 * share, 100 * build.options.min_hidden, leak_clause(build, built.scene.voxels));
 }
 
 void note(Build& build, const BuiltOccluder& built, double volume) {
@@ -56,20 +137,25 @@ void note(Build& build, const BuiltOccluder& built, double volume) {
   const double hidden = hidden_volume(built), share = hidden / volume_of(built.scene.voxels.header.bounds);
   if (share < kLittle)
     build.note(fmt::format(
-        "the scene hides {:.2g} % of its bounding box only: walls are missing, or wider open than {}", 100 * share,
+        "the scene hides {:.2g} % of its bounding box only: walls are missing, or wider open than {}{}", 100 * share,
         build.options.closing.scale ? "is closed; without --scale bplod looks for the one that hides enough"
-                                    : "any scale closes that hides more"));
+                                    : "any scale closes that hides more",
+        leak_clause(build, built.scene.voxels)));
   if (volume < kHalf * hidden)
     build.note(fmt::format("{} faces hold {:.2g} % of the volume that the scene hides; more --faces hold more",
                            made.level.mesh.triangles.size(), 100 * volume / hidden));
+  if (build.options.closing.scale && built.hidden.scale_world > 0 && share < kMuch)
+    build.note(filled_note(build, built));
+  build.note(apart_note(built));
   if (built.ground) build.note("the scene is open below: it is taken to stand on the ground, and eyes to be above it");
   if (built.hidden.scale_world > 0)
     build.note(fmt::format(
         "openings narrower than {:.4g} may count as closed, and then the rooms behind them are filled, as are "
         "valleys as narrow; --scale 0 keeps free what one enters",
-        recipe_of(build.options, built).hiding.closed_gap()));  // as bpcheck says
+        closed_gap(build.options, built)));
   else if (!build.options.closing.scale)
-    build.note("openings stay open: closing them would hide little more");
+    build.note(fmt::format("openings wider than {:.4g} stay open: closing them would hide little more",
+                           closed_gap(build.options, built)));
   if (!made.level.reached)
     build.note(fmt::format("{} faces instead of {}: no further edge can be merged", made.level.mesh.triangles.size(),
                            made.faces_asked));
@@ -97,9 +183,9 @@ BuiltOccluder make(Build& build) {
   }
   if (built.hidden.voxels.count == 0)
     fail(ErrorCode::bad_input,
-         "the scene hides nothing: it is open, also at a scale of {:.4g}, or thinner than its voxels of {:.4g}; try "
+         "the scene hides nothing: it is open, also at a scale of {:.4g}, or thinner than its voxels of {:.4g}{}; try "
          "another --scale, or smaller voxels",
-         built.hidden.scale_world, header.frame.voxel);
+         built.hidden.scale_world, header.frame.voxel, leak_clause(build, built.scene.voxels));
   build.report.begin("mesh");
   built.made = make_occluder(header, built.hidden, build.backends, request);
   return built;
@@ -112,7 +198,9 @@ BuiltOccluder built_occluder(Build& build) {
   LodLevel& level = built.made.level;
   const OptionText text = option_text(build.options, built);
   level.mesh.provenance = {make_provenance("bplod", text, built.scene.voxels.counts.input_hash)};
-  note(build, built, facts_of(level, {}).volume);
+  const double volume = facts_of(level, {}).volume;
+  require_hidden(build, built, volume);
+  note(build, built, volume);
   return built;
 }
 
@@ -124,7 +212,7 @@ void build_occluder(const BuildOptions& o) {
   const LevelFacts facts = facts_of(level, {});
   build.progress.end();
   build.report.begin("write");
-  const Json more = json_of(built);
+  const Json more = json_of(o, built);
   CompleteLevels made;
   made.levels.push_back(std::move(level));
   const StreamHeader& header = built.scene.voxels.header;

@@ -76,8 +76,8 @@ std::string leak_note(const VoxelizeCounts& counts, const StreamHeader& header) 
   const double filled = double(counts.solid_voxels - counts.surface_voxels) * voxel_volume;
   if (filled >= kFilled * around || solid >= kSolid * around) return "";
   return fmt::format(
-      "the flood found next to no inside ({:.2g}), and the surface goes around about {:.2g}: it is open somewhere; "
-      "--fill winding fills it all the same, and larger voxels close narrow openings",
+      "the flood found next to no inside ({:.2g}), and the surface goes around about {:.2g}: it is open, and "
+      "bpinfo --leaks tells where; --fill winding fills it all the same, and larger voxels close narrow openings",
       filled, around);
 }
 

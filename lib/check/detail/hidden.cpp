@@ -20,7 +20,9 @@ namespace bp {
 
 namespace {
 
-constexpr std::int64_t kSetsAtOnce = 8;      // sets of voxels in memory while the hidden ones are found
+// Sets of voxels in memory at most: while R is found, the touched ones, the closing, O, its copy, what the closing
+// adds, the rooms, and the gaps or a copy of a front; and one for the tiles of the closing.
+constexpr std::int64_t kSetsAtOnce = 8;
 constexpr std::int32_t kTile = 192;          // voxels; tiles of the closing
 constexpr double kMostScaleVox = 4000;       // largest scale of a closing, voxels
 constexpr double kMostWideVoxels = 1 << 20;  // along a side
@@ -118,14 +120,16 @@ BitBox behind_openings(const BitBox& closing, const BitBox& touched, BitBox outs
 
 /// Returns the hidden voxels by their definition, set by set. The border of the box is empty.
 BitBox hidden_voxels(const BitBox& touched, const HidingRecipe& recipe) {
-  const BitBox closing = closing_of(touched, recipe);
+  BitBox closing = closing_of(touched, recipe);
   BitBox reached(touched.box());
   reached.set(touched.box().min);
   grow_within(inverse(closing), reached);  // the set O
-  BitBox open = closing;
+  BitBox rooms = behind_openings(closing, touched, reached, recipe);
+  BitBox open = std::move(closing);
   combine(open, reached, either);
   combine(open, touched, less);
-  combine(open, behind_openings(closing, touched, reached, recipe), less);
+  combine(open, rooms, less);
+  rooms = {};
   grow_within(open, reached);  // the set O'
   BitBox seen = reached;
   for (int layer = 0; layer < 2; ++layer) {
@@ -220,6 +224,8 @@ class HiddenCheck {
           return undecided("the scene reaches far beyond the voxels that the file names");
     }
     box_ = voxel_bounds(recipe_.frame, bounds).grown(std::int32_t(std::ceil(reach)) + 2);
+    box_.min.x = floor_div(box_.min.x, 64) * 64;  // whole words, as sets of voxels have them
+    box_.max.x = ceil_div(box_.max.x, 64) * 64;
     for (int i = 0; i < 3; ++i) bytes *= double(box_.size()[i]);
     if (bytes > double(memory_bytes)) {
       report_.memory_bytes = std::uint64_t(bytes);

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <set>
 #include <vector>
 
+#include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/grid/brick_voxels.h"
 #include "lib/grid/count_bits.h"
@@ -69,12 +71,12 @@ class Walls {
       : enclosed_(enclosed),
         closed_(closed),
         closed_filled_(closed_filled),
-        memory_(o.context.memory.bytes),
+        memory_(o.context.memory),
         steps_(2 * std::int32_t(std::ceil(o.scale_world / header.frame.voxel))),
         gap_(std::int32_t(2 * std::sqrt(2.0) * o.scale_world / header.frame.voxel)),
         halo_(steps_ + gap_ + 1) {}
 
-  /// Puts the walls on a shelf, tile by tile.
+  /// Puts the walls on a shelf, tile by tile. Throws NeedsMemory if not even a tile of one brick fits.
   void put(BrickShelf& out) const {
     const std::int32_t edge = tile_bricks();
     std::set<BrickCoord> tiles;
@@ -82,7 +84,7 @@ class Walls {
       tiles.insert({floor_div(at.x, edge), floor_div(at.y, edge), floor_div(at.z, edge)});
     auto next = tiles.begin();
     run_jobs<BrickCoord>(
-        int(std::clamp(double(memory_) / bytes_of(edge), 1.0, double(thread_count()))),
+        int(std::clamp(double(memory_.bytes) / bytes_of(edge), 1.0, double(thread_count()))),
         [&](BrickCoord& tile) { return next != tiles.end() && (tile = *next++, true); },
         [&](BrickCoord& tile) {
           const BrickCoord first = tile * edge;
@@ -91,32 +93,37 @@ class Walls {
   }
 
  private:
-  static constexpr double kSetsAtOnce = 8;  // sets of voxels in memory while a tile is at work
+  // Sets of voxels in memory while a tile is at work, and their bytes for lists of voxels.
+  static constexpr double kSets = 6, kListSets = 4;
 
   /// Returns the bricks along an edge of a tile: a few, so that what surrounds tiles is not most of the work, but no
   /// more than the memory allows. No result depends on it.
   [[nodiscard]] std::int32_t tile_bricks() const {
     std::int32_t edge = 3 + halo_ / kBrickEdge;
-    while (edge > 1 && bytes_of(edge) > double(memory_)) --edge;
+    while (edge > 1 && bytes_of(edge) > double(memory_.bytes)) --edge;
+    const auto needed = std::uint64_t(std::ceil(bytes_of(edge)));
+    if (needed > memory_.bytes)
+      throw NeedsMemory(fmt::format("finding what a closing of {} voxels hides", steps_ / 2), needed, memory_.bytes,
+                        memory_.limit_for(needed), {Remedy::larger_voxels, Remedy::smaller_scale});
     return edge;
   }
   [[nodiscard]] double bytes_of(std::int32_t edge) const {
-    return std::pow(double(edge * kBrickEdge + 2 * halo_ + kBrickEdge), 3) * kSetsAtOnce / 8;
+    return std::pow(double(edge * kBrickEdge + 2 * halo_ + kBrickEdge), 3) * (kSets + kListSets) / 8;
   }
 
   [[nodiscard]] BitBox of_tile(const VoxelBox& tile) const {
     BitBox rooms(tile.grown(halo_));
     const VoxelBox& box = rooms.box();
-    BitBox enclosed(box), closed(box), outside(box), walls(tile);
+    BitBox enclosed(box), closed(box), walls(tile);
     load_voxels(enclosed_, enclosed);
     load_voxels(closed_, closed);
     load_voxels(closed_filled_, rooms);
-    outside = inverse(rooms);
+    BitBox outside = inverse(rooms);
     combine(rooms, closed, kLess);
     combine(closed, enclosed, kLess);
     if (!is_empty(rooms)) {
       take_gaps(enclosed, closed);
-      share_out(std::move(closed), outside, rooms);
+      share_out(std::move(closed), std::move(outside), rooms);
     }
     combine(rooms, enclosed, kEither);
     copy_voxels(rooms, walls);
@@ -141,15 +148,48 @@ class Walls {
     combine(added, gaps, kLess);
   }
 
-  using Front = std::vector<VoxelCoord>;
+  /// Gives the added voxels to the outside or to the rooms, step by step: by lists of voxels, or by sets if the lists
+  /// might take more than their share. Both do the same.
+  void share_out(BitBox added, BitBox outside, BitBox& rooms) const {
+    clear_sides(added);
+    const double most = double(added.word_count()) * 8 * kListSets / (2 * sizeof(Place));  // lists grow to twice that
+    const bool by_lists = double(added.count()) <= most && added.word_count() <= kMostPlaces / 64;
+    by_lists ? share_by_lists(std::move(added), outside, rooms) : share_by_sets(added, outside, rooms);
+  }
 
-  /// Gives the added voxels to the outside or to the rooms, step by step.
-  void share_out(BitBox added, const BitBox& outside, BitBox& rooms) const {
+  void share_by_sets(BitBox& added, BitBox& outside, BitBox& rooms) const {
+    for (std::int32_t step = 0; step < steps_; ++step) {
+      bool any = dilate_over_faces(added, outside);
+      combine(added, outside, kLess);
+      any |= dilate_over_faces(added, rooms);
+      combine(added, rooms, kLess);
+      if (!any) break;
+    }
+  }
+
+  using Place = std::uint32_t;  // number of a bit in a set of voxels
+  static constexpr std::int64_t kMostPlaces = std::int64_t(1) << 32;
+  using Front = std::vector<Place>;
+
+  void share_by_lists(BitBox added, const BitBox& outside, BitBox& rooms) const {
     Front outer = take_beside(outside, added), inner = take_beside(rooms, added);
     for (std::int32_t step = 0; step < steps_ && !(outer.empty() && inner.empty()); ++step) {
-      for (const VoxelCoord p : inner) rooms.set(p);
+      for (const Place p : inner) rooms.data()[p >> 6] |= std::uint64_t(1) << (p & 63);
       outer = take_next(outer, added);
       inner = take_next(inner, added);
+    }
+  }
+
+  /// Empties the outermost voxels of the box, so that all others have six neighbours. They are farther away from the
+  /// tile than fronts go.
+  static void clear_sides(BitBox& voxels) {
+    const VoxelBox& box = voxels.box();
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const std::int32_t at : {box.min[axis], box.max[axis] - 1}) {
+        VoxelBox side = box;
+        side.min[axis] = at, side.max[axis] = at + 1;
+        for_each(side, [&](VoxelCoord p) { voxels.clear(p); });
+      }
     }
   }
 
@@ -160,29 +200,30 @@ class Walls {
     combine(beside, with, kLess);
     combine(added, beside, kLess);
     Front front;
-    for_each_voxel(beside, [&](VoxelCoord p) { front.push_back(p); });
+    for (std::int64_t i = 0; i < beside.word_count(); ++i) {
+      for (std::uint64_t w = beside.data()[i]; w != 0; w &= w - 1) front.push_back(Place(i * 64 + std::countr_zero(w)));
+    }
     return front;
   }
 
   /// Takes the voxels out of `added` that share a face with one of `front`.
   [[nodiscard]] static Front take_next(const Front& front, BitBox& added) {
+    const Place row = Place(added.words_per_row()) * 64, layer = row * Place(added.box().size().y);
     Front next;
-    for (const VoxelCoord p : front) {
-      for (int axis = 0; axis < 3; ++axis) {
-        for (const std::int32_t way : {-1, 1}) {
-          VoxelCoord q = p;
-          q[axis] += way;
-          if (!added.test(q)) continue;
-          added.clear(q);
-          next.push_back(q);
-        }
+    for (const Place p : front) {
+      for (const Place q : {p - 1, p + 1, p - row, p + row, p - layer, p + layer}) {
+        std::uint64_t& word = added.data()[q >> 6];
+        const std::uint64_t bit = std::uint64_t(1) << (q & 63);
+        if ((word & bit) == 0) continue;
+        word &= ~bit;
+        next.push_back(q);
       }
     }
     return next;
   }
 
   const BrickShelf &enclosed_, &closed_, &closed_filled_;
-  const std::uint64_t memory_;
+  const MemoryShare& memory_;
   const std::int32_t steps_, gap_, halo_;  // voxels
 };
 

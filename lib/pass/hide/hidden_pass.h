@@ -45,7 +45,8 @@ struct HiddenVoxels {
                                          const HiddenOptions& options);
 
 /// Does all of that, one after the other. The result lies in the bricks of `header`. Out of core; at most four
-/// closings, three of them of scale 0. Throws as close_stream() does.
+/// closings, three of them of scale 0. Throws as close_stream() does, and NeedsMemory if a tile of one brick, with 2 S
+/// of voxels around it and the length of a gap, takes more than the memory.
 [[nodiscard]] HiddenVoxels hidden_voxels(const StreamHeader& header, BrickShelf& touched, Backends& backends,
                                          const HiddenOptions& options);
 

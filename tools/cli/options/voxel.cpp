@@ -18,15 +18,6 @@ constexpr Args::Choice<FillMode> kInsideFill = {
     "as flood, but without the voxels that the surface touches: for a proxy "
     "inside the scene"};
 
-void add_size(VoxelOptions& o, Args& args, const std::string& resolution_default) {
-  args.group("Voxels");
-  args.option("--voxel", "LENGTH", o.voxel,
-              "edge length of a voxel, as 0.5 or 0.5%: scene units, or a share of the scene's diagonal");
-  args.option(
-      "--resolution", "N", o.resolution,
-      "number of voxels along the longest side of the scene, instead of --voxel (default: " + resolution_default + ")");
-}
-
 void add_up(VoxelOptions& o, Args& args) {
   args.option("--up", "x|y|z|-x|-y|-z", o.up,
               "axis of the scene that points up; glTF is turned by it (default: what the scene tells, else y)");
@@ -47,14 +38,23 @@ void VoxelOptions::add_scenes(Args& args, const std::string& scenes_help) {
   add_scene_format(args, format);
 }
 
+void VoxelOptions::add_size(Args& args, const std::string& resolution_default) {
+  args.group("Voxels");
+  args.option("--voxel", "LENGTH", voxel,
+              "edge length of a voxel, as 0.5 or 0.5%: scene units, or a share of the scene's diagonal");
+  args.option(
+      "--resolution", "N", resolution,
+      "number of voxels along the longest side of the scene, instead of --voxel (default: " + resolution_default + ")");
+}
+
 void VoxelOptions::add_to(Args& args, const std::string& resolution_default) {
-  add_size(*this, args, resolution_default);
+  add_size(args, resolution_default);
   args.option("--fill", {kFlood, kWinding, kNone}, fill, kFillHelp);
   add_up(*this, args);
 }
 
 void VoxelOptions::add_with_inside(Args& args, const std::string& resolution_default) {
-  add_size(*this, args, resolution_default);
+  add_size(args, resolution_default);
   args.option("--fill", {kFlood, kWinding, kNone, kInsideFill}, fill, kFillHelp);
   add_up(*this, args);
 }
@@ -67,6 +67,10 @@ void VoxelOptions::check() {
   for (std::string& scene : scenes) scene = tileset_in(scene);
   check_scene_format(format, scenes);
   keep_inputs(scenes);
+  check_size();
+}
+
+void VoxelOptions::check_size() const {
   if (voxel && resolution) fail(ErrorCode::bad_argument, "--voxel and --resolution exclude each other");
   if (voxel && voxel->unit == Length::Unit::voxels)
     fail(ErrorCode::bad_argument, "--voxel {}: a voxel is not measured in voxels", voxel->text());

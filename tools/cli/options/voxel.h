@@ -26,11 +26,14 @@ struct VoxelOptions {
   void add_scenes(Args& args, const std::string& scenes_help);
   /// Declares the other options. resolution_default: the help text, "256".
   void add_to(Args& args, const std::string& resolution_default);
+  /// Declares --voxel and --resolution only.
+  void add_size(Args& args, const std::string& resolution_default);
   /// As add_to(), with `--fill inside`, for a tool that works on the inside of the scene.
   void add_with_inside(Args& args, const std::string& resolution_default);
   /// Checks the options after args.parse(). Throws bad_argument if options contradict each other. A folder becomes the
   /// tileset in it. Keeps the scenes from being overwritten.
   void check();
+  void check_size() const;  ///< does it for --voxel and --resolution only
   /// Returns true if the axis up is known: by --up, or because all scenes are glTF, which has y up. It is not known for
   /// stdin without --format, and without files.
   [[nodiscard]] bool tell_up() const;

@@ -2,6 +2,7 @@
 #include <map>
 #include <random>
 
+#include "lib/core/error.h"
 #include "lib/device/cpu/cpu_backend.h"
 #include "lib/pass/hide/hidden_pass.h"
 #include "tests/catch.h"
@@ -228,6 +229,41 @@ TEST_CASE("a room is hidden once its door is closed, and nothing before its wall
   for (VoxelCoord p{40, 8, 8}; p.z < 32; ++p.z)
     for (p.y = 8; p.y < 32; ++p.y)
       for (p.x = 40; p.x < 60; ++p.x) REQUIRE_FALSE(beside_wall.bits.test(p));  // the closing adds some in the corner
+}
+
+TEST_CASE("what is hidden does not depend on tiles, and too little memory is refused", "[quick][pass][occluder]") {
+  // 45 and 109: the door lies across a border of bricks, and 109 of tiles of two bricks, too.
+  const std::int32_t at = GENERATE(0, 45, 109);
+  const Solid moved = [&](VoxelCoord p) { return room({p.x, p.y - at, p.z}) || (p.x < 6 && p.y < 6 && p.z < 6); };
+  constexpr VoxelBox box{{0, 0, 0}, {60, 160, 40}};
+  VoxelSource source(box, moved);
+  MemoryShelf shelf;
+  for (Brick brick; source.read(brick);) shelf.put(brick.coord, brick.fill, brick.bits);
+  Backends backends = plain_backends(2);
+  HiddenOptions options;
+  options.scale_world = 3.0625;
+  options.context.make_shelf = memory_shelves();
+  const auto hidden_with = [&](std::uint64_t memory) {
+    options.context.memory = {memory};
+    BitBox bits(voxels_of(bricks_of(box)));
+    load_voxels(*hidden_voxels(source.header(), shelf, backends, options).voxels, bits);
+    return bits;
+  };
+  const BitBox whole = hidden_with(std::uint64_t(1) << 30);
+  CHECK(whole.test({20, 20 + at, 20}));
+  std::uint64_t memory = 1, refused = 0;
+  for (; refused < 10; ++refused) {
+    try {
+      const BitBox bits = hidden_with(memory);
+      CHECK(bits == whole);
+      break;
+    } catch (const NeedsMemory& e) {
+      REQUIRE(e.needed_bytes() > memory);
+      memory = e.needed_bytes();
+    }
+  }
+  CHECK(refused > 0);
+  CHECK(refused < 10);
 }
 
 TEST_CASE("an alley that the closing fills is not hidden", "[quick][pass][occluder]") {

@@ -1,0 +1,153 @@
+#include "tools/info/leaks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/scene/part_names.h"
+#include "io/scene/scene_reader.h"
+#include "io/stream/brick_shelf.h"
+#include "lib/core/error.h"
+#include "lib/geometry/triangle_bvh.h"
+#include "lib/grid/shelf_stream.h"
+#include "lib/levels/voxel_choice.h"
+#include "lib/pass/voxelize/voxelize_pass.h"
+#include "tools/notes/leak_words.h"
+#include "tools/pipe/voxelize_step.h"
+#include "tools/run/memory_shares.h"
+#include "tools/run/read_again.h"
+#include "tools/run/scene_budget.h"
+
+namespace bp {
+
+namespace {
+
+constexpr std::size_t kMostLeaks = 10;    // leaks that are told
+constexpr double kSearchShare = 0.6;      // part of the memory; the bricks take another
+constexpr double kDenseShare = 1.0 / 16;  // part of the search's memory for the voxels that it is given
+constexpr double kBesideOpening = 1.733;  // sqrt(3), rounded up: cubes reach so much farther at an angle
+
+/// Returns the names of the parts that have a triangle within the distance of a point.
+std::set<std::string> parts_near(const StreamHeader& header, SceneOptions how, const Vec3d& p, double distance) {
+  how.part_names = std::make_shared<PartNames>();
+  how.part_names->of_triangle = [&](const TriangleD& t) { return distance_squared(p, t) <= distance * distance; };
+  read_again(header.scene, header.bounds, how, [](const TriangleD&) {});
+  return how.part_names->names;
+}
+
+std::string row_text(const PlacedLeak& leak, const GridFrame& frame, std::size_t number) {
+  return fmt::format(
+      "leak {:<6} {}, {:.3g} wide{}; needs --scale {:.4g}\n"
+      "  room      {:.4g}, up to {:.3g} wide; --scale {:.4g} fills it\n",
+      number, place_text(middle_of(leak.place, frame), frame), leak.width * frame.voxel, parts_text(leak.parts),
+      closing_scale(leak, frame), room_volume(leak, frame), 2 * filling_scale(leak, frame), filling_scale(leak, frame));
+}
+
+Json row_json(const PlacedLeak& leak, const GridFrame& frame) {
+  return {{"place", middle_of(leak.place, frame)},
+          {"width", leak.width * frame.voxel},
+          {"width_voxels", leak.width},
+          {"least_scale", closing_scale(leak, frame)},
+          {"inside", middle_of(leak.inner, frame)},
+          {"outside", middle_of(leak.outer, frame)},
+          {"parts", leak.parts},
+          {"room", {{"volume", room_volume(leak, frame)}, {"filled_at_scale", filling_scale(leak, frame)}}}};
+}
+
+}  // namespace
+
+LeakMemory::LeakMemory(std::uint64_t memory) : shelf(VoxelizeBudget(memory).shelf) {
+  const UsableMemory usable(memory, kVoxelProgram);
+  search = part_of({usable.bytes, 1, usable.limit}, kSearchShare);
+}
+
+WallVoxels wall_voxels(VoxelOptions voxels, const CommonOptions& common) {
+  voxels.fill = FillMode::none;
+  if (!voxels.voxel && !voxels.resolution) voxels.resolution = kOccluderResolution;
+  const VoxelizeBudget budget(common.memory_bytes);
+  SceneOptions how{voxels.format, budget.reader, common.temp};
+  how.document = document_budget(common.memory_bytes, kVoxelProgram, voxels.scenes.size());
+  how.walls_only = how.keep_degenerate = true;
+  const auto source = open_scenes(voxels.scenes, how);
+  WallVoxels walls;
+  walls.bricks = make_shelf(budget.shelf, common.temp);
+  ShelfSink sink(walls.bricks.get());
+  Backends none;
+  const VoxelizeCounts counts = voxelize_stream(
+      *source,
+      [&](const StreamHeader& header, const VoxelizeCounts&) -> BrickSink& {
+        walls.header = header;
+        return sink;
+      },
+      none, voxelize_options(voxels, common, budget));
+  walls.header.scene = scene_files(voxels, counts);
+  return walls;
+}
+
+BitBox dense_voxels(const WallVoxels& walls, const MemoryShare& memory) {
+  BrickBox bricks;
+  for (const BrickCoord at : walls.bricks->coords())
+    bricks = hull(bricks, BrickBox{at, {at.x + 1, at.y + 1, at.z + 1}});
+  const MemoryShare part = part_of(memory, kDenseShare);
+  const auto needed = std::uint64_t(voxels_of(bricks).volume() / 8);
+  const MemoryShare search = part_of(memory, 1 - kDenseShare);
+  const std::uint64_t searched = leaks_bytes(voxel_bounds(walls.header.frame, walls.header.bounds));
+  if (needed > part.bytes || searched > search.bytes)  // the number is for both steps
+    throw NeedsMemory("looking for leaks", needed + searched, memory.bytes,
+                      std::max(part.limit_for(needed), search.limit_for(searched)), {Remedy::larger_voxels});
+  BitBox voxels(voxels_of(bricks));
+  load_voxels(*walls.bricks, voxels);
+  return voxels;
+}
+
+LeakInfo leak_info(const StreamHeader& header, const BitBox& walls, const MemoryShare& memory) {
+  const GridFrame& frame = header.frame;
+  GroundedLeaks found = find_grounded_leaks(walls, ground_of(frame), part_of(memory, 1 - kDenseShare));
+  LeakInfo info{frame, {}, 0, 0, double(found.closed_voxels) * std::pow(frame.voxel, 3), found.on_ground};
+  for (const Leak& leak : found.leaks) {
+    if (info.leaks.size() < kMostLeaks) {
+      info.leaks.push_back({leak, {}});
+    } else {
+      ++info.left_out;
+      info.left_out_volume += room_volume(leak, frame);
+    }
+  }
+  return info;
+}
+
+void name_parts(const StreamHeader& header, const SceneOptions& how, LeakInfo& info) {
+  try {
+    for (PlacedLeak& leak : info.leaks) {
+      const double distance = kBesideOpening * (leak.clearance + 0.5) * info.frame.voxel;
+      leak.parts = parts_near(header, how, middle_of(leak.place, info.frame), distance);
+    }
+  } catch (const Error&) {  // without names the places are told all the same
+  }
+}
+
+std::string leak_text(const LeakInfo& info, const std::string& name) {
+  std::string text = fmt::format("{}: leaks\nvoxel       {}\n", name, info.frame.voxel);
+  if (info.on_ground) text += "ground      the scene stands on it\n";
+  text += fmt::format("closed      {:.4g} that the outside does not reach\n", info.closed_volume);
+  for (std::size_t i = 0; i < info.leaks.size(); ++i) text += row_text(info.leaks[i], info.frame, i + 1);
+  if (info.left_out > 0)
+    text += fmt::format("more        {} leak{}, of rooms of {:.3g} together\n", info.left_out,
+                        info.left_out == 1 ? "" : "s", info.left_out_volume);
+  if (info.leaks.empty()) text += "leaks       none: no room is wider than the way into it\n";
+  return text;
+}
+
+Json leak_json(const LeakInfo& info) {
+  Json rows = Json::array();
+  for (const PlacedLeak& leak : info.leaks) rows.push_back(row_json(leak, info.frame));
+  return {{"kind", "leaks"},
+          {"voxel", info.frame.voxel},
+          {"up", name_of(info.frame.up)},
+          {"ground", info.on_ground},
+          {"closed_volume", info.closed_volume},
+          {"leaks", rows},
+          {"left_out", {{"leaks", info.left_out}, {"volume", info.left_out_volume}}}};
+}
+
+}  // namespace bp

@@ -1,0 +1,65 @@
+#include "tools/notes/leak_words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/closing/closing.h"
+
+namespace bp {
+
+Vec3d middle_of(VoxelCoord p, const GridFrame& frame) {
+  constexpr std::int64_t kUnit = kLatticePerVoxel;
+  return frame.world({p.x * kUnit + kUnit / 2, p.y * kUnit + kUnit / 2, p.z * kUnit + kUnit / 2});
+}
+
+GroundSide ground_of(const GridFrame& frame) {
+  switch (frame.up) {
+    case UpAxis::x:
+    case UpAxis::minus_x:
+      return {0, frame.up == UpAxis::minus_x};
+    case UpAxis::y:
+    case UpAxis::minus_y:
+      return {1, frame.up == UpAxis::minus_y};
+    default:
+      return {2, frame.up == UpAxis::minus_z};
+  }
+}
+
+double closing_scale(const Leak& leak, const GridFrame& frame) {
+  const double scale = (leak.clearance + kBeyondWholeVox) * frame.voxel;
+  const double unit = std::pow(10.0, std::floor(std::log10(scale)) - 3);
+  return std::ceil(scale / unit) * unit;
+}
+
+double filling_scale(const Leak& leak, const GridFrame& frame) {
+  return leak.room_clearance * frame.voxel;
+}
+
+double room_volume(const Leak& leak, const GridFrame& frame) {
+  return double(leak.room_voxels) * std::pow(frame.voxel, 3);
+}
+
+std::string place_text(const Vec3d& p, const GridFrame& frame) {
+  const int digits = std::clamp(int(std::ceil(1 - std::log10(frame.voxel))), 0, 17);
+  return fmt::format("{:.{}f},{:.{}f},{:.{}f}", p[0] + 0.0, digits, p[1] + 0.0, digits, p[2] + 0.0, digits);
+}
+
+std::string leak_sentence(const Leak& leak, const GridFrame& frame) {
+  return fmt::format("the largest room ({:.3g}) leaks at {}, where it is {:.3g} wide and needs --scale {:.4g}",
+                     room_volume(leak, frame), place_text(middle_of(leak.place, frame), frame),
+                     leak.width * frame.voxel, closing_scale(leak, frame));
+}
+
+std::string parts_text(const std::set<std::string>& names) {
+  if (names.empty()) return "";
+  std::string name = *names.begin();
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return std::uint8_t(c) < ' ' || c == 0x7f; }, '?');
+  const std::size_t others = names.size() - 1;
+  return fmt::format(" next to '{}'{}", name,
+                     others == 0 ? "" : fmt::format(" and {} other part{}", others, others == 1 ? "" : "s"));
+}
+
+}  // namespace bp
