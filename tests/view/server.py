@@ -21,7 +21,7 @@ def who_gets_in(s):
     check("the page has its policy", page[1]["Content-Security-Policy"].startswith("default-src 'self';"))
     check("no type is guessed", page[1]["X-Content-Type-Options"] == "nosniff")
     check("no other site may read", page[1]["Access-Control-Allow-Origin"] is None)
-    for path in ("/api/state", "/api/scene", "/api/surface", "/api/proxy", "/api/events"):
+    for path in ("/api/state", "/api/scene", "/api/surface", "/api/proxy", "/api/layer?file=0", "/api/events"):
         check("a stranger reads nothing", status("GET", path) == 401, path)
         check("a wrong cookie is none", status("GET", path, headers={"Cookie": f"bpview_{s.port}=" + "0" * 32}) == 401, path)
     check("a stranger changes nothing", status("POST", "/api/edit", '{"op": "undo"}') == 401)
@@ -68,6 +68,11 @@ def what_is_asked(s):
         check("nonsense is refused, and says why", status == 400 and json.loads(answer)["error"], body, status, answer)
     for body in ('{"what": "/etc/passwd"}', '{"what": "rules", "file": 5', '{}', '{"what": ["rules"]}'):
         check("what is saved has a name of its own", s.ask("POST", "/api/save", body)[0] == 400, body)
+    for query in ("", "?file=0", "?file=1&level=9", "?file=-1", "?file=../../etc/passwd", "?level=0&file=999999999999"):
+        status, _, answer = s.ask("GET", "/api/layer" + query)
+        check("a file that was not named is refused", status == 400 and json.loads(answer)["error"], query, status, answer)
+    for body in ('{"file": 0}', '{"file": -1}', '{"file": "served.obj"}', "{}", "[]"):
+        check("a file that was not named is not proven", s.ask("POST", "/api/check", body)[0] == 400, body)
     check("nothing was changed", s.state()["design"] == before)
     # Slow clients: more than there are threads may wait, and go.
     slow = [socket.create_connection(("127.0.0.1", s.port)) for _ in range(12)]

@@ -20,6 +20,7 @@ namespace {
 /// triangles: a page that draws more is slow, and its bytes do not fit where memory is short
 constexpr std::uint64_t kMostShown = 2'000'000;
 constexpr std::uint64_t kMostFaces = 10'000'000;
+constexpr std::uint64_t kMostFiles = 1'000'000;
 constexpr const char* kFirstRules = R"({"base": "2%"})";
 
 Json parse_request(const std::string& text) {
@@ -52,6 +53,10 @@ bool flag(const Json& json, const char* key) {
   return found != json.end() && found->is_boolean() && found->get<bool>();
 }
 
+Vec3d minus(const Vec3d& p) {
+  return {-p[0], -p[1], -p[2]};
+}
+
 const char* step_name(ProxyJob::Step step) {
   constexpr const char* kNames[] = {"none", "meshing", "checking", "ready", "failed", "stopped"};
   return kNames[std::size_t(step)];
@@ -69,6 +74,7 @@ Session::Session(const ViewOptions& options, Backends& backends) : options_(opti
   open_stream();
   read_scene();
   begin_design();
+  layers_ = std::make_unique<Layers>(options_, [this] { changed(); });
   job_ = std::make_unique<ProxyJob>(options_, stream_, [this] { changed(); });
   LiveScene scene;
   scene.header = header_;
@@ -89,6 +95,7 @@ Session::~Session() {
   events_.end();
   closing_.reset();
   job_.reset();
+  layers_.reset();
 }
 
 /// Runs bpvox itself to make the stream, since the proxy is made from the same stream.
@@ -113,7 +120,7 @@ void Session::read_scene() {
     triangles_ += some.size();
     if (triangles_ <= kMostShown) all.insert(all.end(), some.begin(), some.end());
   }
-  if (triangles_ <= kMostShown) scene_bytes_ = scene_bytes(all, middle_);
+  if (triangles_ <= kMostShown) scene_bytes_ = shown_smooth(all, minus(middle_)).bytes();
 }
 
 void Session::begin_design() {
@@ -228,7 +235,15 @@ std::string Session::proxy() const {
   const auto file = job_->status().file;
   if (file == nullptr) return "";
   const MemoryFile glb(*file);
-  return mesh_bytes(read_mesh(glb.path(), scene_options(options_)), middle_);
+  return shown_mesh(read_mesh(glb.path(), scene_options(options_)), minus(middle_)).bytes();
+}
+
+std::string Session::layer(std::uint64_t file, std::uint64_t level) const {
+  return read_level(layers_->file(file), level, middle_, kMostShown, scene_options(options_)).bytes();
+}
+
+void Session::check(const std::string& json) {
+  layers_->check(number(parse_request(json), "file", 0, kMostFiles));
 }
 
 Json Session::design_json() const {
@@ -290,6 +305,7 @@ std::string Session::state() const {
                      {"seconds", c.seconds},
                      {"error", c.error}}},
                    {"proxy", proxy_json()},
+                   {"layers", layers_->json()},
                    {"faces", faces_},
                    {"live", live_},
                    {"rules_file", options_.rules},

@@ -4,6 +4,7 @@
 #include "lib/live/design.h"
 #include "lib/live/live_closing.h"
 #include "tools/view/events.h"
+#include "tools/view/files/layers.h"
 #include "tools/view/proxy_job.h"
 
 namespace bp {
@@ -17,10 +18,13 @@ class Session {
 
   [[nodiscard]] Events& events() { return events_; }
   [[nodiscard]] std::string state() const;  ///< JSON of everything but geometry; events tell when it changes
-  /// As wire.h says; empty: the scene has too many triangles.
+  /// As ShownMesh::bytes(); empty: the scene has too many triangles.
   [[nodiscard]] std::string scene() const { return scene_bytes_; }
   [[nodiscard]] std::string surface(std::uint64_t after) const;  ///< as wire.h says: the pieces after a generation
-  [[nodiscard]] std::string proxy() const;                       ///< as wire.h says; empty: there is no proxy
+  [[nodiscard]] std::string proxy() const;                       ///< as ShownMesh::bytes(); empty: there is no proxy
+
+  /// Returns a level of a file of --show, as ShownMesh::bytes(). Throws as read_level().
+  [[nodiscard]] std::string layer(std::uint64_t file, std::uint64_t level) const;
 
   /// Makes one step of the design, which is JSON: {"op": "rule", "rule": {...}, "again": BOOL},
   /// {"op": "base", "base": LENGTH, "again": BOOL},
@@ -28,8 +32,9 @@ class Session {
   /// BOOL}.
   /// Throws bad_input, and changes nothing, for any other JSON.
   void edit(const std::string& json);
-  void mesh();  ///< begins a proxy of the present design
-  void stop();  ///< ends the proxy at work
+  void check(const std::string& json);  ///< begins to prove a file of --show: `json` is {"file": N}
+  void mesh();                          ///< begins a proxy of the present design
+  void stop();                          ///< ends the proxy at work
   /// Writes the file that was named on the command line: `json` is {"what": "rules"} or {"what": "proxy"}. Throws
   /// bad_argument if the file exists and may not be replaced, bad_input if there is no proxy of the present design.
   void save(const std::string& json);
@@ -62,7 +67,8 @@ class Session {
   bool rules_saved_ = false, proxy_saved_ = false;  ///< saved by this session, so that their files may be replaced
   std::uint64_t saved_revision_ = 0;
 
-  // The closing and the job call changed(), so they are made last and destroyed first.
+  // The closing, the job and the layers call changed(), so they are made last and destroyed first.
+  std::unique_ptr<Layers> layers_;
   std::unique_ptr<ProxyJob> job_;
   std::unique_ptr<LiveClosing> closing_;
 };

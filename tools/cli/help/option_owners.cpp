@@ -68,6 +68,7 @@ constexpr OptionOfTools kOptionsOfTools[] = {
     {"--resolution", "bpvox, bplod and bpview"},
     {"--rules", "bpview"},
     {"--scale", "bpclose and bplod"},
+    {"--show", "bpview"},
     {"--symmetry", "bplod"},
     {"--temp", "bpvox, bpscale, bpclose, bpmesh, bpcheck, bpdeform, bplod and bpview"},
     {"--tile", "bplod"},

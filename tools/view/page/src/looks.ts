@@ -7,6 +7,7 @@ export const shared = {
   uBrushColor: { value: new THREE.Color('#2463c9') },
   uBase: { value: 1 },       // scale everywhere, 1/16 voxel
   uByScale: { value: 1 },    // 1: coloured by scale
+  uCut: { value: 0 },        // 1: back faces have a colour of their own, since a plane cuts surfaces open
 };
 
 /// A lit ball as a picture: warm light from the upper left, cool light from below, and a rim.
@@ -45,12 +46,13 @@ export function surfaceMaterial(matcap: THREE.Texture, color: string, byScale: b
       .replace('#include <begin_vertex>', `#include <begin_vertex>\nvPlace = (modelMatrix * vec4(position, 1.0)).xyz; ${byScale ? 'vScale = aScale;' : ''}`);
     shader.fragmentShader = shader.fragmentShader
       .replace('#include <common>', `#include <common>
-        uniform vec4 uBrush; uniform vec3 uBrushColor; uniform float uBase, uByScale; varying vec3 vPlace; ${byScale ? 'varying float vScale;' : ''}`)
+        uniform vec4 uBrush; uniform vec3 uBrushColor; uniform float uBase, uByScale, uCut; varying vec3 vPlace; ${byScale ? 'varying float vScale;' : ''}`)
       .replace('#include <color_fragment>', `#include <color_fragment>
         ${byScale ? `
         float octaves = clamp(log2(max(vScale, 0.5) / uBase) / 3.0, -1.0, 1.0) * uByScale;
         vec3 tint = octaves < 0.0 ? vec3(0.03, 0.16, 0.66) : vec3(0.70, 0.165, 0.013);
         diffuseColor.rgb = mix(diffuseColor.rgb, tint * 1.5, 0.85 * sqrt(abs(octaves)));` : ''}
+        if (uCut > 0.5 && !gl_FrontFacing) diffuseColor.rgb = vec3(0.52, 0.05, 0.075);
         if (uBrush.w > 0.0) {
           float d = distance(vPlace, uBrush.xyz) / uBrush.w, w = fwidth(d) + 1e-5;
           float ring = 1.0 - smoothstep(w, 2.2 * w, abs(d - 1.0));

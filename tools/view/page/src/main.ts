@@ -4,13 +4,15 @@ import { Brush, type Tool } from './brush';
 import { show } from './lengths';
 import { complain, FaceField, LengthField, showState } from './panel';
 import { View, type Layer } from './view';
-import { readMesh, readScene, readSurface } from './wire';
+import { Cut } from './cut';
+import { Files } from './files';
+import { readMesh, readSurface } from './wire';
 
 const byId = <T extends HTMLElement>(id: string): T => document.getElementById(id) as T;
 let state: State;
 const shown: Record<Layer, boolean> = { scene: false, closing: true, proxy: false };
 /// State that the tests wait for and read.
-const told = { generation: 0, proxy: 0, revision: 0, ready: false, frames: () => view.frames };
+const told = { generation: 0, proxy: 0, revision: 0, ready: false, files: () => files.told.loaded, frames: () => view.frames };
 (window as any).bpview = told;
 
 const view = new View(byId('canvas'));
@@ -38,6 +40,16 @@ const faces = new FaceField((n) => { void send('/api/edit', { op: 'faces', faces
 const brush: Brush = new Brush(byId('canvas'), view, facts,
   (rule, again) => (again ? sendLast : (body: unknown) => void send('/api/edit', body))({ op: 'rule', rule, again }),
   (at: Vec3 | null) => { byId('point').textContent = at ? at.map((x) => show(x, 5)).join('  ') : ''; });
+
+const files = new Files(byId('files'), view, (i) => void send('/api/check', { file: i }), () => {});
+
+let cut: Cut;
+
+/// The panel has two halves: what a person designs, and what he looks at.
+function turnTo(half: string): void {
+  for (const button of document.querySelectorAll<HTMLButtonElement>('[data-half]')) button.ariaSelected = String(button.dataset.half === half);
+  for (const name of ['design', 'look']) byId(name).hidden = name !== half;
+}
 
 function showLayers(): void {
   view.show(shown);
@@ -68,6 +80,7 @@ const edit = (op: string) => void send('/api/edit', { op });
 
 for (const button of document.querySelectorAll<HTMLButtonElement>('[data-layer]')) button.onclick = () => toggle(button.dataset.layer as Layer);
 for (const button of document.querySelectorAll<HTMLButtonElement>('[data-tool]')) button.onclick = () => choose(button.dataset.tool as Tool);
+for (const button of document.querySelectorAll<HTMLButtonElement>('[data-half]')) button.onclick = () => turnTo(button.dataset.half!);
 byId('undo').onclick = () => edit('undo');
 byId('redo').onclick = () => edit('redo');
 byId('mesh').onclick = () => void send(isBusy() ? '/api/stop' : '/api/mesh');
@@ -97,9 +110,11 @@ addEventListener('keydown', (event) => {
   const acts: Record<string, () => void> = {
     1: () => toggle('scene'), 2: () => toggle('closing'), 3: () => toggle('proxy'), f: () => view.frame(), '[': () => size(-40), ']': () => size(40),
     v: () => choose('turn'), escape: () => choose('turn'), b: () => choose('decrease'), c: () => choose('increase'), e: () => choose('erase'),
-    m: () => byId('mesh').click(),
+    m: () => byId('mesh').click(), l: () => turnTo(byId('look').hidden ? 'look' : 'design'),
+    x: () => cut.next(), ',': () => cut.move(-10), '.': () => cut.move(10), '<': () => cut.move(-1), '>': () => cut.move(1), '\\': () => cut.flip(),
   };
-  acts[key]?.();
+  if (key >= '4' && key <= '9') files.toggle(Number(key) - 4);
+  else acts[key]?.();
 });
 
 /// Fetches geometry that is newer than what is shown, one request at a time.
@@ -132,6 +147,7 @@ function tell(next: State): void {
   showState(state, (i) => void send('/api/edit', { op: 'remove', rule: i }));
   base.follow(state.design.base);
   faces.follow(state.faces);
+  files.tell(state.layers);
   view.setBase(state.design.base_world);
   void follow();
 }
@@ -144,11 +160,13 @@ async function begin(): Promise<void> {
   target.set('0.5%');
   radius.set('3%');
   [brush.target, brush.radius] = ['0.5%', '3%'];
+  cut = new Cut(view, byId('cut'), byId('cut-place'), [...document.querySelectorAll<HTMLButtonElement>('[data-cut]')], byId('cut-flip'));
   choose('turn');
+  turnTo(state.layers.length > 0 ? 'look' : 'design');
   showLayers();
   tell(state);
   listen(tell, () => complain('bpview does not answer; is it still running?'));
-  if (state.scene.shown) view.setScene(readScene(await bytes('/api/scene')));
+  if (state.scene.shown) view.setScene(readMesh(await bytes('/api/scene')));
   else byId<HTMLButtonElement>('layers').querySelector<HTMLButtonElement>('[data-layer=scene]')!.disabled = true;
   told.ready = true;
 }

@@ -1,9 +1,10 @@
-// Draws scene, closing and proxy around the middle of the scene, in scene units.
+// Draws scene, closing, proxy and files around the middle of the scene, in scene units.
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import type { State, Vec3 } from './api';
 import { makeMatcap, shared, surfaceMaterial } from './looks';
 import { Picker } from './picker';
+import { ShownMesh } from './shown';
 import type { Mesh, Piece } from './wire';
 
 export type Layer = 'scene' | 'closing' | 'proxy';
@@ -14,13 +15,14 @@ export class View {
   readonly controls: OrbitControls;
   private renderer: THREE.WebGLRenderer;
   private scene = new THREE.Scene();
-  private layers = { scene: new THREE.Group(), closing: new THREE.Group(), proxy: new THREE.Group() };
-  private edges = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ transparent: true, opacity: 0.75 }));
   private stroke = new THREE.Line(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: '#ffffff', depthTest: false, transparent: true }));
   private matcap = makeMatcap();
   private closingLook = surfaceMaterial(this.matcap, '#d8d4cc', true);
-  private sceneLook = surfaceMaterial(this.matcap, '#c9d1dc', false, { side: THREE.DoubleSide });
-  private proxyLook = surfaceMaterial(this.matcap, '#9fd0b4', false, { flatShading: true, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
+  private mesh = new ShownMesh(this.matcap, '#c9d1dc', { side: THREE.DoubleSide });
+  private proxy = new ShownMesh(this.matcap, '#9fd0b4');
+  private files: ShownMesh[] = [];
+  private layers: Record<Layer, THREE.Group> = { scene: this.mesh.group, closing: new THREE.Group(), proxy: this.proxy.group };
+  private dark = matchMedia('(prefers-color-scheme: dark)');
   private pieces = new Map<string, THREE.Mesh>();
   private picker: Picker;
   private size = 1;
@@ -35,18 +37,18 @@ export class View {
     this.controls.zoomToCursor = true;
     this.controls.addEventListener('change', () => this.draw());
     this.stroke.renderOrder = 2;
-    this.stroke.frustumCulled = this.edges.frustumCulled = false;
-    this.layers.proxy.add(this.edges);
+    this.stroke.frustumCulled = false;
     this.scene.add(this.layers.scene, this.layers.closing, this.layers.proxy, this.stroke);
-    const dark = matchMedia('(prefers-color-scheme: dark)');
-    const dress = () => {
-      this.scene.background = new THREE.Color(dark.matches ? '#1b1f25' : '#e4e8ee');
-      this.edges.material.color.set(dark.matches ? '#0c2b1c' : '#123c28');
-      this.draw();
-    };
-    dark.addEventListener('change', dress);
-    dress();
+    this.dark.addEventListener('change', () => this.dress());
+    this.dress();
     new ResizeObserver(() => this.resize()).observe(canvas);
+  }
+
+  /// Takes the colours that suit a light or a dark page.
+  private dress(): void {
+    this.scene.background = new THREE.Color(this.dark.matches ? '#1b1f25' : '#e4e8ee');
+    for (const { edges } of [this.proxy, ...this.files]) edges.material.color.set(this.dark.matches ? '#0c2b1c' : '#123c28');
+    this.draw();
   }
 
   begin(state: State): void {
@@ -63,7 +65,7 @@ export class View {
 
   /// Makes the scene fill the view, from the present direction; at first from the front, right and above.
   frame(): void {
-    const up = this.camera.up, half = new THREE.Vector3().subVectors(new THREE.Vector3(...this.facts.max), new THREE.Vector3(...this.facts.min)).multiplyScalar(0.5);
+    const up = this.camera.up, half = this.half();
     let from = this.camera.position.clone().sub(this.controls.target);
     if (from.lengthSq() < 1e-30 || this.frames === 0) {
       const front = Math.abs(up.z) > 0.5 ? new THREE.Vector3(0, -1, 0) : Math.abs(up.y) > 0.5 ? new THREE.Vector3(0, 0, 1) : new THREE.Vector3(0, 1, 0);
@@ -84,11 +86,7 @@ export class View {
   }
 
   setScene(mesh: Mesh): void {
-    const geometry = new THREE.BufferGeometry();
-    geometry.setAttribute('position', new THREE.BufferAttribute(mesh.positions, 3));
-    const normals = new THREE.InterleavedBuffer(mesh.normals!, 4);
-    geometry.setAttribute('normal', new THREE.InterleavedBufferAttribute(normals, 3, 0, true));
-    this.layers.scene.add(new THREE.Mesh(geometry, this.sceneLook));
+    this.mesh.set(mesh);
     this.draw();
   }
 
@@ -120,29 +118,47 @@ export class View {
   }
 
   setProxy(mesh: Mesh | null): void {
-    this.layers.proxy.children.filter((child): child is THREE.Mesh => child instanceof THREE.Mesh).forEach((child) => {
-      child.geometry.dispose();
-      this.layers.proxy.remove(child);
-    });
-    this.edges.geometry.dispose();
-    this.edges.geometry = new THREE.BufferGeometry();
-    if (mesh) {
-      const geometry = new THREE.BufferGeometry();
-      geometry.setAttribute('position', new THREE.BufferAttribute(mesh.positions, 3));
-      geometry.setIndex(new THREE.BufferAttribute(mesh.corners!, 1));
-      this.layers.proxy.add(new THREE.Mesh(geometry, this.proxyLook));
-      this.edges.geometry = new THREE.WireframeGeometry(geometry);
+    this.proxy.set(mesh);
+    this.draw();
+  }
+
+  setFile(i: number, mesh: Mesh): void {
+    while (this.files.length <= i) {
+      const file = new ShownMesh(this.matcap, '#ffffff', { side: this.closingLook.side });
+      this.files.push(file);
+      this.scene.add(file.group);
+      file.group.visible = false;
+    }
+    this.files[i].set(mesh);
+    this.dress();
+  }
+  styleFile(i: number, visible: boolean, color: string, opacity: number): void {
+    const file = this.files[i];
+    if (!file) return;
+    file.group.visible = visible;
+    file.look.color.set(color);
+    file.setOpacity(opacity);
+    this.draw();
+  }
+
+  half(): THREE.Vector3 {
+    return new THREE.Vector3(...this.facts.max).sub(new THREE.Vector3(...this.facts.min)).multiplyScalar(0.5);
+  }
+
+  /// Leaves out what lies behind `plane`. Then surfaces are open, and are drawn from both sides.
+  cut(plane: THREE.Plane | null): void {
+    this.renderer.clippingPlanes = plane ? [plane] : [];
+    const side = plane ? THREE.DoubleSide : THREE.FrontSide;
+    for (const look of [this.closingLook, ...[this.proxy, ...this.files].map((shown) => shown.look)]) {
+      if (look.side !== side) look.needsUpdate = true;
+      look.side = side;
     }
     this.draw();
   }
 
   show(shown: Record<Layer, boolean>): void {
     for (const layer of Object.keys(shown) as Layer[]) this.layers[layer].visible = shown[layer];
-    const through = shown.proxy && (shown.scene || shown.closing);
-    this.proxyLook.transparent = through;
-    this.proxyLook.opacity = through ? 0.28 : 1;
-    this.proxyLook.depthWrite = !through;
-    this.proxyLook.needsUpdate = true;
+    this.proxy.setOpacity(shown.proxy && (shown.scene || shown.closing) ? 0.28 : 1);
     this.draw();
   }
 
@@ -165,10 +181,10 @@ export class View {
     this.draw();
   }
 
-  /// Returns the visible point there, relative to the middle. A transparent proxy is ignored.
+  /// Returns the visible point there, relative to the middle. Transparent meshes are ignored.
   pick(x: number, y: number): THREE.Vector3 | null {
-    const hidden: THREE.Object3D[] = [this.edges, this.stroke];
-    if (this.proxyLook.transparent) hidden.push(this.layers.proxy);
+    const hidden: THREE.Object3D[] = [this.stroke];
+    for (const shown of [this.proxy, ...this.files]) hidden.push(shown.look.transparent ? shown.group : shown.edges);
     return this.picker.pick(this.camera, x, y, this.canvas.clientWidth, this.canvas.clientHeight, hidden);
   }
 
