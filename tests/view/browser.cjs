@@ -14,6 +14,7 @@ exports.Checks = class {
 /// bpview, once it has printed its link.
 exports.serve = (folder, ...args) => {
   const child = spawn('bpview', ['--no-open', ...args], { cwd: folder, stdio: ['ignore', 'pipe', 'inherit'] });
+  process.on('exit', () => child.kill('SIGKILL'));  // also when a test fails
   return new Promise((done, fail) => {
     let text = '';
     child.stdout.on('data', (data) => { text += data; if (text.includes('\n')) done({ child, link: text.trim() }); });

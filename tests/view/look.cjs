@@ -53,6 +53,7 @@ async function files(page) {
   check('the hulls claim to be convex parts', s.layers.find((l) => l.name === 'body/figure_unreal.glb').contract === 'convex parts');
   await page.waitForFunction(() => [...document.querySelectorAll('#files .badge')].filter((b) => b.textContent === 'proven').length === 5);
   await picture(page, folder, 'files');
+  await rows.first().locator('input[type=checkbox]').uncheck();
   return names;
 }
 
@@ -87,6 +88,63 @@ async function cutting(page) {
   await page.keyboard.press('2');
 }
 
+/// Colours by distance, with a legend that agrees with bpcheck; and the ruler, by pointer and by keys.
+async function measuring(page) {
+  await page.locator('#view').focus();
+  await page.keyboard.press('4');
+  await page.locator('#files input[type=range]').first().fill('100');
+  await page.locator('#view').focus();
+  await sleep(300);
+  const before = await page.evaluate(() => window.bpview.files());
+  await page.keyboard.press('d');
+  await page.waitForFunction((n) => window.bpview.files() > n && !document.getElementById('far').hidden, before);
+  await sleep(300);
+  const s = await state(page), told = Number((await page.textContent('#far-high')).split(' ')[0]);
+  const level = Number(await page.locator('#files select').first().inputValue()), bound = s.layers[0].verdict.levels[level].farthest;
+  check('the legend agrees with bpcheck', told <= 1.001 * bound && told > 0.9 * bound, told, bound);
+  check('the legend tells voxels and percent', / \(\S+ voxels, \S+%\)$/.test(await page.textContent('#far-high')), await page.textContent('#far-high'));
+  await picture(page, folder, 'distances');
+  await page.keyboard.press('d');
+  await page.waitForFunction(() => document.getElementById('far').hidden);
+
+  await page.keyboard.press('4');
+  await page.keyboard.press('2');
+  await page.keyboard.press('f');
+  await page.keyboard.press('r');
+  const at = [];
+  for (const [x, y] of [[410, 300], [420, 420]]) {
+    await page.mouse.move(x - 3, y);
+    await page.mouse.move(x, y);
+    await sleep(150);
+    at.push((await page.textContent('#point')).split(/\s+/).map(Number));
+    await page.mouse.down();
+    await page.mouse.up();
+  }
+  const wanted = Math.hypot(...at[0].map((x, i) => x - at[1][i])), text = await page.textContent('#ruler'), found = Number(text.split(' ')[0]);
+  check('the ruler measures', Math.abs(found / wanted - 1) < 0.01, found, wanted, text);
+  check('the ruler knows voxels', Math.abs(Number(text.split(', ')[1].split(' ')[0]) * s.scene.voxel / wanted - 1) < 0.02, text);
+  check('the ruler has a label', await page.isVisible('#ruler-label'));
+  await picture(page, folder, 'ruler');
+  await page.keyboard.press('Escape');
+  check('Escape takes the ruler away', !(await page.isVisible('#ruler-label')) && (await page.textContent('#ruler')) === '');
+  // By keys alone: the body goes under the cross, and the view turns around it.
+  await page.keyboard.press('f');
+  for (let i = 0; i < 2; ++i) await page.keyboard.press('Shift+ArrowLeft');
+  await page.keyboard.press('r');
+  await page.keyboard.press('Enter');
+  for (let i = 0; i < 3; ++i) await page.keyboard.press('Shift+ArrowDown');
+  await page.keyboard.press('Enter');
+  check('keys alone measure', / in scene units, /.test(await page.textContent('#ruler')), await page.textContent('#ruler'));
+  const kept = await page.textContent('#ruler');
+  await page.mouse.move(410, 300);
+  await page.mouse.down();
+  await page.mouse.move(460, 310, { steps: 3 });
+  await page.mouse.up();
+  check('a drag turns and takes no point', (await page.textContent('#ruler')) === kept);
+  await page.keyboard.press('v');
+  await page.keyboard.press('2');
+}
+
 async function main() {
   build();
   const { child, link } = await serve(folder, scene, '--show', 'lod/', '--show', 'tiles', '--show', 'body', '--show', 'cage/figure_cage.obj', '--show', 'fit.ply', '--show', 'closed.bpv');
@@ -94,11 +152,12 @@ async function main() {
   const page = await open(await browser.newContext({ viewport: { width: 1280, height: 720 } }), link, troubles);
   const names = await files(page);
   await cutting(page);
+  await measuring(page);
   // A file that is damaged later is an answer, not an end.
   fs.writeFileSync(path.join(folder, 'fit.ply'), 'ply\nformat ascii 1.0\nelement vertex 3\n');
   await page.reload();
   await page.waitForFunction(() => window.bpview?.ready && window.bpview.files() === 1);
-  await page.locator('#files li').nth(names.indexOf('fit.ply')).locator('input[type=checkbox]').check();
+  await page.locator('#files li').nth(names.indexOf('fit.ply')).locator('input[type=checkbox]').click();
   await page.waitForSelector('#message:not([hidden])');
   check('a damaged file is told', (await page.textContent('#message')).includes('fit.ply'), await page.textContent('#message'));
   check('nothing went wrong on the page', troubles.every((text) => text.includes('400')), troubles);

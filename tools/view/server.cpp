@@ -172,10 +172,11 @@ void Server::State::add_routes() {
     });
   };
   bytes("/api/scene", [this](const Request&) { return session.scene(); });
-  bytes("/api/proxy", [this](const Request&) { return session.proxy(); });
+  bytes("/api/proxy", [this](const Request& request) { return session.proxy(number(request, "distances") == 1); });
   bytes("/api/surface", [this](const Request& request) { return session.surface(number(request, "after")); });
-  bytes("/api/layer",
-        [this](const Request& request) { return session.layer(number(request, "file"), number(request, "level")); });
+  bytes("/api/layer", [this](const Request& request) {
+    return session.layer(number(request, "file"), number(request, "level"), number(request, "distances") == 1);
+  });
   http.Get("/api/state",
            [this](const Request&, Response& response) { response.set_content(session.state(), "application/json"); });
   http.Get("/api/events", [this](const Request& request, Response& response) { listen(request, response); });

@@ -73,6 +73,8 @@ SceneOptions scene_options(const ViewOptions& o) {
 Session::Session(const ViewOptions& options, Backends& backends) : options_(options), faces_(options.faces) {
   open_stream();
   read_scene();
+  const auto open = [this] { return open_scenes(options_.voxels.scenes, scene_options(options_)); };
+  distances_ = std::make_unique<SceneDistances>(open, middle_, options_.common.memory_bytes / 4);
   begin_design();
   layers_ = std::make_unique<Layers>(options_, [this] { changed(); });
   job_ = std::make_unique<ProxyJob>(options_, stream_, [this] { changed(); });
@@ -231,15 +233,21 @@ std::string Session::surface(std::uint64_t after) const {
   return surface_bytes(closing_->since(after), generation);
 }
 
-std::string Session::proxy() const {
+/// Positions in between are as far apart as half a voxel at least: the closing knows nothing finer.
+std::string Session::bytes_of(ShownMesh mesh, bool distances) const {
+  if (distances) distances_->add_to(mesh, header_.frame.voxel / 2);
+  return mesh.bytes();
+}
+
+std::string Session::proxy(bool distances) const {
   const auto file = job_->status().file;
   if (file == nullptr) return "";
   const MemoryFile glb(*file);
-  return shown_mesh(read_mesh(glb.path(), scene_options(options_)), minus(middle_)).bytes();
+  return bytes_of(shown_mesh(read_mesh(glb.path(), scene_options(options_)), minus(middle_)), distances);
 }
 
-std::string Session::layer(std::uint64_t file, std::uint64_t level) const {
-  return read_level(layers_->file(file), level, middle_, kMostShown, scene_options(options_)).bytes();
+std::string Session::layer(std::uint64_t file, std::uint64_t level, bool distances) const {
+  return bytes_of(read_level(layers_->file(file), level, middle_, kMostShown, scene_options(options_)), distances);
 }
 
 void Session::check(const std::string& json) {

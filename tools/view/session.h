@@ -3,6 +3,7 @@
 
 #include "lib/live/design.h"
 #include "lib/live/live_closing.h"
+#include "tools/view/distances.h"
 #include "tools/view/events.h"
 #include "tools/view/files/layers.h"
 #include "tools/view/proxy_job.h"
@@ -21,10 +22,12 @@ class Session {
   /// As ShownMesh::bytes(); empty: the scene has too many triangles.
   [[nodiscard]] std::string scene() const { return scene_bytes_; }
   [[nodiscard]] std::string surface(std::uint64_t after) const;  ///< as wire.h says: the pieces after a generation
-  [[nodiscard]] std::string proxy() const;                       ///< as ShownMesh::bytes(); empty: there is no proxy
+  /// Returns the proxy as ShownMesh::bytes(); empty: there is none. With distances from the scene if they are asked
+  /// for.
+  [[nodiscard]] std::string proxy(bool distances) const;
 
-  /// Returns a level of a file of --show, as ShownMesh::bytes(). Throws as read_level().
-  [[nodiscard]] std::string layer(std::uint64_t file, std::uint64_t level) const;
+  /// Returns a level of a file of --show, likewise. Throws as read_level() and SceneDistances::add_to().
+  [[nodiscard]] std::string layer(std::uint64_t file, std::uint64_t level, bool distances) const;
 
   /// Makes one step of the design, which is JSON: {"op": "rule", "rule": {...}, "again": BOOL},
   /// {"op": "base", "base": LENGTH, "again": BOOL},
@@ -45,6 +48,7 @@ class Session {
   void begin_design();
   void changed();  ///< called by the closing and the proxy job, on their threads
   void request_proxy();
+  [[nodiscard]] std::string bytes_of(ShownMesh mesh, bool distances) const;
   [[nodiscard]] bool is_current(const ProxyJob::Status& proxy) const;
   [[nodiscard]] Json design_json() const;
   [[nodiscard]] Json proxy_json() const;
@@ -56,6 +60,7 @@ class Session {
   std::unique_ptr<BrickShelf> solid_;  ///< until the closing takes it
   Vec3d middle_{};                     ///< of the scene; it is subtracted from positions that are sent
   std::string scene_bytes_;
+  std::unique_ptr<SceneDistances> distances_;
   std::uint64_t triangles_ = 0;
 
   mutable std::mutex mutex_;  ///< guards all that follows

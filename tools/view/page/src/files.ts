@@ -8,7 +8,7 @@ const kColors = ['#d98c5f', '#7fa7d9', '#b98bd0', '#d3b85a', '#6fbfb0', '#d77a95
 
 interface Row {
   item: HTMLLIElement; shown: HTMLInputElement; color: HTMLInputElement; opacity: HTMLInputElement; level: HTMLSelectElement;
-  count: HTMLElement; badge: HTMLElement; prove: HTMLButtonElement; loaded: number | null; faces: number;
+  count: HTMLElement; badge: HTMLElement; prove: HTMLButtonElement; loaded: string | null; faces: number;
 }
 
 function make<K extends keyof HTMLElementTagNameMap>(tag: K, more: Partial<HTMLElementTagNameMap[K]> = {}): HTMLElementTagNameMap[K] {
@@ -35,12 +35,11 @@ function factsOf(layer: LayerState): string {
 
 export class Files {
   private rows: Row[] = [];
-  private layers: LayerState[] = [];
+  private distances = false;
   readonly told = { loaded: 0 };
   constructor(private list: HTMLElement, private view: View, private prove: (i: number) => void, private changed: () => void) {}
 
   tell(layers: LayerState[]): void {
-    this.layers = layers;
     if (this.rows.length === 0 && layers.length > 0) {
       this.rows = layers.map((layer, i) => this.row(layer, i));
       this.list.replaceChildren(...this.rows.map((row) => row.item));
@@ -90,9 +89,11 @@ export class Files {
     void this.update(i);
   }
 
-  level(i: number): number { return Number(this.rows[i].level.value); }
-  isShown(i: number): boolean { return this.rows[i]?.shown.checked ?? false; }
-  get names(): string[] { return this.layers.map((layer) => layer.name); }
+  /// Fetches what is shown with distances from the scene, or without.
+  async showDistances(on: boolean): Promise<void> {
+    this.distances = on;
+    await Promise.all(this.rows.map((_, i) => this.update(i)));
+  }
 
   private style(i: number): void {
     const row = this.rows[i];
@@ -101,16 +102,16 @@ export class Files {
 
   /// Fetches the level that is wanted, once it is shown. An answer that comes late is dropped.
   private async update(i: number): Promise<void> {
-    const row = this.rows[i], wanted = this.level(i);
+    const row = this.rows[i], wanted = `file=${i}&level=${row.level.value}&distances=${Number(this.distances)}`;
     if (row.shown.checked && row.loaded !== wanted) {
       row.loaded = wanted;
       row.count.textContent = '…';
       try {
-        const mesh = readMesh(await bytes(`/api/layer?file=${i}&level=${wanted}`));
+        const mesh = readMesh(await bytes(`/api/layer?${wanted}`));
         if (row.loaded !== wanted) return;
         this.view.setFile(i, mesh);
-        row.faces = (mesh.corners?.length ?? mesh.positions.length) / 3;
-        row.count.textContent = row.faces.toLocaleString('en');
+        if (!this.distances) row.faces = (mesh.corners?.length ?? mesh.positions.length) / 3;  // else they were refined
+        row.count.textContent = row.faces ? row.faces.toLocaleString('en') : '';
         this.told.loaded++;
       } catch (error) {
         row.loaded = null;

@@ -1,7 +1,8 @@
 // The page of bpview (docs/bpview.1.md).
 import { bytes, enter, listen, post, state as askState, type State, type Vec3 } from './api';
 import { Brush, type Tool } from './brush';
-import { show } from './lengths';
+import { percent, show } from './lengths';
+import { Ruler } from './ruler';
 import { complain, FaceField, LengthField, showState } from './panel';
 import { View, type Layer } from './view';
 import { Cut } from './cut';
@@ -41,9 +42,25 @@ const brush: Brush = new Brush(byId('canvas'), view, facts,
   (rule, again) => (again ? sendLast : (body: unknown) => void send('/api/edit', body))({ op: 'rule', rule, again }),
   (at: Vec3 | null) => { byId('point').textContent = at ? at.map((x) => show(x, 5)).join('  ') : ''; });
 
-const files = new Files(byId('files'), view, (i) => void send('/api/check', { file: i }), () => {});
+const files = new Files(byId('files'), view, (i) => void send('/api/check', { file: i }), () => showDistances());
+const ruler = new Ruler(byId('canvas'), view, facts, byId('ruler-label'), byId('ruler'));
 
 let cut: Cut;
+
+/// The legend of the distances from the scene.
+let distances = false;
+function showDistances(): void {
+  const farthest = view.colorByDistance(distances);
+  byId('far').hidden = !(distances && farthest > 0);
+  byId('far-high').textContent = farthest > 0 ? `${show(farthest)} (${show(farthest / state.scene.voxel, 2)} voxels, ${percent(farthest, state.scene)})` : '';
+}
+async function turnDistances(on: boolean): Promise<void> {
+  distances = on;
+  byId<HTMLInputElement>('distances').checked = on;
+  told.proxy = 0;
+  await Promise.all([files.showDistances(on), follow()]);
+  showDistances();
+}
 
 /// The panel has two halves: what a person designs, and what he looks at.
 function turnTo(half: string): void {
@@ -53,6 +70,7 @@ function turnTo(half: string): void {
 
 function showLayers(): void {
   view.show(shown);
+  showDistances();
   for (const button of document.querySelectorAll<HTMLButtonElement>('[data-layer]'))
     button.ariaPressed = String(shown[button.dataset.layer as Layer]);
 }
@@ -63,11 +81,14 @@ function toggle(layer: Layer): void {
 function choose(tool: Tool): void {
   brush.tool = tool;
   byId('canvas').classList.toggle('brush', tool !== 'turn');
-  const hints: Record<Tool, string> = { turn: 'drag: turn · right drag: move · wheel: zoom', decrease: 'drag on the surface: finer · Alt: turn',
+  ruler.active = tool === 'ruler';
+  byId('cross').hidden = tool !== 'ruler';
+  if (tool !== 'ruler') ruler.clear();
+  const hints: Record<Tool, string> = { ruler: 'click two points · Enter: the point under the cross', turn: 'drag: turn · right drag: move · wheel: zoom', decrease: 'drag on the surface: finer · Alt: turn',
     increase: 'drag on the surface: coarser · Alt: turn', erase: 'drag on the surface: base scale · Alt: turn' };
   byId('hint').textContent = hints[tool];
   for (const button of document.querySelectorAll<HTMLButtonElement>('[data-tool]')) button.ariaPressed = String(button.dataset.tool === tool);
-  if (tool === 'turn') view.setBrush(null, 0, '#000');
+  if (tool === 'turn' || tool === 'ruler') view.setBrush(null, 0, '#000');
 }
 function size(by: number): void {
   const now = Number(byId<HTMLInputElement>('radius-slide').value);
@@ -87,6 +108,7 @@ byId('mesh').onclick = () => void send(isBusy() ? '/api/stop' : '/api/mesh');
 byId('save-rules').onclick = () => void send('/api/save', { what: 'rules' });
 byId('save-proxy').onclick = () => void send('/api/save', { what: 'proxy' });
 byId<HTMLInputElement>('live').onchange = (event) => void send('/api/edit', { op: 'live', live: (event.target as HTMLInputElement).checked });
+byId<HTMLInputElement>('distances').onchange = (event) => void turnDistances((event.target as HTMLInputElement).checked);
 byId('copy').onclick = async () => {
   await navigator.clipboard.writeText(state.command).catch(complain);
   byId('copy').textContent = 'Copied';
@@ -107,10 +129,22 @@ addEventListener('keydown', (event) => {
     return;
   }
   if (event.altKey) return;
+  // Arrows turn the view, or move it with Shift; sliders and lists keep theirs.
+  const arrows: Record<string, [number, number]> = { arrowleft: [-1, 0], arrowright: [1, 0], arrowup: [0, 1], arrowdown: [0, -1] };
+  if (event.target === document.body || event.target === byId('view')) {
+    const [right, up] = arrows[key] ?? [0, 0];
+    if (right || up) {
+      if (event.shiftKey) view.pan(right * 0.02, up * 0.02);
+      else view.turn(right * 0.09, up * 0.09);
+      return event.preventDefault();
+    }
+    if (key === 'enter' && ruler.active) return ruler.takeMiddle();
+  }
   const acts: Record<string, () => void> = {
     1: () => toggle('scene'), 2: () => toggle('closing'), 3: () => toggle('proxy'), f: () => view.frame(), '[': () => size(-40), ']': () => size(40),
+    '+': () => view.zoom(0.9), '=': () => view.zoom(0.9), '-': () => view.zoom(1 / 0.9),
     v: () => choose('turn'), escape: () => choose('turn'), b: () => choose('decrease'), c: () => choose('increase'), e: () => choose('erase'),
-    m: () => byId('mesh').click(), l: () => turnTo(byId('look').hidden ? 'look' : 'design'),
+    m: () => byId('mesh').click(), r: () => choose('ruler'), d: () => void turnDistances(!distances), l: () => turnTo(byId('look').hidden ? 'look' : 'design'),
     x: () => cut.next(), ',': () => cut.move(-10), '.': () => cut.move(10), '<': () => cut.move(-1), '>': () => cut.move(1), '\\': () => cut.flip(),
   };
   if (key >= '4' && key <= '9') files.toggle(Number(key) - 4);
@@ -130,9 +164,11 @@ async function follow(): Promise<void> {
         told.generation = surface.generation;
       }
       if (told.proxy !== state.proxy.number) {
-        const number = state.proxy.number, data = await bytes('/api/proxy');
+        const number = state.proxy.number, asked = distances, data = await bytes(`/api/proxy?distances=${Number(distances)}`);
         view.setProxy(data.byteLength ? readMesh(data) : null);
+        if (asked !== distances) continue;  // they were switched meanwhile
         told.proxy = number;
+        showDistances();
       }
     }
     told.revision = state.closing.shown;

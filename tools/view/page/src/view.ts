@@ -17,18 +17,21 @@ export class View {
   private scene = new THREE.Scene();
   private stroke = new THREE.Line(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: '#ffffff', depthTest: false, transparent: true }));
   private matcap = makeMatcap();
-  private closingLook = surfaceMaterial(this.matcap, '#d8d4cc', true);
+  private closingLook = surfaceMaterial(this.matcap, '#d8d4cc', 'scale');
   private mesh = new ShownMesh(this.matcap, '#c9d1dc', { side: THREE.DoubleSide });
   private proxy = new ShownMesh(this.matcap, '#9fd0b4');
   private files: ShownMesh[] = [];
   private layers: Record<Layer, THREE.Group> = { scene: this.mesh.group, closing: new THREE.Group(), proxy: this.proxy.group };
   private dark = matchMedia('(prefers-color-scheme: dark)');
+  private ruler = new THREE.Line(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: '#d21f5b', depthTest: false, transparent: true }));
+  private ends = new THREE.Points(this.ruler.geometry, new THREE.PointsMaterial({ color: '#d21f5b', size: 9, sizeAttenuation: false, depthTest: false, transparent: true }));
   private pieces = new Map<string, THREE.Mesh>();
   private picker: Picker;
   private size = 1;
   private due = false;
   private facts!: State['scene'];
   frames = 0;
+  drawn: () => void = () => {};  // called after each frame
 
   constructor(private canvas: HTMLCanvasElement) {
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: false });
@@ -37,8 +40,9 @@ export class View {
     this.controls.zoomToCursor = true;
     this.controls.addEventListener('change', () => this.draw());
     this.stroke.renderOrder = 2;
-    this.stroke.frustumCulled = false;
-    this.scene.add(this.layers.scene, this.layers.closing, this.layers.proxy, this.stroke);
+    this.stroke.frustumCulled = this.ruler.frustumCulled = this.ends.frustumCulled = false;
+    this.ruler.renderOrder = this.ends.renderOrder = 3;
+    this.scene.add(this.layers.scene, this.layers.closing, this.layers.proxy, this.stroke, this.ruler, this.ends);
     this.dark.addEventListener('change', () => this.dress());
     this.dress();
     new ResizeObserver(() => this.resize()).observe(canvas);
@@ -103,7 +107,7 @@ export class View {
       const geometry = new THREE.BufferGeometry();
       const words = new THREE.InterleavedBuffer(new Uint16Array(piece.bytes), 6), small = new THREE.InterleavedBuffer(new Int8Array(piece.bytes), 12);
       geometry.setAttribute('position', new THREE.InterleavedBufferAttribute(words, 3, 0));
-      geometry.setAttribute('aScale', new THREE.InterleavedBufferAttribute(words, 1, 3));
+      geometry.setAttribute('aValue', new THREE.InterleavedBufferAttribute(words, 1, 3));
       geometry.setAttribute('normal', new THREE.InterleavedBufferAttribute(small, 3, 8, true));
       geometry.setIndex(new THREE.BufferAttribute(piece.corners, 1));
       const middleOf = (kOrigin + kBrick / 2) * kPerVoxel;
@@ -122,6 +126,38 @@ export class View {
     this.draw();
   }
 
+  /// Colours the proxy and the files by their distance from the scene, where the server told it; false: not.
+  /// Returns the farthest distance of what is shown.
+  colorByDistance(on: boolean): number {
+    const all = [this.proxy, ...this.files];
+    const farthest = Math.max(0, ...all.filter((shown) => shown.group.visible).map((shown) => shown.farthest));
+    shared.uFarthest.value = farthest || 1;
+    for (const shown of all) shown.colorByDistance(on);
+    this.draw();
+    return farthest;
+  }
+
+  /// Turns the view around its target by angles, moves it by shares of its distance, or goes nearer by a factor.
+  turn(right: number, up: number): void {
+    const offset = this.camera.position.clone().sub(this.controls.target), axis = this.camera.up;
+    const side = new THREE.Vector3().crossVectors(axis, offset).normalize();
+    const angle = Math.min(Math.PI - 0.02, Math.max(0.02, offset.angleTo(axis) - up)) - offset.angleTo(axis);
+    offset.applyAxisAngle(side, angle).applyAxisAngle(axis, right);
+    this.camera.position.copy(this.controls.target).add(offset);
+    this.controls.update();
+  }
+  pan(right: number, up: number): void {
+    const distance = this.camera.position.distanceTo(this.controls.target);
+    const step = new THREE.Vector3(right, up, 0).multiplyScalar(distance).applyQuaternion(this.camera.quaternion);
+    this.camera.position.add(step);
+    this.controls.target.add(step);
+    this.controls.update();
+  }
+  zoom(by: number): void {
+    this.camera.position.sub(this.controls.target).multiplyScalar(by).add(this.controls.target);
+    this.controls.update();
+  }
+
   setFile(i: number, mesh: Mesh): void {
     while (this.files.length <= i) {
       const file = new ShownMesh(this.matcap, '#ffffff', { side: this.closingLook.side });
@@ -136,7 +172,7 @@ export class View {
     const file = this.files[i];
     if (!file) return;
     file.group.visible = visible;
-    file.look.color.set(color);
+    file.looks[0].color.set(color);
     file.setOpacity(opacity);
     this.draw();
   }
@@ -149,7 +185,7 @@ export class View {
   cut(plane: THREE.Plane | null): void {
     this.renderer.clippingPlanes = plane ? [plane] : [];
     const side = plane ? THREE.DoubleSide : THREE.FrontSide;
-    for (const look of [this.closingLook, ...[this.proxy, ...this.files].map((shown) => shown.look)]) {
+    for (const look of [this.closingLook, ...[this.proxy, ...this.files].flatMap((shown) => shown.looks)]) {
       if (look.side !== side) look.needsUpdate = true;
       look.side = side;
     }
@@ -174,6 +210,12 @@ export class View {
     this.draw();
   }
 
+  setRuler(points: THREE.Vector3[]): void {
+    this.ruler.geometry.dispose();
+    this.ruler.geometry = this.ends.geometry = new THREE.BufferGeometry().setFromPoints(points);
+    this.draw();
+  }
+
   setStroke(points: THREE.Vector3[]): void {
     this.stroke.geometry.dispose();
     this.stroke.geometry = new THREE.BufferGeometry().setFromPoints(points);
@@ -183,8 +225,8 @@ export class View {
 
   /// Returns the visible point there, relative to the middle. Transparent meshes are ignored.
   pick(x: number, y: number): THREE.Vector3 | null {
-    const hidden: THREE.Object3D[] = [this.stroke];
-    for (const shown of [this.proxy, ...this.files]) hidden.push(shown.look.transparent ? shown.group : shown.edges);
+    const hidden: THREE.Object3D[] = [this.stroke, this.ruler, this.ends];
+    for (const shown of [this.proxy, ...this.files]) hidden.push(shown.transparent ? shown.group : shown.edges);
     return this.picker.pick(this.camera, x, y, this.canvas.clientWidth, this.canvas.clientHeight, hidden);
   }
 
@@ -210,6 +252,7 @@ export class View {
       this.due = false;
       if (this.facts) this.frames++;
       this.renderer.render(this.scene, this.camera);
+      this.drawn();
     });
   }
 }
