@@ -145,6 +145,35 @@ async function measuring(page) {
   await page.keyboard.press('2');
 }
 
+/// The plot: a point for each proxy and each proven level. A point shows its proxy alone, by click and by key.
+async function plotting(page) {
+  await page.click('[data-half=design]');
+  await page.fill('#faces', '300');
+  await page.keyboard.press('Enter');
+  let s = await until(page, (q) => q.made.length >= 2 && q.proxy.step === 'ready' && q.proxy.current, 'a second proxy');
+  check('proxies are kept with their measures', s.made.every((p) => p.answer === 'proven' && p.triangles > 0 && p.farthest > 0 && p.volume_ratio > 0), s.made);
+  check('fewer faces are farther from the scene', s.made.at(-1).triangles < s.made[0].triangles && s.made.at(-1).farthest > s.made[0].farthest, s.made);
+  await page.keyboard.press('l');
+  const levels = s.layers.flatMap((layer) => layer.verdict?.levels ?? []).filter((level) => level.farthest > 0).length, dots = page.locator('#plot svg').first().locator('circle');
+  await page.waitForFunction((n) => document.querySelector('#plot svg').querySelectorAll('circle').length === n, s.made.length + levels);
+  await dots.first().click();
+  await page.waitForFunction((n) => window.bpview.proxy === n, s.made[0].number);
+  check('a point shows its proxy', await page.getAttribute('[data-layer=proxy]', 'aria-pressed') === 'true');
+  check('its point is marked', (await dots.first().getAttribute('class')) === 'current');
+  await sleep(300);
+  check('the proxy is seen', (await colors(page, 200, 80, 500, 560)).other > 0.1);
+  await picture(page, folder, 'plot');
+  const last = dots.nth(s.made.length + 1);  // the coarser level of the first file
+  check('a point says what it is', /^lod\/figure.glb, level 1, 200 faces, farthest /.test(await last.getAttribute('aria-label')), await last.getAttribute('aria-label'));
+  await last.focus();
+  await page.keyboard.press('Enter');
+  check('a point of a file shows the file', await page.locator('#files li').first().locator('input[type=checkbox]').isChecked());
+  check('and hides the proxy', await page.getAttribute('[data-layer=proxy]', 'aria-pressed') === 'false');
+  await page.click('#prove-all');
+  s = await until(page, (q) => q.layers.every((layer) => layer.step === 'done' || layer.kind === 'voxels'), 'all answers');
+  check('all files are proven', s.layers.every((layer) => layer.kind === 'voxels' || layer.verdict.answer === 'proven'), s.layers);
+}
+
 async function main() {
   build();
   const { child, link } = await serve(folder, scene, '--show', 'lod/', '--show', 'tiles', '--show', 'body', '--show', 'cage/figure_cage.obj', '--show', 'fit.ply', '--show', 'closed.bpv');
@@ -153,6 +182,7 @@ async function main() {
   const names = await files(page);
   await cutting(page);
   await measuring(page);
+  await plotting(page);
   // A file that is damaged later is an answer, not an end.
   fs.writeFileSync(path.join(folder, 'fit.ply'), 'ply\nformat ascii 1.0\nelement vertex 3\n');
   await page.reload();

@@ -71,6 +71,7 @@ def what_is_asked(s):
     for query in ("", "?file=0", "?file=1&level=9", "?file=-1", "?file=../../etc/passwd", "?level=0&file=999999999999"):
         status, _, answer = s.ask("GET", "/api/layer" + query)
         check("a file that was not named is refused", status == 400 and json.loads(answer)["error"], query, status, answer)
+    check("a proxy that is not kept is refused", s.ask("GET", "/api/proxy?number=4711")[0] == 400)
     for body in ('{"file": 0}', '{"file": -1}', '{"file": "served.obj"}', "{}", "[]"):
         check("a file that was not named is not proven", s.ask("POST", "/api/check", body)[0] == 400, body)
     check("nothing was changed", s.state()["design"] == before)

@@ -172,7 +172,9 @@ void Server::State::add_routes() {
     });
   };
   bytes("/api/scene", [this](const Request&) { return session.scene(); });
-  bytes("/api/proxy", [this](const Request& request) { return session.proxy(number(request, "distances") == 1); });
+  bytes("/api/proxy", [this](const Request& request) {
+    return session.proxy(number(request, "number"), number(request, "distances") == 1);
+  });
   bytes("/api/surface", [this](const Request& request) { return session.surface(number(request, "after")); });
   bytes("/api/layer", [this](const Request& request) {
     return session.layer(number(request, "file"), number(request, "level"), number(request, "distances") == 1);

@@ -76,6 +76,7 @@ Session::Session(const ViewOptions& options, Backends& backends) : options_(opti
   const auto open = [this] { return open_scenes(options_.voxels.scenes, scene_options(options_)); };
   distances_ = std::make_unique<SceneDistances>(open, middle_, options_.common.memory_bytes / 4);
   begin_design();
+  made_.emplace(options_.common.memory_bytes / 32);
   layers_ = std::make_unique<Layers>(options_, [this] { changed(); });
   job_ = std::make_unique<ProxyJob>(options_, stream_, [this] { changed(); });
   LiveScene scene;
@@ -140,6 +141,7 @@ void Session::begin_design() {
 void Session::changed() {
   {
     const std::lock_guard lock(mutex_);
+    if (!ends_) made_->add(job_->status());
     if (live_ && !ends_) {
       const LiveClosing::Status s = closing_->status();
       const bool done = s.shown == design_->revision() && s.error.empty();
@@ -239,8 +241,14 @@ std::string Session::bytes_of(ShownMesh mesh, bool distances) const {
   return mesh.bytes();
 }
 
-std::string Session::proxy(bool distances) const {
-  const auto file = job_->status().file;
+std::shared_ptr<const std::string> Session::proxy_file(std::uint64_t number) const {
+  if (number == 0) return job_->status().file;
+  const std::lock_guard lock(mutex_);
+  return made_->file(number);
+}
+
+std::string Session::proxy(std::uint64_t number, bool distances) const {
+  const auto file = proxy_file(number);
   if (file == nullptr) return "";
   const MemoryFile glb(*file);
   return bytes_of(shown_mesh(read_mesh(glb.path(), scene_options(options_)), minus(middle_)), distances);
@@ -314,6 +322,7 @@ std::string Session::state() const {
                      {"error", c.error}}},
                    {"proxy", proxy_json()},
                    {"layers", layers_->json()},
+                   {"made", made_->json()},
                    {"faces", faces_},
                    {"live", live_},
                    {"rules_file", options_.rules},

@@ -6,6 +6,7 @@
 #include "tools/view/distances.h"
 #include "tools/view/events.h"
 #include "tools/view/files/layers.h"
+#include "tools/view/made_proxies.h"
 #include "tools/view/proxy_job.h"
 
 namespace bp {
@@ -21,10 +22,11 @@ class Session {
   [[nodiscard]] std::string state() const;  ///< JSON of everything but geometry; events tell when it changes
   /// As ShownMesh::bytes(); empty: the scene has too many triangles.
   [[nodiscard]] std::string scene() const { return scene_bytes_; }
-  [[nodiscard]] std::string surface(std::uint64_t after) const;  ///< as wire.h says: the pieces after a generation
-  /// Returns the proxy as ShownMesh::bytes(); empty: there is none. With distances from the scene if they are asked
-  /// for.
-  [[nodiscard]] std::string proxy(bool distances) const;
+  [[nodiscard]] std::string surface(
+      std::uint64_t after) const;  /// Returns the proxy with a number as ShownMesh::bytes(), with distances from the
+                                   /// scene if they are asked for. Number
+  /// 0: the last one, or nothing if there is none. Throws bad_argument if the proxy is not kept.
+  [[nodiscard]] std::string proxy(std::uint64_t number, bool distances) const;
 
   /// Returns a level of a file of --show, likewise. Throws as read_level() and SceneDistances::add_to().
   [[nodiscard]] std::string layer(std::uint64_t file, std::uint64_t level, bool distances) const;
@@ -48,6 +50,7 @@ class Session {
   void begin_design();
   void changed();  ///< called by the closing and the proxy job, on their threads
   void request_proxy();
+  [[nodiscard]] std::shared_ptr<const std::string> proxy_file(std::uint64_t number) const;
   [[nodiscard]] std::string bytes_of(ShownMesh mesh, bool distances) const;
   [[nodiscard]] bool is_current(const ProxyJob::Status& proxy) const;
   [[nodiscard]] Json design_json() const;
@@ -71,6 +74,7 @@ class Session {
   std::uint64_t meshed_ = 0, meshed_faces_ = 0;     ///< last request to job_
   bool rules_saved_ = false, proxy_saved_ = false;  ///< saved by this session, so that their files may be replaced
   std::uint64_t saved_revision_ = 0;
+  std::optional<MadeProxies> made_;
 
   // The closing, the job and the layers call changed(), so they are made last and destroyed first.
   std::unique_ptr<Layers> layers_;

@@ -89,6 +89,17 @@ export class Files {
     void this.update(i);
   }
 
+  /// Shows a level alone of all files; -1: no file.
+  showOnly(i: number, level = 0): void {
+    this.rows.forEach((row, at) => {
+      row.shown.checked = at === i;
+      if (at === i) row.level.value = String(level);
+      void this.update(at);
+    });
+  }
+  isShown(i: number, level: number): boolean { return this.rows[i].shown.checked && Number(this.rows[i].level.value) === level; }
+  color(i: number): string { return this.rows[i].color.value; }
+
   /// Fetches what is shown with distances from the scene, or without.
   async showDistances(on: boolean): Promise<void> {
     this.distances = on;

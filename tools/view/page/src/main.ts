@@ -2,6 +2,7 @@
 import { bytes, enter, listen, post, state as askState, type State, type Vec3 } from './api';
 import { Brush, type Tool } from './brush';
 import { percent, show } from './lengths';
+import { Plot, type PlotPoint } from './plot';
 import { Ruler } from './ruler';
 import { complain, FaceField, LengthField, showState } from './panel';
 import { View, type Layer } from './view';
@@ -42,10 +43,31 @@ const brush: Brush = new Brush(byId('canvas'), view, facts,
   (rule, again) => (again ? sendLast : (body: unknown) => void send('/api/edit', body))({ op: 'rule', rule, again }),
   (at: Vec3 | null) => { byId('point').textContent = at ? at.map((x) => show(x, 5)).join('  ') : ''; });
 
-const files = new Files(byId('files'), view, (i) => void send('/api/check', { file: i }), () => showDistances());
+const files = new Files(byId('files'), view, (i) => void send('/api/check', { file: i }), () => { showDistances(); showPlot(); });
 const ruler = new Ruler(byId('canvas'), view, facts, byId('ruler-label'), byId('ruler'));
 
 let cut: Cut;
+
+/// The proxy that is shown: one that was made before, or 0, the last one.
+let chosen = 0;
+const plot = new Plot(byId('plot'));
+function chooseProxy(number: number): void {
+  chosen = number === state.proxy.number ? 0 : number;
+  told.proxy = 0;
+  shown.proxy = true;
+  files.showOnly(-1);
+  showLayers();
+  void follow().then(showPlot);
+}
+function showPlot(): void {
+  const now = chosen || state.proxy.number;
+  const made = state.made.map((p): PlotPoint => ({ name: `proxy ${p.number}, ${p.answer}`, faces: p.triangles, error: p.farthest, volume: p.volume_ratio, color: '#3f9d74',
+    current: shown.proxy && p.number === now, act: () => chooseProxy(p.number) }));
+  const levels = state.layers.flatMap((layer, i) => (layer.verdict?.levels ?? []).map((level, n): PlotPoint => ({
+    name: layer.levels > 1 ? `${layer.name}, level ${n}` : layer.name, faces: level.triangles, error: level.farthest, volume: level.volume_ratio, color: files.color(i),
+    current: files.isShown(i, n), act: () => { shown.proxy = false; files.showOnly(i, n); showLayers(); } })));
+  plot.tell([...made, ...levels], state.scene);
+}
 
 /// The legend of the distances from the scene.
 let distances = false;
@@ -71,6 +93,7 @@ function turnTo(half: string): void {
 function showLayers(): void {
   view.show(shown);
   showDistances();
+  showPlot();
   for (const button of document.querySelectorAll<HTMLButtonElement>('[data-layer]'))
     button.ariaPressed = String(shown[button.dataset.layer as Layer]);
 }
@@ -109,6 +132,7 @@ byId('save-rules').onclick = () => void send('/api/save', { what: 'rules' });
 byId('save-proxy').onclick = () => void send('/api/save', { what: 'proxy' });
 byId<HTMLInputElement>('live').onchange = (event) => void send('/api/edit', { op: 'live', live: (event.target as HTMLInputElement).checked });
 byId<HTMLInputElement>('distances').onchange = (event) => void turnDistances((event.target as HTMLInputElement).checked);
+byId('prove-all').onclick = () => state.layers.forEach((layer, i) => { if (layer.kind !== 'voxels' && layer.step === 'none') void send('/api/check', { file: i }); });
 byId('copy').onclick = async () => {
   await navigator.clipboard.writeText(state.command).catch(complain);
   byId('copy').textContent = 'Copied';
@@ -157,16 +181,16 @@ async function follow(): Promise<void> {
   if (fetching) return;
   fetching = true;
   try {
-    while (told.generation !== state.closing.generation || told.proxy !== state.proxy.number) {
+    while (told.generation !== state.closing.generation || told.proxy !== (chosen || state.proxy.number)) {
       if (told.generation !== state.closing.generation) {
         const surface = readSurface(await bytes(`/api/surface?after=${told.generation}`));
         view.setPieces(surface.pieces);
         told.generation = surface.generation;
       }
-      if (told.proxy !== state.proxy.number) {
-        const number = state.proxy.number, asked = distances, data = await bytes(`/api/proxy?distances=${Number(distances)}`);
+      if (told.proxy !== (chosen || state.proxy.number)) {
+        const number = chosen || state.proxy.number, asked = distances, data = await bytes(`/api/proxy?number=${chosen}&distances=${Number(distances)}`);
         view.setProxy(data.byteLength ? readMesh(data) : null);
-        if (asked !== distances) continue;  // they were switched meanwhile
+        if (asked !== distances || number !== (chosen || state.proxy.number)) continue;  // they were switched meanwhile
         told.proxy = number;
         showDistances();
       }
@@ -179,11 +203,13 @@ async function follow(): Promise<void> {
 }
 
 function tell(next: State): void {
+  if (next.proxy.number !== state.proxy.number) chosen = 0;  // a new proxy is shown at once
   state = next;
   showState(state, (i) => void send('/api/edit', { op: 'remove', rule: i }));
   base.follow(state.design.base);
   faces.follow(state.faces);
   files.tell(state.layers);
+  showPlot();
   view.setBase(state.design.base_world);
   void follow();
 }
@@ -197,6 +223,7 @@ async function begin(): Promise<void> {
   radius.set('3%');
   [brush.target, brush.radius] = ['0.5%', '3%'];
   cut = new Cut(view, byId('cut'), byId('cut-place'), [...document.querySelectorAll<HTMLButtonElement>('[data-cut]')], byId('cut-flip'));
+  files.tell(state.layers);  // the plot needs its rows
   choose('turn');
   turnTo(state.layers.length > 0 ? 'look' : 'design');
   showLayers();
