@@ -20,7 +20,7 @@ class Axis {
   constructor(values: number[], private from: number, private to: number) {
     this.low = Math.log(Math.min(...values));
     this.high = Math.log(Math.max(...values));
-    const room = Math.max(0.08 * (this.high - this.low), 0.1);
+    const room = Math.max(0.08 * (this.high - this.low), 0.25);
     this.low -= room;
     this.high += room;
   }
