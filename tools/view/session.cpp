@@ -11,7 +11,7 @@
 #include "tools/run/memory_shares.h"
 #include "tools/run/part_boxes.h"
 #include "tools/run/scene_budget.h"
-#include "tools/view/wire.h"
+#include "tools/view/geometry/wire.h"
 
 namespace bp {
 

@@ -3,9 +3,9 @@
 
 #include "lib/live/design.h"
 #include "lib/live/live_closing.h"
-#include "tools/view/distances.h"
 #include "tools/view/events.h"
 #include "tools/view/files/layers.h"
+#include "tools/view/geometry/distances.h"
 #include "tools/view/made_proxies.h"
 #include "tools/view/proxy_job.h"
 

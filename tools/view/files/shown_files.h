@@ -5,7 +5,7 @@
 
 #include "io/scene/scene_options.h"
 #include "tools/run/mesh_extras.h"
-#include "tools/view/shown_mesh.h"
+#include "tools/view/geometry/shown_mesh.h"
 
 /// Files that --show names: what the suite made of a scene, to be looked at beside it.
 namespace bp {
@@ -16,7 +16,7 @@ struct ShownFile {
   std::string name;  ///< file name, with its folder where --show names the folder
   Kind kind = Kind::mesh;
   std::size_t levels = 1;
-  /// What the file tells of itself: for a mesh provenance, contract and origin; for others only the provenance.
+  /// Statements of the file about itself: of a mesh provenance, contract and origin; of others only the provenance.
   MeshExtras extras;
 };
 

@@ -15,7 +15,7 @@ function make<K extends keyof HTMLElementTagNameMap>(tag: K, more: Partial<HTMLE
   return Object.assign(document.createElement(tag), more);
 }
 
-/// What the answer of bpcheck means, in a badge's few words.
+/// Returns the text and the look of a badge for the answer of bpcheck.
 function badgeOf(layer: LayerState): [string, string] {
   if (layer.step === 'waiting' || layer.step === 'checking') return ['checking …', 'work'];
   if (layer.step === 'failed') return ['failed', 'refuted'];

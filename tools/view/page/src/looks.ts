@@ -37,7 +37,7 @@ export function makeMatcap(): THREE.DataTexture {
   return texture;
 }
 
-/// What a material is coloured by: an attribute of its geometry.
+/// The attribute of a geometry by which a material colours it.
 export type ColoredBy = 'nothing' | 'scale' | 'distance';
 
 /// Colours of distances from the scene, from 0 to the farthest; page.css has the same.

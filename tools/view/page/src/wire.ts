@@ -1,4 +1,4 @@
-// Reads geometry as the server sends it (tools/view/wire.h, tools/view/shown_mesh.h).
+// Reads geometry as the server sends it (tools/view/geometry/wire.h, tools/view/shown_mesh.h).
 
 export interface Mesh { positions: Float32Array; normals: Int8Array | null; corners: Uint32Array | null; edges: Uint32Array | null; distances: Float32Array | null }
 export interface Piece { key: string; brick: [number, number, number]; vertices: number; bytes: ArrayBuffer; corners: Uint32Array }

@@ -1,4 +1,4 @@
-#include "tools/view/distances.h"
+#include "tools/view/geometry/distances.h"
 
 #include <algorithm>
 #include <cmath>

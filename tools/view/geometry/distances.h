@@ -6,7 +6,7 @@
 
 #include "lib/core/triangle_source.h"
 #include "lib/geometry/triangle_bvh.h"
-#include "tools/view/shown_mesh.h"
+#include "tools/view/geometry/shown_mesh.h"
 
 /// Distances of meshes from the scene, as colours for the page. They are to look at: bpcheck bounds the largest one.
 namespace bp {

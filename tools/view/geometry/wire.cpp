@@ -1,4 +1,4 @@
-#include "tools/view/wire.h"
+#include "tools/view/geometry/wire.h"
 
 #include <span>
 

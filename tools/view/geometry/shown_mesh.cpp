@@ -1,4 +1,4 @@
-#include "tools/view/shown_mesh.h"
+#include "tools/view/geometry/shown_mesh.h"
 
 #include <algorithm>
 #include <cmath>
