@@ -21,7 +21,7 @@ def who_gets_in(s):
     check("the page has its policy", page[1]["Content-Security-Policy"].startswith("default-src 'self';"))
     check("no type is guessed", page[1]["X-Content-Type-Options"] == "nosniff")
     check("no other site may read", page[1]["Access-Control-Allow-Origin"] is None)
-    for path in ("/api/state", "/api/scene", "/api/surface", "/api/proxy", "/api/layer?file=0", "/api/events"):
+    for path in ("/api/state", "/api/parts", "/api/scene", "/api/surface", "/api/proxy", "/api/layer?file=0", "/api/events"):
         check("a stranger reads nothing", status("GET", path) == 401, path)
         check("a wrong cookie is none", status("GET", path, headers={"Cookie": f"bpview_{s.port}=" + "0" * 32}) == 401, path)
     check("a stranger changes nothing", status("POST", "/api/edit", '{"op": "undo"}') == 401)
@@ -32,6 +32,7 @@ def who_gets_in(s):
     for word in ("HttpOnly", "SameSite=Strict", "Path=/"):
         check("the cookie is kept from others", word in s.set_cookie, s.set_cookie)
     check("the page reads", status("GET", "/api/state") == 200)
+    check("parts have names", json.loads(s.ask("GET", "/api/parts")[2]) == [f"part_{i}" for i in range(7)], s.ask("GET", "/api/parts")[2])
     for host in ("evil.example", f"evil.example:{s.port}", "127.0.0.1", f"127.0.0.1.evil.example:{s.port}", f"[::1]:{s.port}", "", f"127.0.0.1:{s.port + 1}"):
         check("another host is refused", status("GET", "/api/state", headers={"Host": host}) == 421, host)
         check("even for the page", status("GET", "/", headers={"Host": host}) == 421, host)

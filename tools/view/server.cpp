@@ -181,6 +181,8 @@ void Server::State::add_routes() {
   });
   http.Get("/api/state",
            [this](const Request&, Response& response) { response.set_content(session.state(), "application/json"); });
+  http.Get("/api/parts",
+           [this](const Request&, Response& response) { response.set_content(session.parts(), "application/json"); });
   http.Get("/api/events", [this](const Request& request, Response& response) { listen(request, response); });
   http.Post("/api/edit", doing([this](const std::string& body) { session.edit(body); }));
   http.Post("/api/save", doing([this](const std::string& body) { session.save(body); }));

@@ -117,12 +117,15 @@ void Session::open_stream() {
 }
 
 void Session::read_scene() {
-  const auto source = open_scenes(options_.voxels.scenes, scene_options(options_));
+  SceneOptions scene = scene_options(options_);
+  scene.part_names = std::make_shared<PartNames>();
+  const auto source = open_scenes(options_.voxels.scenes, scene);
   std::vector<TriangleD> all, some;
   while (source->read(some)) {
     triangles_ += some.size();
     if (triangles_ <= kMostShown) all.insert(all.end(), some.begin(), some.end());
   }
+  parts_ = *scene.part_names;
   if (triangles_ <= kMostShown) scene_bytes_ = shown_smooth(all, minus(middle_)).bytes();
 }
 
@@ -233,6 +236,14 @@ std::string Session::surface(std::uint64_t after) const {
   // Read first: pieces that change in between are sent twice.
   const std::uint64_t generation = closing_->status().generation;
   return surface_bytes(closing_->since(after), generation);
+}
+
+std::string Session::parts() const {
+  Json names = Json::array();
+  for (const std::string& name : parts_.names) {
+    if (names.size() < kMostNames) names.push_back(name);
+  }
+  return names.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 /// Positions in between are as far apart as half a voxel at least: the closing knows nothing finer.

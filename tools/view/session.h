@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 
+#include "io/scene/part_names.h"
 #include "lib/live/design.h"
 #include "lib/live/live_closing.h"
 #include "tools/view/events.h"
@@ -22,9 +23,12 @@ class Session {
   [[nodiscard]] std::string state() const;  ///< JSON of everything but geometry; events tell when it changes
   /// As ShownMesh::bytes(); empty: the scene has too many triangles.
   [[nodiscard]] std::string scene() const { return scene_bytes_; }
-  [[nodiscard]] std::string surface(
-      std::uint64_t after) const;  /// Returns the proxy with a number as ShownMesh::bytes(), with distances from the
-                                   /// scene if they are asked for. Number
+  [[nodiscard]] std::string surface(std::uint64_t after)
+      const;  /// Returns the names of the scene's parts as a JSON list, for rules by name: the first kMostNames.
+  [[nodiscard]] std::string parts() const;
+  static constexpr std::size_t kMostNames = 1000;
+  /// Returns the proxy with a number as ShownMesh::bytes(), with distances from the
+  /// scene if they are asked for. Number
   /// 0: the last one, or nothing if there is none. Throws bad_argument if the proxy is not kept.
   [[nodiscard]] std::string proxy(std::uint64_t number, bool distances) const;
 
@@ -63,6 +67,7 @@ class Session {
   std::unique_ptr<BrickShelf> solid_;  ///< until the closing takes it
   Vec3d middle_{};                     ///< of the scene; it is subtracted from positions that are sent
   std::string scene_bytes_;
+  PartNames parts_;
   std::unique_ptr<SceneDistances> distances_;
   std::uint64_t triangles_ = 0;
 

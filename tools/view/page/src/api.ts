@@ -47,6 +47,11 @@ export async function post(path: string, body: unknown = {}): Promise<void> {
   await checked(await fetch(path, { method: 'POST', body: JSON.stringify(body) }));
 }
 
+/// Names of the scene's parts, for rules by name.
+export async function parts(): Promise<string[]> {
+  return (await checked(await fetch('/api/parts'))).json();
+}
+
 export async function state(): Promise<State> {
   return (await checked(await fetch('/api/state'))).json();
 }

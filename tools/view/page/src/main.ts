@@ -1,5 +1,5 @@
 // The page of bpview (docs/bpview.1.md).
-import { bytes, enter, listen, post, state as askState, type State, type Vec3 } from './api';
+import { bytes, enter, listen, parts as askParts, post, state as askState, type State, type Vec3 } from './api';
 import { Brush, type Tool } from './brush';
 import { percent, show } from './lengths';
 import { Plot, type PlotPoint } from './plot';
@@ -132,6 +132,13 @@ byId('save-rules').onclick = () => void send('/api/save', { what: 'rules' });
 byId('save-proxy').onclick = () => void send('/api/save', { what: 'proxy' });
 byId<HTMLInputElement>('live').onchange = (event) => void send('/api/edit', { op: 'live', live: (event.target as HTMLInputElement).checked });
 byId<HTMLInputElement>('distances').onchange = (event) => void turnDistances((event.target as HTMLInputElement).checked);
+/// A rule by name has the scale of the brush. A name that no part has is refused by the server.
+function rulePart(mode: 'decrease' | 'increase'): void {
+  const node = byId<HTMLInputElement>('part').value.trim();
+  if (node) void send('/api/edit', { op: 'rule', rule: { node, scale: brush.target, mode } });
+}
+byId('part-finer').onclick = () => rulePart('decrease');
+byId('part-coarser').onclick = () => rulePart('increase');
 byId('prove-all').onclick = () => state.layers.forEach((layer, i) => { if (layer.kind !== 'voxels' && layer.step === 'none') void send('/api/check', { file: i }); });
 byId('copy').onclick = async () => {
   await navigator.clipboard.writeText(state.command).catch(complain);
@@ -231,6 +238,9 @@ async function begin(): Promise<void> {
   listen(tell, () => complain('bpview does not answer; is it still running?'));
   if (state.scene.shown) view.setScene(readMesh(await bytes('/api/scene')));
   else byId<HTMLButtonElement>('layers').querySelector<HTMLButtonElement>('[data-layer=scene]')!.disabled = true;
+  const names = await askParts();
+  byId('part-names').replaceChildren(...names.map((value) => Object.assign(document.createElement('option'), { value })));
+  byId('part-row').hidden = names.length === 0;
   told.ready = true;
 }
 begin().catch(complain);
