@@ -53,7 +53,7 @@ void answer(Response& response, const Make& make) {
 }
 
 /// Returns a number of the request's address; 0 if it is missing or no number.
-std::uint64_t number(const Request& request, const char* key) {
+std::uint64_t number_in(const Request& request, const char* key) {
   const std::string text = request.get_param_value(key);
   return text.empty() ? 0 : std::strtoull(text.c_str(), nullptr, 10);
 }
@@ -173,11 +173,11 @@ void Server::State::add_routes() {
   };
   bytes("/api/scene", [this](const Request&) { return session.scene(); });
   bytes("/api/proxy", [this](const Request& request) {
-    return session.proxy(number(request, "number"), number(request, "distances") == 1);
+    return session.proxy(number_in(request, "number"), number_in(request, "distances") == 1);
   });
-  bytes("/api/surface", [this](const Request& request) { return session.surface(number(request, "after")); });
+  bytes("/api/surface", [this](const Request& request) { return session.surface(number_in(request, "after")); });
   bytes("/api/layer", [this](const Request& request) {
-    return session.layer(number(request, "file"), number(request, "level"), number(request, "distances") == 1);
+    return session.layer(number_in(request, "file"), number_in(request, "level"), number_in(request, "distances") == 1);
   });
   http.Get("/api/state",
            [this](const Request&, Response& response) { response.set_content(session.state(), "application/json"); });

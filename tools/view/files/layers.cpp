@@ -90,7 +90,7 @@ void Layers::prove(std::size_t i) {
   if (verdict.is_null()) {
     set(i, {Step::failed, {}, result.said});
   } else {
-    set(i, {Step::done, verdict, result.said});
+    set(i, {Step::done, std::make_shared<const Json>(verdict), result.said});
   }
 }
 
@@ -109,7 +109,7 @@ Json Layers::json() const {
                    {"not_claimed", contract ? not_claimed_by(*contract) : ""},
                    {"made_by", f.extras.provenance},
                    {"step", kSteps[std::size_t(states_[i].step)]},
-                   {"verdict", states_[i].verdict},
+                   {"verdict", states_[i].verdict ? *states_[i].verdict : Json()},
                    {"notes", states_[i].notes}});
   }
   return all;

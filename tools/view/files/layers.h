@@ -2,6 +2,7 @@
 #include <condition_variable>
 #include <deque>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <thread>
 #include <vector>
@@ -34,7 +35,7 @@ class Layers {
   enum class Step { none, waiting, checking, done, failed };
   struct State {
     Step step = Step::none;
-    Json verdict;
+    std::shared_ptr<const Json> verdict;  ///< null: none yet
     std::string notes;
   };
   void work();
