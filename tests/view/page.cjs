@@ -1,50 +1,28 @@
 // A person at the page of bpview:  node page.cjs FOLDER SCENE [OPTIONS...]
-// FOLDER holds the scene, and gets rules, proxy and pictures. CHROMIUM: the browser, else /usr/bin/chromium. Exit status 1 if something is wrong.
+// FOLDER holds the scene, and gets rules, proxy and pictures. Exit status 1 if something is wrong.
 const fs = require('fs'), path = require('path');
-const { execFileSync, spawn } = require('child_process');
-const { chromium } = require('playwright-core');
+const { execFileSync } = require('child_process');
+const { Checks, end, launch, open: openPage, picture: takePicture, serve: start, sleep, state: stateOf, until: waitUntil } = require('./browser.cjs');
 const [folder, scene, ...options] = process.argv.slice(2);
-const sleep = (ms) => new Promise((done) => setTimeout(done, ms));
-let failed = 0;
-const check = (what, fine, ...facts) => { if (!fine) { failed++; console.log('FAILED:', what, ...facts); } };
-
-/// bpview, once it has printed its link.
-function serve(...more) {
-  const child = spawn('bpview', [scene, '--no-open', ...options, ...more], { cwd: folder, stdio: ['ignore', 'pipe', 'inherit'] });
-  return new Promise((done, fail) => {
-    let text = '';
-    child.stdout.on('data', (data) => { text += data; if (text.includes('\n')) done({ child, link: text.trim() }); });
-    child.on('exit', (code) => fail(new Error(`bpview ended with status ${code}`)));
-  });
-}
+const checks = new Checks(), check = (...args) => checks.check(...args);
+const serve = (...more) => start(folder, scene, ...options, ...more);
 
 async function main() {
   let { child, link } = await serve();
-  const browser = await chromium.launch({ executablePath: process.env.CHROMIUM || '/usr/bin/chromium',
-    args: ['--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync',
-      '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'] });
+  const browser = await launch();
   const context = await browser.newContext({ viewport: { width: 1280, height: 720 } });
   const troubles = [];
   const open = async (where) => {
-    const page = await context.newPage();
-    page.setDefaultTimeout(120000);
-    page.on('pageerror', (error) => troubles.push(error.message));
-    page.on('console', (message) => { if (message.type() === 'error') troubles.push(message.text()); });
-    const begin = Date.now();
-    await page.goto(where);
-    await page.waitForFunction(() => window.bpview?.ready && window.bpview.generation > 0);
+    const begin = Date.now(), page = await openPage(context, where, troubles);
     console.log(`page ready after ${Date.now() - begin} ms`);
     return page;
   };
   const page = await open(link);
   check('the token leaves the address', !page.url().includes('#'), page.url());
-  const state = (of = page) => of.evaluate(() => fetch('/api/state').then((r) => r.json()));
-  const until = async (done, what, of = page) => {
-    for (let i = 0; i < 1200; ++i, await sleep(50)) { const s = await state(of); if (done(s)) return s; }
-    throw new Error(`waited in vain: ${what}`);
-  };
+  const state = (of = page) => stateOf(of);
+  const until = (done, what, of = page) => waitUntil(of, done, what);
   const isReady = (s) => s.proxy.step === 'ready' && s.proxy.current;
-  const picture = (name) => page.screenshot({ path: path.join(folder, `${name}.png`) });
+  const picture = (name) => takePicture(page, folder, name);
   const stroke = async (points) => {
     await page.mouse.move(...points[0]);
     await page.mouse.down();
@@ -104,6 +82,21 @@ async function main() {
   await page.locator('#rules button').last().click();  // the first rule
   s = await until((q) => q.design.rules.length === 6, 'a rule removed');
 
+  // A part by its name: the closing changes, and a name that is not there is told.
+  const name = await page.locator('#part-names option').first().getAttribute('value'), unnamed = (await until((q) => q.closing.shown === q.design.revision, 'the closing')).closing.voxels;
+  await page.fill('#part', name);
+  await page.click('#part-finer');
+  s = await until((q) => q.design.rules.length === 7 && q.closing.shown === q.design.revision, 'a rule by name');
+  check('the part has the scale of the brush', s.design.rules[6].node === name && s.design.rules[6].mode === 'decrease' && s.design.rules[6].scale === '5%', s.design.rules[6]);
+  await page.fill('#part', 'no such part');
+  await page.click('#part-coarser');
+  await page.waitForSelector('#message:not([hidden])');
+  check('a missing part is told', (await page.textContent('#message')).includes('no such part'), await page.textContent('#message'));
+  await page.locator('#view').focus();
+  await page.keyboard.press('Control+z');
+  s = await until((q) => q.design.rules.length === 6 && q.closing.shown === q.design.revision, 'the rule by name undone');
+  check('without the rule the closing is as before', s.closing.voxels === unnamed, s.closing.voxels, unnamed);
+
   // Sliders and keys.
   await page.keyboard.press('[');
   await page.locator('#base-slide').focus();
@@ -144,15 +137,14 @@ async function main() {
   await page.reload();
   await page.waitForFunction(() => window.bpview?.ready && window.bpview.generation > 0);
   check('a reload keeps the design', (await state()).design.rules.length === 6);
-  check('nothing went wrong on the page', troubles.length === 0, troubles);
+  check('nothing went wrong on the page', troubles.every((text) => text.includes('400')), troubles);  // the part that is not there
 
   // A stranger, and a server that is gone.
   const stranger = await (await browser.newContext()).newPage();
   await stranger.goto(page.url());
   await stranger.waitForSelector('#message:not([hidden])');
   check('without the link the page says so', (await stranger.textContent('#message')).includes('link'));
-  child.kill('SIGINT');
-  await new Promise((done) => child.on('exit', done));
+  await end(child);
   await page.waitForSelector('#message:not([hidden])');
   check('the page says that the server is gone', (await page.textContent('#message')).includes('does not answer'));
 
@@ -166,8 +158,7 @@ async function main() {
   await sleep(500);
   await picture('dark');
   await browser.close();
-  child.kill('SIGINT');
-  await new Promise((done) => child.on('exit', done));
-  process.exit(failed > 0 ? 1 : 0);
+  await end(child);
+  process.exit(checks.failed > 0 ? 1 : 0);
 }
 main().catch((error) => { console.error(error); process.exit(1); });

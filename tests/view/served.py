@@ -2,9 +2,13 @@
 import http.client, json, os, re, signal, subprocess, time
 
 
-def comb(path, teeth=6):
+def comb_boxes(teeth=6):
+    return [((0, 0, 0), (10, 1, 6))] + [((i * 1.6, 1, 0), (i * 1.6 + 0.7, 4, 3)) for i in range(teeth)]
+
+
+def comb(path):
     """A plate with teeth: closings of larger scales fill the gaps between them."""
-    boxes = [((0, 0, 0), (10, 1, 6))] + [((i * 1.6, 1, 0), (i * 1.6 + 0.7, 4, 3)) for i in range(teeth)]
+    boxes = comb_boxes()
     with open(path, "w") as out:
         for n, (low, high) in enumerate(boxes):
             out.write(f"g part_{n}\n")

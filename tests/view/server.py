@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Who gets in to bpview, and what comes out: hosts, origins, tokens, paths, sizes, and bytes as the command line makes them.
    tests/view/server.py FOLDER      the tools are on PATH; FOLDER is made anew"""
-import json, os, random, shutil, signal, socket, subprocess, sys, threading, time
-from served import Served, comb
+import json, math, os, random, shutil, signal, socket, struct, subprocess, sys, threading, time
+from served import Served, comb, comb_boxes
 
 failed = 0
 
@@ -21,7 +21,7 @@ def who_gets_in(s):
     check("the page has its policy", page[1]["Content-Security-Policy"].startswith("default-src 'self';"))
     check("no type is guessed", page[1]["X-Content-Type-Options"] == "nosniff")
     check("no other site may read", page[1]["Access-Control-Allow-Origin"] is None)
-    for path in ("/api/state", "/api/scene", "/api/surface", "/api/proxy", "/api/events"):
+    for path in ("/api/state", "/api/parts", "/api/scene", "/api/surface", "/api/proxy", "/api/layer?file=0", "/api/events"):
         check("a stranger reads nothing", status("GET", path) == 401, path)
         check("a wrong cookie is none", status("GET", path, headers={"Cookie": f"bpview_{s.port}=" + "0" * 32}) == 401, path)
     check("a stranger changes nothing", status("POST", "/api/edit", '{"op": "undo"}') == 401)
@@ -32,6 +32,7 @@ def who_gets_in(s):
     for word in ("HttpOnly", "SameSite=Strict", "Path=/"):
         check("the cookie is kept from others", word in s.set_cookie, s.set_cookie)
     check("the page reads", status("GET", "/api/state") == 200)
+    check("parts have names", json.loads(s.ask("GET", "/api/parts")[2]) == [f"part_{i}" for i in range(7)], s.ask("GET", "/api/parts")[2])
     for host in ("evil.example", f"evil.example:{s.port}", "127.0.0.1", f"127.0.0.1.evil.example:{s.port}", f"[::1]:{s.port}", "", f"127.0.0.1:{s.port + 1}"):
         check("another host is refused", status("GET", "/api/state", headers={"Host": host}) == 421, host)
         check("even for the page", status("GET", "/", headers={"Host": host}) == 421, host)
@@ -68,6 +69,12 @@ def what_is_asked(s):
         check("nonsense is refused, and says why", status == 400 and json.loads(answer)["error"], body, status, answer)
     for body in ('{"what": "/etc/passwd"}', '{"what": "rules", "file": 5', '{}', '{"what": ["rules"]}'):
         check("what is saved has a name of its own", s.ask("POST", "/api/save", body)[0] == 400, body)
+    for query in ("", "?file=0", "?file=1&level=9", "?file=-1", "?file=../../etc/passwd", "?level=0&file=999999999999"):
+        status, _, answer = s.ask("GET", "/api/layer" + query)
+        check("a file that was not named is refused", status == 400 and json.loads(answer)["error"], query, status, answer)
+    check("a proxy that is not kept is refused", s.ask("GET", "/api/proxy?number=4711")[0] == 400)
+    for body in ('{"file": 0}', '{"file": -1}', '{"file": "served.obj"}', "{}", "[]"):
+        check("a file that was not named is not proven", s.ask("POST", "/api/check", body)[0] == 400, body)
     check("nothing was changed", s.state()["design"] == before)
     # Slow clients: more than there are threads may wait, and go.
     slow = [socket.create_connection(("127.0.0.1", s.port)) for _ in range(12)]
@@ -124,6 +131,66 @@ def same_bytes(s, folder):
         check("the closing has the voxels of the command line", voxels == state["closing"]["voxels"], voxels, state["closing"])
 
 
+def from_box(p, low, high):
+    """The distance of a point from the surface of a box."""
+    beyond = math.dist(p, [min(max(x, a), b) for x, a, b in zip(p, low, high)])
+    return beyond or min(min(x - a, b - x) for x, a, b in zip(p, low, high))
+
+
+def distances(folder):
+    """Distances that colour a proxy, against those from the boxes of the scene; and the proxy stays the same surface."""
+    os.makedirs(f"{folder}/made", exist_ok=True)
+    line = "bpvox served.obj --resolution 64 | bpclose -s 5% | tee made/closed.bpv | bpmesh --faces 100 -o made/proxy.glb --overwrite"
+    subprocess.run(["bash", "-c", "set -o pipefail; " + line], cwd=folder, check=True, stderr=subprocess.DEVNULL)
+    s = Served("served.obj", "--resolution", "20", "--show", "made", cwd=folder)
+    s.enter()
+    state = s.state()
+    check("a folder is its meshes and streams", [layer["name"] for layer in state["layers"]] == ["made/closed.bpv", "made/proxy.glb"], state["layers"])
+    check("a file tells what it claims", state["layers"][1]["contract"] == "encloses" and state["layers"][1]["step"] == "none", state["layers"])
+    check("voxels are not proven", s.ask("POST", "/api/check", '{"file": 0}')[0] == 400)
+
+    def mesh(query):
+        status, _, data = s.ask("GET", "/api/layer?" + query)
+        check("a file is sent", status == 200, query, data[:200])
+        counts = struct.unpack_from("<5I", data)
+        at = 20
+        positions = [tuple(x + m for x, m in zip(p, state["scene"]["middle"])) for p in struct.iter_unpack("<3f", data[at:at + 12 * counts[0]])]
+        at += 12 * counts[0] + 4 * counts[1]
+        corners = list(struct.iter_unpack("<3I", data[at:at + 12 * counts[2]]))
+        at += 12 * counts[2] + 8 * counts[3]
+        check("a mesh has the length that it tells", len(data) == at + 4 * counts[4], counts, len(data))
+        return positions, corners, [d for d, in struct.iter_unpack("<f", data[at:])]
+
+    def area(positions, corners):
+        total = 0
+        for t in corners:
+            a, b, c = (positions[v] for v in t)
+            u, v = [q - p for p, q in zip(a, b)], [q - p for p, q in zip(a, c)]
+            total += math.hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]) / 2
+        return total
+
+    plain, fine = mesh("file=1"), mesh("file=1&distances=1")
+    check("without distances none are sent", plain[2] == [] and len(plain[1]) <= 100, len(plain[1]))
+    check("a refined proxy has the same area", abs(area(*fine[:2]) / area(*plain[:2]) - 1) < 1e-5, area(*fine[:2]), area(*plain[:2]))
+    longest = max(math.dist(fine[0][t[k]], fine[0][t[k - 1]]) for t in fine[1] for k in range(3))
+    check("a refined proxy has short edges", longest <= 2 * state["scene"]["voxel"] and len(fine[1]) < 600000, longest, len(fine[1]))
+    edges = {}
+    for t in fine[1]:
+        for k in range(3):
+            edges[t[k - 1], t[k]] = edges.get((t[k - 1], t[k]), 0) + 1
+    check("a refined proxy has no crack", all(n == 1 and (b, a) in edges for (a, b), n in edges.items()))
+    for positions, _, far in (fine, mesh("file=0&distances=1")):
+        for i in random.Random(2).sample(range(len(far)), 400):
+            wanted = min(from_box(positions[i], *box) for box in comb_boxes())
+            check("a distance is that from the scene", abs(far[i] - wanted) < 1e-5, positions[i], far[i], wanted)
+    s.post("/api/check", {"file": 1})
+    state = s.wait(lambda q: q["layers"][1]["step"] in ("done", "failed"))
+    verdict = state["layers"][1]["verdict"]
+    check("bpcheck proves the file", verdict and verdict["answer"] == "proven", state["layers"][1])
+    check("the farthest distance is within its bound", max(fine[2]) <= verdict["levels"][0]["farthest"] * 1.0001, max(fine[2]), verdict)
+    s.end()
+
+
 def main():
     folder = sys.argv[1]
     shutil.rmtree(folder, ignore_errors=True)
@@ -161,6 +228,7 @@ def main():
     check("it ends while a page listens", code == 0 and time.time() - begin < 8, code, time.time() - begin)
     left = subprocess.run(["pgrep", "-f", "/proc/self/fd/"], capture_output=True, text=True).stdout
     check("no tool is left", left == "", left)
+    distances(folder)
     sys.exit(failed > 0)
 
 

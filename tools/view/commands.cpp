@@ -14,9 +14,13 @@ void add_resources(ToolCommand& command, const ViewOptions& o) {
                                  std::to_string(o.common.memory_bytes), "--temp", o.common.temp});
 }
 
-/// Adds the scenes. A name that begins with a dash must not become an option.
+/// Returns a name that no tool takes for an option.
+std::string as_file(const std::string& name) {
+  return name.starts_with('-') ? "./" + name : name;
+}
+
 void add_scenes(ToolCommand& command, const ViewOptions& o) {
-  for (const std::string& scene : o.voxels.scenes) command.push_back(scene.starts_with('-') ? "./" + scene : scene);
+  for (const std::string& scene : o.voxels.scenes) command.push_back(as_file(scene));
 }
 
 ToolCommand voxelize(const ViewOptions& o) {
@@ -62,7 +66,7 @@ std::vector<ToolCommand> mesh_commands(const ViewOptions& options, std::uint64_t
 ToolCommand check_command(const ViewOptions& options, const std::string& proxy) {
   ToolCommand command{"bpcheck"};
   add_scenes(command, options);
-  command.insert(command.end(), {proxy, "--json"});
+  command.insert(command.end(), {as_file(proxy), "--json"});
   add_resources(command, options);
   return command;
 }

@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "lib/core/error.h"
+#include "tools/view/verdict.h"
 
 namespace bp {
 
@@ -10,17 +11,6 @@ namespace {
 
 double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
-
-/// Returns the part of a verdict of bpcheck that the page shows.
-Json brief(const std::string& text) {
-  const Json all = Json::parse(text, nullptr, false);
-  if (!all.is_object()) return {};
-  const auto at = [&](const char* path) { return all.value(Json::json_pointer(path), Json()); };
-  return {{"answer", at("/answer")},
-          {"why", at("/why")},
-          {"triangles", at("/proxy/triangles")},
-          {"farthest", at("/measures/proxy_to_scene/at_most")}};
 }
 
 }  // namespace
@@ -116,7 +106,7 @@ void ProxyJob::make(const Request& request) {
   if (!run({check_command(options_, proxy.path())}, {&proxy}, verdict, true)) return;
   set([&](Status& s) {
     s.step = Step::ready, s.check_seconds = seconds_since(begin);
-    s.verdict = brief(verdict.bytes());
+    s.verdict = brief_verdict(verdict.bytes());
   });
 }
 

@@ -21,7 +21,7 @@ class ProxyJob {
     std::uint64_t revision = 0, faces = 0;    ///< revision of the design, and faces that were requested
     std::shared_ptr<const std::string> file;  ///< GLB; present while it is checked, too
     std::uint64_t number = 0;                 ///< number of the file; rises with each file
-    Json verdict;                             ///< verdict of bpcheck: answer, why, triangles, farthest; null: not known
+    Json verdict;                             ///< as brief_verdict() has it; null: not known
     std::string notes;                        ///< messages of the tools, one a line
     double mesh_seconds = 0, check_seconds = 0;
   };

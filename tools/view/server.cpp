@@ -40,6 +40,24 @@ void refuse(Response& response, int status, const std::string& text) {
   response.set_header("Connection", "close");  // the body of the request was not read
 }
 
+/// Calls `make`, which sets the content. Refused input is an answer, not a failure of the server.
+template <class Make>
+void answer(Response& response, const Make& make) {
+  try {
+    make();
+  } catch (const Error& e) {
+    response.status = e.code() == ErrorCode::bad_input || e.code() == ErrorCode::bad_argument ? 400 : 500;
+    response.set_content(Json{{"error", e.what()}}.dump(-1, ' ', false, Json::error_handler_t::replace),
+                         "application/json");
+  }
+}
+
+/// Returns a number of the request's address; 0 if it is missing or no number.
+std::uint64_t number_in(const Request& request, const char* key) {
+  const std::string text = request.get_param_value(key);
+  return text.empty() ? 0 : std::strtoull(text.c_str(), nullptr, 10);
+}
+
 /// Binds the port that is wanted, or any free one. Returns the port, or -1. Connections inherit the options of this
 /// socket.
 int bound(httplib::Server& http, int wanted) {
@@ -63,7 +81,7 @@ struct Server::State {
   void add_page();
   void listen(const Request& request, Response& response);
   [[nodiscard]] bool is_open(const Request& request) const;
-  /// Handles a step of the design or the like. Refused input is an answer, not a failure of the server.
+  /// Handles a step of the design or the like.
   httplib::Server::Handler doing(const std::function<void(const std::string& body)>& act);
 
   Session& session;
@@ -134,14 +152,10 @@ void Server::State::add_page() {
 
 httplib::Server::Handler Server::State::doing(const std::function<void(const std::string& body)>& act) {
   return [act](const Request& request, Response& response) {
-    try {
+    answer(response, [&] {
       act(request.body);
       response.set_content("{}", "application/json");
-    } catch (const Error& e) {
-      response.status = e.code() == ErrorCode::bad_input || e.code() == ErrorCode::bad_argument ? 400 : 500;
-      response.set_content(Json{{"error", e.what()}}.dump(-1, ' ', false, Json::error_handler_t::replace),
-                           "application/json");
-    }
+    });
   };
 }
 
@@ -154,20 +168,25 @@ void Server::State::add_routes() {
   });
   const auto bytes = [this](const char* path, const auto& make) {
     http.Get(path, [make](const Request& request, Response& response) {
-      response.set_content(make(request), "application/octet-stream");
+      answer(response, [&] { response.set_content(make(request), "application/octet-stream"); });
     });
   };
   bytes("/api/scene", [this](const Request&) { return session.scene(); });
-  bytes("/api/proxy", [this](const Request&) { return session.proxy(); });
-  bytes("/api/surface", [this](const Request& request) {
-    const std::string after = request.get_param_value("after");
-    return session.surface(after.empty() ? 0 : std::strtoull(after.c_str(), nullptr, 10));
+  bytes("/api/proxy", [this](const Request& request) {
+    return session.proxy(number_in(request, "number"), number_in(request, "distances") == 1);
+  });
+  bytes("/api/surface", [this](const Request& request) { return session.surface(number_in(request, "after")); });
+  bytes("/api/layer", [this](const Request& request) {
+    return session.layer(number_in(request, "file"), number_in(request, "level"), number_in(request, "distances") == 1);
   });
   http.Get("/api/state",
            [this](const Request&, Response& response) { response.set_content(session.state(), "application/json"); });
+  http.Get("/api/parts",
+           [this](const Request&, Response& response) { response.set_content(session.parts(), "application/json"); });
   http.Get("/api/events", [this](const Request& request, Response& response) { listen(request, response); });
   http.Post("/api/edit", doing([this](const std::string& body) { session.edit(body); }));
   http.Post("/api/save", doing([this](const std::string& body) { session.save(body); }));
+  http.Post("/api/check", doing([this](const std::string& body) { session.check(body); }));
   http.Post("/api/mesh", doing([this](const std::string&) { session.mesh(); }));
   http.Post("/api/stop", doing([this](const std::string&) { session.stop(); }));
 }

@@ -11,7 +11,7 @@
 #include "tools/run/memory_shares.h"
 #include "tools/run/part_boxes.h"
 #include "tools/run/scene_budget.h"
-#include "tools/view/wire.h"
+#include "tools/view/geometry/wire.h"
 
 namespace bp {
 
@@ -20,6 +20,7 @@ namespace {
 /// triangles: a page that draws more is slow, and its bytes do not fit where memory is short
 constexpr std::uint64_t kMostShown = 2'000'000;
 constexpr std::uint64_t kMostFaces = 10'000'000;
+constexpr std::uint64_t kMostFiles = 1'000'000;
 constexpr const char* kFirstRules = R"({"base": "2%"})";
 
 Json parse_request(const std::string& text) {
@@ -52,6 +53,10 @@ bool flag(const Json& json, const char* key) {
   return found != json.end() && found->is_boolean() && found->get<bool>();
 }
 
+Vec3d minus(const Vec3d& p) {
+  return {-p[0], -p[1], -p[2]};
+}
+
 const char* step_name(ProxyJob::Step step) {
   constexpr const char* kNames[] = {"none", "meshing", "checking", "ready", "failed", "stopped"};
   return kNames[std::size_t(step)];
@@ -68,7 +73,11 @@ SceneOptions scene_options(const ViewOptions& o) {
 Session::Session(const ViewOptions& options, Backends& backends) : options_(options), faces_(options.faces) {
   open_stream();
   read_scene();
+  const auto open = [this] { return open_scenes(options_.voxels.scenes, scene_options(options_)); };
+  distances_ = std::make_unique<SceneDistances>(open, middle_, options_.common.memory_bytes / 4);
   begin_design();
+  made_.emplace(options_.common.memory_bytes / 32);
+  layers_ = std::make_unique<Layers>(options_, [this] { changed(); });
   job_ = std::make_unique<ProxyJob>(options_, stream_, [this] { changed(); });
   LiveScene scene;
   scene.header = header_;
@@ -89,6 +98,7 @@ Session::~Session() {
   events_.end();
   closing_.reset();
   job_.reset();
+  layers_.reset();
 }
 
 /// Runs bpvox itself to make the stream, since the proxy is made from the same stream.
@@ -107,13 +117,16 @@ void Session::open_stream() {
 }
 
 void Session::read_scene() {
-  const auto source = open_scenes(options_.voxels.scenes, scene_options(options_));
+  SceneOptions scene = scene_options(options_);
+  scene.part_names = std::make_shared<PartNames>();
+  const auto source = open_scenes(options_.voxels.scenes, scene);
   std::vector<TriangleD> all, some;
   while (source->read(some)) {
     triangles_ += some.size();
     if (triangles_ <= kMostShown) all.insert(all.end(), some.begin(), some.end());
   }
-  if (triangles_ <= kMostShown) scene_bytes_ = scene_bytes(all, middle_);
+  parts_ = *scene.part_names;
+  if (triangles_ <= kMostShown) scene_bytes_ = shown_smooth(all, minus(middle_)).bytes();
 }
 
 void Session::begin_design() {
@@ -131,6 +144,7 @@ void Session::begin_design() {
 void Session::changed() {
   {
     const std::lock_guard lock(mutex_);
+    if (!ends_) made_->add(job_->status());
     if (live_ && !ends_) {
       const LiveClosing::Status s = closing_->status();
       const bool done = s.shown == design_->revision() && s.error.empty();
@@ -224,11 +238,39 @@ std::string Session::surface(std::uint64_t after) const {
   return surface_bytes(closing_->since(after), generation);
 }
 
-std::string Session::proxy() const {
-  const auto file = job_->status().file;
+std::string Session::parts() const {
+  Json names = Json::array();
+  for (const std::string& name : parts_.names) {
+    if (names.size() < kMostNames) names.push_back(name);
+  }
+  return names.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+/// Positions in between are as far apart as half a voxel at least: the closing knows nothing finer.
+std::string Session::bytes_of(ShownMesh mesh, bool distances) const {
+  if (distances) distances_->add_to(mesh, header_.frame.voxel / 2);
+  return mesh.bytes();
+}
+
+std::shared_ptr<const std::string> Session::proxy_file(std::uint64_t number) const {
+  if (number == 0) return job_->status().file;
+  const std::lock_guard lock(mutex_);
+  return made_->file(number);
+}
+
+std::string Session::proxy(std::uint64_t number, bool distances) const {
+  const auto file = proxy_file(number);
   if (file == nullptr) return "";
   const MemoryFile glb(*file);
-  return mesh_bytes(read_mesh(glb.path(), scene_options(options_)), middle_);
+  return bytes_of(shown_mesh(read_mesh(glb.path(), scene_options(options_)), minus(middle_)), distances);
+}
+
+std::string Session::layer(std::uint64_t file, std::uint64_t level, bool distances) const {
+  return bytes_of(read_level(layers_->file(file), level, middle_, kMostShown, scene_options(options_)), distances);
+}
+
+void Session::check(const std::string& json) {
+  layers_->check(number(parse_request(json), "file", 0, kMostFiles));
 }
 
 Json Session::design_json() const {
@@ -290,6 +332,8 @@ std::string Session::state() const {
                      {"seconds", c.seconds},
                      {"error", c.error}}},
                    {"proxy", proxy_json()},
+                   {"layers", layers_->json()},
+                   {"made", made_->json()},
                    {"faces", faces_},
                    {"live", live_},
                    {"rules_file", options_.rules},

@@ -1,9 +1,13 @@
 #pragma once
 #include <optional>
 
+#include "io/scene/part_names.h"
 #include "lib/live/design.h"
 #include "lib/live/live_closing.h"
 #include "tools/view/events.h"
+#include "tools/view/files/layers.h"
+#include "tools/view/geometry/distances.h"
+#include "tools/view/made_proxies.h"
 #include "tools/view/proxy_job.h"
 
 namespace bp {
@@ -17,10 +21,19 @@ class Session {
 
   [[nodiscard]] Events& events() { return events_; }
   [[nodiscard]] std::string state() const;  ///< JSON of everything but geometry; events tell when it changes
-  /// As wire.h says; empty: the scene has too many triangles.
+  /// As ShownMesh::bytes(); empty: the scene has too many triangles.
   [[nodiscard]] std::string scene() const { return scene_bytes_; }
-  [[nodiscard]] std::string surface(std::uint64_t after) const;  ///< as wire.h says: the pieces after a generation
-  [[nodiscard]] std::string proxy() const;                       ///< as wire.h says; empty: there is no proxy
+  [[nodiscard]] std::string surface(std::uint64_t after)
+      const;  /// Returns the names of the scene's parts as a JSON list, for rules by name: the first kMostNames.
+  [[nodiscard]] std::string parts() const;
+  static constexpr std::size_t kMostNames = 1000;
+  /// Returns the proxy with a number as ShownMesh::bytes(), with distances from the
+  /// scene if they are asked for. Number
+  /// 0: the last one, or nothing if there is none. Throws bad_argument if the proxy is not kept.
+  [[nodiscard]] std::string proxy(std::uint64_t number, bool distances) const;
+
+  /// Returns a level of a file of --show, likewise. Throws as read_level() and SceneDistances::add_to().
+  [[nodiscard]] std::string layer(std::uint64_t file, std::uint64_t level, bool distances) const;
 
   /// Makes one step of the design, which is JSON: {"op": "rule", "rule": {...}, "again": BOOL},
   /// {"op": "base", "base": LENGTH, "again": BOOL},
@@ -28,8 +41,9 @@ class Session {
   /// BOOL}.
   /// Throws bad_input, and changes nothing, for any other JSON.
   void edit(const std::string& json);
-  void mesh();  ///< begins a proxy of the present design
-  void stop();  ///< ends the proxy at work
+  void check(const std::string& json);  ///< begins to prove a file of --show: `json` is {"file": N}
+  void mesh();                          ///< begins a proxy of the present design
+  void stop();                          ///< ends the proxy at work
   /// Writes the file that was named on the command line: `json` is {"what": "rules"} or {"what": "proxy"}. Throws
   /// bad_argument if the file exists and may not be replaced, bad_input if there is no proxy of the present design.
   void save(const std::string& json);
@@ -40,6 +54,8 @@ class Session {
   void begin_design();
   void changed();  ///< called by the closing and the proxy job, on their threads
   void request_proxy();
+  [[nodiscard]] std::shared_ptr<const std::string> proxy_file(std::uint64_t number) const;
+  [[nodiscard]] std::string bytes_of(ShownMesh mesh, bool distances) const;
   [[nodiscard]] bool is_current(const ProxyJob::Status& proxy) const;
   [[nodiscard]] Json design_json() const;
   [[nodiscard]] Json proxy_json() const;
@@ -51,6 +67,8 @@ class Session {
   std::unique_ptr<BrickShelf> solid_;  ///< until the closing takes it
   Vec3d middle_{};                     ///< of the scene; it is subtracted from positions that are sent
   std::string scene_bytes_;
+  PartNames parts_;
+  std::unique_ptr<SceneDistances> distances_;
   std::uint64_t triangles_ = 0;
 
   mutable std::mutex mutex_;  ///< guards all that follows
@@ -61,8 +79,10 @@ class Session {
   std::uint64_t meshed_ = 0, meshed_faces_ = 0;     ///< last request to job_
   bool rules_saved_ = false, proxy_saved_ = false;  ///< saved by this session, so that their files may be replaced
   std::uint64_t saved_revision_ = 0;
+  std::optional<MadeProxies> made_;
 
-  // The closing and the job call changed(), so they are made last and destroyed first.
+  // The closing, the job and the layers call changed(), so they are made last and destroyed first.
+  std::unique_ptr<Layers> layers_;
   std::unique_ptr<ProxyJob> job_;
   std::unique_ptr<LiveClosing> closing_;
 };

@@ -20,6 +20,8 @@ ViewOptions parse_view_options(Args& args) {
   add_scene_format(args, o.voxels.format);
   args.option("--rules", "FILE", o.rules, "rules to go on from, as bpscale reads them; saved rules replace the file");
   args.option("-o,--output", "FILE", o.out, "GLB file of the proxy, once it is saved");
+  args.option("--show", "PATH", o.shown,
+              "show a file beside the scene: a mesh, levels, a tileset, voxels, or a folder of them (can be repeated)");
   o.voxels.add_to(args, std::to_string(kDefaultResolution));
   o.closing.add_element(args);
   args.group("Levels");
@@ -29,7 +31,7 @@ ViewOptions parse_view_options(Args& args) {
   args.flag(
       "--no-open", [&o] { o.opens_browser = false; }, "print the link, and open no browser");
   o.common.add_to(args, CommonOptions::all_parts & ~unsigned(CommonOptions::report_part));
-  args.often({"--rules", "--output", "--voxel", "--resolution", "--faces", "--no-open", "--overwrite"});
+  args.often({"--show", "--rules", "--output", "--voxel", "--resolution", "--faces", "--no-open", "--overwrite"});
   args.parse();
   o.rules_given = args.given("--rules");
   o.voxels.check();

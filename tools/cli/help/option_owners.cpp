@@ -70,6 +70,7 @@ constexpr OptionOfTools kOptionsOfTools[] = {
     {"--resolution", "bpvox, bplod, bpinfo and bpview"},
     {"--rules", "bpview"},
     {"--scale", "bpclose and bplod"},
+    {"--show", "bpview"},
     {"--symmetry", "bplod"},
     {"--temp", "bpvox, bpscale, bpclose, bpmesh, bpcheck, bpdeform, bplod, bpinfo and bpview"},
     {"--tile", "bplod"},

@@ -5,12 +5,21 @@ export interface Rule {
   at?: Vec3 | Vec3[]; box?: Vec3[]; node?: string; view?: unknown; thickness?: unknown; gap?: unknown;
   name?: string; radius?: number | string; support?: number | string; scale?: number | string; mode?: string;
 }
+export interface Measures { triangles: number; volume: number | null; volume_ratio: number | null; farthest: number | null }
+export interface Verdict { answer: string; why: string | null; levels: Measures[] }
+export interface MadeProxy extends Measures { number: number; revision: number; faces: number; answer: string }
+export interface LayerState {
+  name: string; kind: 'mesh' | 'tileset' | 'voxels'; levels: number; contract: string; claims: string; not_claimed: string; made_by: string[];
+  step: 'none' | 'waiting' | 'checking' | 'done' | 'failed'; verdict: Verdict | null; notes: string;
+}
 export interface State {
   scene: { files: string[]; triangles: number; shown: boolean; min: Vec3; max: Vec3; diagonal: number; middle: Vec3; voxel: number; origin: Vec3; up: string };
   design: { revision: number; base: number | string; base_world: number; rules: Rule[]; can_undo: boolean; can_redo: boolean; saved: boolean };
   closing: { asked: number; shown: number; generation: number; voxels: number; seconds: number; error: string };
+  layers: LayerState[];
+  made: MadeProxy[];
   proxy: { step: 'none' | 'meshing' | 'checking' | 'ready' | 'failed' | 'stopped'; current: boolean; faces: number; number: number; bytes: number;
-    mesh_seconds: number; check_seconds: number; notes: string; verdict: { answer: string; why: string | null; triangles: number; farthest: number | null } | null };
+    mesh_seconds: number; check_seconds: number; notes: string; verdict: Verdict | null };
   faces: number; live: boolean; rules_file: string; out_file: string; command: string;
 }
 
@@ -36,6 +45,11 @@ export async function bytes(path: string): Promise<ArrayBuffer> {
 
 export async function post(path: string, body: unknown = {}): Promise<void> {
   await checked(await fetch(path, { method: 'POST', body: JSON.stringify(body) }));
+}
+
+/// Names of the scene's parts, for rules by name.
+export async function parts(): Promise<string[]> {
+  return (await checked(await fetch('/api/parts'))).json();
 }
 
 export async function state(): Promise<State> {

@@ -5,8 +5,8 @@ import { toWorld, type Length } from './lengths';
 import type { State } from './api';
 import type { View } from './view';
 
-export type Tool = 'turn' | 'decrease' | 'increase' | 'erase';
-export const kColors: Record<Tool, string> = { turn: '#888888', decrease: '#2f6fd6', increase: '#d9711f', erase: '#7a8594' };
+export type Tool = 'turn' | 'ruler' | 'decrease' | 'increase' | 'erase';
+export const kColors: Record<Tool, string> = { turn: '#888888', ruler: '#888888', decrease: '#2f6fd6', increase: '#d9711f', erase: '#7a8594' };
 const kSendEvery = 120;  // ms, while a stroke is drawn
 const kMostPoints = 400;
 
@@ -30,6 +30,7 @@ export class Brush {
     canvas.addEventListener('pointerleave', () => { if (!this.drawing) { this.last = null; this.view.setBrush(null, 0, '#000'); this.hover(null); } });
   }
 
+  private get paints(): boolean { return this.tool !== 'turn' && this.tool !== 'ruler'; }
   get world(): number { return toWorld(this.radius, this.facts()); }
 
   private pickAt(event: PointerEvent): THREE.Vector3 | null {
@@ -38,7 +39,7 @@ export class Brush {
   }
 
   private down(event: PointerEvent): void {
-    if (event.button !== 0 || this.tool === 'turn' || event.altKey) return;
+    if (event.button !== 0 || !this.paints || event.altKey) return;
     const at = this.pickAt(event);
     if (!at) return;  // a drag that begins beside the surface turns the view
     event.stopImmediatePropagation();
@@ -72,7 +73,7 @@ export class Brush {
     if (!this.last || (this.last.buttons !== 0 && !this.drawing)) return;
     const at = this.pickAt(this.last);
     this.hover(at && this.view.toScene(at));
-    this.view.setBrush(this.tool === 'turn' ? null : at, this.world, kColors[this.tool]);
+    this.view.setBrush(this.paints ? at : null, this.world, kColors[this.tool]);
     if (!this.drawing || !at) return;
     if (at.distanceTo(this.points[this.points.length - 1]) < this.world / 4 || this.points.length >= kMostPoints) return;
     this.points.push(at);

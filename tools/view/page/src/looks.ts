@@ -7,6 +7,8 @@ export const shared = {
   uBrushColor: { value: new THREE.Color('#2463c9') },
   uBase: { value: 1 },       // scale everywhere, 1/16 voxel
   uByScale: { value: 1 },    // 1: coloured by scale
+  uFarthest: { value: 0 },   // distance from the scene with the last colour; 0: not coloured by distance
+  uCut: { value: 0 },        // 1: back faces have a colour of their own, since a plane cuts surfaces open
 };
 
 /// A lit ball as a picture: warm light from the upper left, cool light from below, and a rim.
@@ -35,28 +37,42 @@ export function makeMatcap(): THREE.DataTexture {
   return texture;
 }
 
-/// A matcap material that shows the brush, and colours by `aScale` where the geometry has it.
-export function surfaceMaterial(matcap: THREE.Texture, color: string, byScale: boolean, more: THREE.MeshMatcapMaterialParameters = {}): THREE.MeshMatcapMaterial {
+/// The attribute of a geometry by which a material colours it.
+export type ColoredBy = 'nothing' | 'scale' | 'distance';
+
+/// Colours of distances from the scene, from 0 to the farthest; page.css has the same.
+const kRamp = ['#4a74c9', '#45b5a4', '#ecd860', '#e8803a', '#b3245f'];
+const ramp = kRamp.map((text) => { const c = new THREE.Color(text); return `vec3(${[c.r, c.g, c.b].map((x) => x.toFixed(4)).join(', ')})`; });
+
+/// A matcap material that shows the brush, and colours by `aValue` of the geometry.
+export function surfaceMaterial(matcap: THREE.Texture, color: string, by: ColoredBy, more: THREE.MeshMatcapMaterialParameters = {}): THREE.MeshMatcapMaterial {
   const material = new THREE.MeshMatcapMaterial({ matcap, color, ...more });
+  const valued = by !== 'nothing';
   material.onBeforeCompile = (shader) => {
     Object.assign(shader.uniforms, shared);
     shader.vertexShader = shader.vertexShader
-      .replace('#include <common>', `#include <common>\n${byScale ? 'attribute float aScale; varying float vScale;' : ''} varying vec3 vPlace;`)
-      .replace('#include <begin_vertex>', `#include <begin_vertex>\nvPlace = (modelMatrix * vec4(position, 1.0)).xyz; ${byScale ? 'vScale = aScale;' : ''}`);
+      .replace('#include <common>', `#include <common>\n${valued ? 'attribute float aValue; varying float vValue;' : ''} varying vec3 vPlace;`)
+      .replace('#include <begin_vertex>', `#include <begin_vertex>\nvPlace = (modelMatrix * vec4(position, 1.0)).xyz; ${valued ? 'vValue = aValue;' : ''}`);
     shader.fragmentShader = shader.fragmentShader
       .replace('#include <common>', `#include <common>
-        uniform vec4 uBrush; uniform vec3 uBrushColor; uniform float uBase, uByScale; varying vec3 vPlace; ${byScale ? 'varying float vScale;' : ''}`)
+        uniform vec4 uBrush; uniform vec3 uBrushColor; uniform float uBase, uByScale, uCut, uFarthest; varying vec3 vPlace; ${valued ? 'varying float vValue;' : ''}`)
       .replace('#include <color_fragment>', `#include <color_fragment>
-        ${byScale ? `
-        float octaves = clamp(log2(max(vScale, 0.5) / uBase) / 3.0, -1.0, 1.0) * uByScale;
+        ${by === 'scale' ? `
+        float octaves = clamp(log2(max(vValue, 0.5) / uBase) / 3.0, -1.0, 1.0) * uByScale;
         vec3 tint = octaves < 0.0 ? vec3(0.03, 0.16, 0.66) : vec3(0.70, 0.165, 0.013);
         diffuseColor.rgb = mix(diffuseColor.rgb, tint * 1.5, 0.85 * sqrt(abs(octaves)));` : ''}
+        ${by === 'distance' ? `
+        float share = clamp(vValue / uFarthest, 0.0, 1.0) * 4.0;
+        diffuseColor.rgb = share < 1.0 ? mix(${ramp[0]}, ${ramp[1]}, share) : share < 2.0 ? mix(${ramp[1]}, ${ramp[2]}, share - 1.0)
+          : share < 3.0 ? mix(${ramp[2]}, ${ramp[3]}, share - 2.0) : mix(${ramp[3]}, ${ramp[4]}, share - 3.0);
+        diffuseColor.rgb *= 1.3;` : ''}
+        if (uCut > 0.5 && !gl_FrontFacing) diffuseColor.rgb = vec3(0.52, 0.05, 0.075);
         if (uBrush.w > 0.0) {
           float d = distance(vPlace, uBrush.xyz) / uBrush.w, w = fwidth(d) + 1e-5;
           float ring = 1.0 - smoothstep(w, 2.2 * w, abs(d - 1.0));
           diffuseColor.rgb = mix(diffuseColor.rgb, uBrushColor, max(0.9 * ring, d < 1.0 ? 0.22 : 0.0));
         }`);
   };
-  material.customProgramCacheKey = () => `surface ${byScale}`;
+  material.customProgramCacheKey = () => `surface ${by}`;
   return material;
 }

@@ -1,16 +1,20 @@
 // The page of bpview (docs/bpview.1.md).
-import { bytes, enter, listen, post, state as askState, type State, type Vec3 } from './api';
+import { bytes, enter, listen, parts as askParts, post, state as askState, type State, type Vec3 } from './api';
 import { Brush, type Tool } from './brush';
-import { show } from './lengths';
+import { percent, show } from './lengths';
+import { Plot, type PlotPoint } from './plot';
+import { Ruler } from './ruler';
 import { complain, FaceField, LengthField, showState } from './panel';
 import { View, type Layer } from './view';
-import { readMesh, readScene, readSurface } from './wire';
+import { Cut } from './cut';
+import { Files } from './files';
+import { readMesh, readSurface } from './wire';
 
 const byId = <T extends HTMLElement>(id: string): T => document.getElementById(id) as T;
 let state: State;
 const shown: Record<Layer, boolean> = { scene: false, closing: true, proxy: false };
 /// State that the tests wait for and read.
-const told = { generation: 0, proxy: 0, revision: 0, ready: false, frames: () => view.frames };
+const told = { generation: 0, proxy: 0, revision: 0, ready: false, files: () => files.told.loaded, frames: () => view.frames };
 (window as any).bpview = told;
 
 const view = new View(byId('canvas'));
@@ -39,8 +43,57 @@ const brush: Brush = new Brush(byId('canvas'), view, facts,
   (rule, again) => (again ? sendLast : (body: unknown) => void send('/api/edit', body))({ op: 'rule', rule, again }),
   (at: Vec3 | null) => { byId('point').textContent = at ? at.map((x) => show(x, 5)).join('  ') : ''; });
 
+const files = new Files(byId('files'), view, (i) => void send('/api/check', { file: i }), () => { showDistances(); showPlot(); });
+const ruler = new Ruler(byId('canvas'), view, facts, byId('ruler-label'), byId('ruler'));
+
+let cut: Cut;
+
+/// The proxy that is shown: one that was made before, or 0, the last one.
+let chosen = 0;
+const plot = new Plot(byId('plot'));
+function chooseProxy(number: number): void {
+  chosen = number === state.proxy.number ? 0 : number;
+  told.proxy = 0;
+  shown.proxy = true;
+  files.showOnly(-1);
+  showLayers();
+  void follow().then(showPlot);
+}
+function showPlot(): void {
+  const now = chosen || state.proxy.number;
+  const made = state.made.map((p): PlotPoint => ({ name: `proxy ${p.number}, ${p.answer}`, faces: p.triangles, error: p.farthest, volume: p.volume_ratio, color: '#3f9d74',
+    current: shown.proxy && p.number === now, act: () => chooseProxy(p.number) }));
+  const levels = state.layers.flatMap((layer, i) => (layer.verdict?.levels ?? []).map((level, n): PlotPoint => ({
+    name: layer.levels > 1 ? `${layer.name}, level ${n}` : layer.name, faces: level.triangles, error: level.farthest, volume: level.volume_ratio, color: files.color(i),
+    current: files.isShown(i, n), act: () => { shown.proxy = false; files.showOnly(i, n); showLayers(); } })));
+  plot.tell([...made, ...levels], state.scene);
+}
+
+/// The legend of the distances from the scene.
+let distances = false;
+function showDistances(): void {
+  const farthest = view.colorByDistance(distances);
+  byId('far').hidden = !(distances && farthest > 0);
+  byId('far-high').textContent = farthest > 0 ? `${show(farthest)} (${show(farthest / state.scene.voxel, 2)} voxels, ${percent(farthest, state.scene)})` : '';
+}
+async function turnDistances(on: boolean): Promise<void> {
+  distances = on;
+  byId<HTMLInputElement>('distances').checked = on;
+  told.proxy = 0;
+  await Promise.all([files.showDistances(on), follow()]);
+  showDistances();
+}
+
+/// The panel has two halves: what a person designs, and what he looks at.
+function turnTo(half: string): void {
+  for (const button of document.querySelectorAll<HTMLButtonElement>('[data-half]')) button.ariaSelected = String(button.dataset.half === half);
+  for (const name of ['design', 'look']) byId(name).hidden = name !== half;
+}
+
 function showLayers(): void {
   view.show(shown);
+  showDistances();
+  showPlot();
   for (const button of document.querySelectorAll<HTMLButtonElement>('[data-layer]'))
     button.ariaPressed = String(shown[button.dataset.layer as Layer]);
 }
@@ -51,11 +104,14 @@ function toggle(layer: Layer): void {
 function choose(tool: Tool): void {
   brush.tool = tool;
   byId('canvas').classList.toggle('brush', tool !== 'turn');
-  const hints: Record<Tool, string> = { turn: 'drag: turn · right drag: move · wheel: zoom', decrease: 'drag on the surface: finer · Alt: turn',
+  ruler.active = tool === 'ruler';
+  byId('cross').hidden = tool !== 'ruler';
+  if (tool !== 'ruler') ruler.clear();
+  const hints: Record<Tool, string> = { ruler: 'click two points · Enter: the point under the cross', turn: 'drag: turn · right drag: move · wheel: zoom', decrease: 'drag on the surface: finer · Alt: turn',
     increase: 'drag on the surface: coarser · Alt: turn', erase: 'drag on the surface: base scale · Alt: turn' };
   byId('hint').textContent = hints[tool];
   for (const button of document.querySelectorAll<HTMLButtonElement>('[data-tool]')) button.ariaPressed = String(button.dataset.tool === tool);
-  if (tool === 'turn') view.setBrush(null, 0, '#000');
+  if (tool === 'turn' || tool === 'ruler') view.setBrush(null, 0, '#000');
 }
 function size(by: number): void {
   const now = Number(byId<HTMLInputElement>('radius-slide').value);
@@ -68,12 +124,22 @@ const edit = (op: string) => void send('/api/edit', { op });
 
 for (const button of document.querySelectorAll<HTMLButtonElement>('[data-layer]')) button.onclick = () => toggle(button.dataset.layer as Layer);
 for (const button of document.querySelectorAll<HTMLButtonElement>('[data-tool]')) button.onclick = () => choose(button.dataset.tool as Tool);
+for (const button of document.querySelectorAll<HTMLButtonElement>('[data-half]')) button.onclick = () => turnTo(button.dataset.half!);
 byId('undo').onclick = () => edit('undo');
 byId('redo').onclick = () => edit('redo');
 byId('mesh').onclick = () => void send(isBusy() ? '/api/stop' : '/api/mesh');
 byId('save-rules').onclick = () => void send('/api/save', { what: 'rules' });
 byId('save-proxy').onclick = () => void send('/api/save', { what: 'proxy' });
 byId<HTMLInputElement>('live').onchange = (event) => void send('/api/edit', { op: 'live', live: (event.target as HTMLInputElement).checked });
+byId<HTMLInputElement>('distances').onchange = (event) => void turnDistances((event.target as HTMLInputElement).checked);
+/// A rule by name has the scale of the brush. A name that no part has is refused by the server.
+function rulePart(mode: 'decrease' | 'increase'): void {
+  const node = byId<HTMLInputElement>('part').value.trim();
+  if (node) void send('/api/edit', { op: 'rule', rule: { node, scale: brush.target, mode } });
+}
+byId('part-finer').onclick = () => rulePart('decrease');
+byId('part-coarser').onclick = () => rulePart('increase');
+byId('prove-all').onclick = () => state.layers.forEach((layer, i) => { if (layer.kind !== 'voxels' && layer.step === 'none') void send('/api/check', { file: i }); });
 byId('copy').onclick = async () => {
   await navigator.clipboard.writeText(state.command).catch(complain);
   byId('copy').textContent = 'Copied';
@@ -94,12 +160,26 @@ addEventListener('keydown', (event) => {
     return;
   }
   if (event.altKey) return;
+  // Arrows turn the view, or move it with Shift; sliders and lists keep theirs.
+  const arrows: Record<string, [number, number]> = { arrowleft: [-1, 0], arrowright: [1, 0], arrowup: [0, 1], arrowdown: [0, -1] };
+  if (event.target === document.body || event.target === byId('view')) {
+    const [right, up] = arrows[key] ?? [0, 0];
+    if (right || up) {
+      if (event.shiftKey) view.pan(right * 0.02, up * 0.02);
+      else view.turn(right * 0.09, up * 0.09);
+      return event.preventDefault();
+    }
+    if (key === 'enter' && ruler.active) return ruler.takeMiddle();
+  }
   const acts: Record<string, () => void> = {
     1: () => toggle('scene'), 2: () => toggle('closing'), 3: () => toggle('proxy'), f: () => view.frame(), '[': () => size(-40), ']': () => size(40),
+    '+': () => view.zoom(0.9), '=': () => view.zoom(0.9), '-': () => view.zoom(1 / 0.9),
     v: () => choose('turn'), escape: () => choose('turn'), b: () => choose('decrease'), c: () => choose('increase'), e: () => choose('erase'),
-    m: () => byId('mesh').click(),
+    m: () => byId('mesh').click(), r: () => choose('ruler'), d: () => void turnDistances(!distances), l: () => turnTo(byId('look').hidden ? 'look' : 'design'),
+    x: () => cut.next(), ',': () => cut.move(-10), '.': () => cut.move(10), '<': () => cut.move(-1), '>': () => cut.move(1), '\\': () => cut.flip(),
   };
-  acts[key]?.();
+  if (key >= '4' && key <= '9') files.toggle(Number(key) - 4);
+  else acts[key]?.();
 });
 
 /// Fetches geometry that is newer than what is shown, one request at a time.
@@ -108,16 +188,18 @@ async function follow(): Promise<void> {
   if (fetching) return;
   fetching = true;
   try {
-    while (told.generation !== state.closing.generation || told.proxy !== state.proxy.number) {
+    while (told.generation !== state.closing.generation || told.proxy !== (chosen || state.proxy.number)) {
       if (told.generation !== state.closing.generation) {
         const surface = readSurface(await bytes(`/api/surface?after=${told.generation}`));
         view.setPieces(surface.pieces);
         told.generation = surface.generation;
       }
-      if (told.proxy !== state.proxy.number) {
-        const number = state.proxy.number, data = await bytes('/api/proxy');
+      if (told.proxy !== (chosen || state.proxy.number)) {
+        const number = chosen || state.proxy.number, asked = distances, data = await bytes(`/api/proxy?number=${chosen}&distances=${Number(distances)}`);
         view.setProxy(data.byteLength ? readMesh(data) : null);
+        if (asked !== distances || number !== (chosen || state.proxy.number)) continue;  // they were switched meanwhile
         told.proxy = number;
+        showDistances();
       }
     }
     told.revision = state.closing.shown;
@@ -128,10 +210,13 @@ async function follow(): Promise<void> {
 }
 
 function tell(next: State): void {
+  if (next.proxy.number !== state.proxy.number) chosen = 0;  // a new proxy is shown at once
   state = next;
   showState(state, (i) => void send('/api/edit', { op: 'remove', rule: i }));
   base.follow(state.design.base);
   faces.follow(state.faces);
+  files.tell(state.layers);
+  showPlot();
   view.setBase(state.design.base_world);
   void follow();
 }
@@ -144,12 +229,18 @@ async function begin(): Promise<void> {
   target.set('0.5%');
   radius.set('3%');
   [brush.target, brush.radius] = ['0.5%', '3%'];
+  cut = new Cut(view, byId('cut'), byId('cut-place'), [...document.querySelectorAll<HTMLButtonElement>('[data-cut]')], byId('cut-flip'));
+  files.tell(state.layers);  // the plot needs its rows
   choose('turn');
+  turnTo(state.layers.length > 0 ? 'look' : 'design');
   showLayers();
   tell(state);
   listen(tell, () => complain('bpview does not answer; is it still running?'));
-  if (state.scene.shown) view.setScene(readScene(await bytes('/api/scene')));
+  if (state.scene.shown) view.setScene(readMesh(await bytes('/api/scene')));
   else byId<HTMLButtonElement>('layers').querySelector<HTMLButtonElement>('[data-layer=scene]')!.disabled = true;
+  const names = await askParts();
+  byId('part-names').replaceChildren(...names.map((value) => Object.assign(document.createElement('option'), { value })));
+  byId('part-row').hidden = names.length === 0;
   told.ready = true;
 }
 begin().catch(complain);

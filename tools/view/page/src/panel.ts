@@ -107,9 +107,10 @@ function showProxy(state: State): void {
   badge.className = `badge ${kind}`;
   verdict.textContent = sentence;
   const rows: [string, string][] = [];
-  if (v && p.step === 'ready') {
-    rows.push(['triangles', v.triangles.toLocaleString('en')]);
-    const far = v.farthest;
+  if (v && v.levels.length > 0 && p.step === 'ready') {
+    const { triangles, farthest: far, volume_ratio: ratio } = v.levels[0];
+    rows.push(['triangles', triangles.toLocaleString('en')]);
+    if (ratio !== null) rows.push(['volume, of the scene’s', show(ratio)]);
     if (far !== null) rows.push(['farthest from scene', `${show(far)} (${percent(far, state.scene)})`]);
     rows.push(['made, checked', `${show(p.mesh_seconds, 2)} s, ${show(p.check_seconds, 2)} s`]);
   }

@@ -6,10 +6,20 @@ export class Picker {
   private target = new THREE.WebGLRenderTarget(1, 1);
   private material = new THREE.ShaderMaterial({
     side: THREE.DoubleSide,
+    clipping: true,  // by the cut plane
     uniforms: { uFar: { value: 1 } },
-    vertexShader: 'varying float vDepth; void main() { vec4 p = modelViewMatrix * vec4(position, 1.0); vDepth = -p.z; gl_Position = projectionMatrix * p; }',
-    fragmentShader: `varying float vDepth; uniform float uFar;
+    vertexShader: `varying float vDepth;
+      #include <clipping_planes_pars_vertex>
       void main() {
+        vec4 mvPosition = modelViewMatrix * vec4(position, 1.0);
+        #include <clipping_planes_vertex>
+        vDepth = -mvPosition.z;
+        gl_Position = projectionMatrix * mvPosition;
+      }`,
+    fragmentShader: `varying float vDepth; uniform float uFar;
+      #include <clipping_planes_pars_fragment>
+      void main() {
+        #include <clipping_planes_fragment>
         float d = clamp(vDepth / uFar, 0.0, 0.999999);
         vec3 part = fract(d * vec3(1.0, 255.0, 65025.0));
         part -= part.yzz * vec3(1.0 / 255.0, 1.0 / 255.0, 0.0);

@@ -1,9 +1,10 @@
-// Draws scene, closing and proxy around the middle of the scene, in scene units.
+// Draws scene, closing, proxy and files around the middle of the scene, in scene units.
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import type { State, Vec3 } from './api';
 import { makeMatcap, shared, surfaceMaterial } from './looks';
 import { Picker } from './picker';
+import { ShownMesh } from './shown';
 import type { Mesh, Piece } from './wire';
 
 export type Layer = 'scene' | 'closing' | 'proxy';
@@ -14,19 +15,23 @@ export class View {
   readonly controls: OrbitControls;
   private renderer: THREE.WebGLRenderer;
   private scene = new THREE.Scene();
-  private layers = { scene: new THREE.Group(), closing: new THREE.Group(), proxy: new THREE.Group() };
-  private edges = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ transparent: true, opacity: 0.75 }));
   private stroke = new THREE.Line(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: '#ffffff', depthTest: false, transparent: true }));
   private matcap = makeMatcap();
-  private closingLook = surfaceMaterial(this.matcap, '#d8d4cc', true);
-  private sceneLook = surfaceMaterial(this.matcap, '#c9d1dc', false, { side: THREE.DoubleSide });
-  private proxyLook = surfaceMaterial(this.matcap, '#9fd0b4', false, { flatShading: true, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
+  private closingLook = surfaceMaterial(this.matcap, '#d8d4cc', 'scale');
+  private mesh = new ShownMesh(this.matcap, '#c9d1dc', { side: THREE.DoubleSide });
+  private proxy = new ShownMesh(this.matcap, '#9fd0b4');
+  private files: ShownMesh[] = [];
+  private layers: Record<Layer, THREE.Group> = { scene: this.mesh.group, closing: new THREE.Group(), proxy: this.proxy.group };
+  private dark = matchMedia('(prefers-color-scheme: dark)');
+  private ruler = new THREE.Line(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: '#d21f5b', depthTest: false, transparent: true }));
+  private ends = new THREE.Points(this.ruler.geometry, new THREE.PointsMaterial({ color: '#d21f5b', size: 9, sizeAttenuation: false, depthTest: false, transparent: true }));
   private pieces = new Map<string, THREE.Mesh>();
   private picker: Picker;
   private size = 1;
   private due = false;
   private facts!: State['scene'];
   frames = 0;
+  drawn: () => void = () => {};  // called after each frame
 
   constructor(private canvas: HTMLCanvasElement) {
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: false });
@@ -35,18 +40,19 @@ export class View {
     this.controls.zoomToCursor = true;
     this.controls.addEventListener('change', () => this.draw());
     this.stroke.renderOrder = 2;
-    this.stroke.frustumCulled = this.edges.frustumCulled = false;
-    this.layers.proxy.add(this.edges);
-    this.scene.add(this.layers.scene, this.layers.closing, this.layers.proxy, this.stroke);
-    const dark = matchMedia('(prefers-color-scheme: dark)');
-    const dress = () => {
-      this.scene.background = new THREE.Color(dark.matches ? '#1b1f25' : '#e4e8ee');
-      this.edges.material.color.set(dark.matches ? '#0c2b1c' : '#123c28');
-      this.draw();
-    };
-    dark.addEventListener('change', dress);
-    dress();
+    this.stroke.frustumCulled = this.ruler.frustumCulled = this.ends.frustumCulled = false;
+    this.ruler.renderOrder = this.ends.renderOrder = 3;
+    this.scene.add(this.layers.scene, this.layers.closing, this.layers.proxy, this.stroke, this.ruler, this.ends);
+    this.dark.addEventListener('change', () => this.dress());
+    this.dress();
     new ResizeObserver(() => this.resize()).observe(canvas);
+  }
+
+  /// Takes the colours that suit a light or a dark page.
+  private dress(): void {
+    this.scene.background = new THREE.Color(this.dark.matches ? '#1b1f25' : '#e4e8ee');
+    for (const { edges } of [this.proxy, ...this.files]) edges.material.color.set(this.dark.matches ? '#0c2b1c' : '#123c28');
+    this.draw();
   }
 
   begin(state: State): void {
@@ -63,7 +69,7 @@ export class View {
 
   /// Makes the scene fill the view, from the present direction; at first from the front, right and above.
   frame(): void {
-    const up = this.camera.up, half = new THREE.Vector3().subVectors(new THREE.Vector3(...this.facts.max), new THREE.Vector3(...this.facts.min)).multiplyScalar(0.5);
+    const up = this.camera.up, half = this.half();
     let from = this.camera.position.clone().sub(this.controls.target);
     if (from.lengthSq() < 1e-30 || this.frames === 0) {
       const front = Math.abs(up.z) > 0.5 ? new THREE.Vector3(0, -1, 0) : Math.abs(up.y) > 0.5 ? new THREE.Vector3(0, 0, 1) : new THREE.Vector3(0, 1, 0);
@@ -84,11 +90,7 @@ export class View {
   }
 
   setScene(mesh: Mesh): void {
-    const geometry = new THREE.BufferGeometry();
-    geometry.setAttribute('position', new THREE.BufferAttribute(mesh.positions, 3));
-    const normals = new THREE.InterleavedBuffer(mesh.normals!, 4);
-    geometry.setAttribute('normal', new THREE.InterleavedBufferAttribute(normals, 3, 0, true));
-    this.layers.scene.add(new THREE.Mesh(geometry, this.sceneLook));
+    this.mesh.set(mesh);
     this.draw();
   }
 
@@ -105,7 +107,7 @@ export class View {
       const geometry = new THREE.BufferGeometry();
       const words = new THREE.InterleavedBuffer(new Uint16Array(piece.bytes), 6), small = new THREE.InterleavedBuffer(new Int8Array(piece.bytes), 12);
       geometry.setAttribute('position', new THREE.InterleavedBufferAttribute(words, 3, 0));
-      geometry.setAttribute('aScale', new THREE.InterleavedBufferAttribute(words, 1, 3));
+      geometry.setAttribute('aValue', new THREE.InterleavedBufferAttribute(words, 1, 3));
       geometry.setAttribute('normal', new THREE.InterleavedBufferAttribute(small, 3, 8, true));
       geometry.setIndex(new THREE.BufferAttribute(piece.corners, 1));
       const middleOf = (kOrigin + kBrick / 2) * kPerVoxel;
@@ -120,29 +122,79 @@ export class View {
   }
 
   setProxy(mesh: Mesh | null): void {
-    this.layers.proxy.children.filter((child): child is THREE.Mesh => child instanceof THREE.Mesh).forEach((child) => {
-      child.geometry.dispose();
-      this.layers.proxy.remove(child);
-    });
-    this.edges.geometry.dispose();
-    this.edges.geometry = new THREE.BufferGeometry();
-    if (mesh) {
-      const geometry = new THREE.BufferGeometry();
-      geometry.setAttribute('position', new THREE.BufferAttribute(mesh.positions, 3));
-      geometry.setIndex(new THREE.BufferAttribute(mesh.corners!, 1));
-      this.layers.proxy.add(new THREE.Mesh(geometry, this.proxyLook));
-      this.edges.geometry = new THREE.WireframeGeometry(geometry);
+    this.proxy.set(mesh);
+    this.draw();
+  }
+
+  /// Colours the proxy and the files by their distance from the scene, where the server told it; false: not.
+  /// Returns the farthest distance of what is shown.
+  colorByDistance(on: boolean): number {
+    const all = [this.proxy, ...this.files];
+    const farthest = Math.max(0, ...all.filter((shown) => shown.group.visible).map((shown) => shown.farthest));
+    shared.uFarthest.value = farthest || 1;
+    for (const shown of all) shown.colorByDistance(on);
+    this.draw();
+    return farthest;
+  }
+
+  /// Turns the view around its target by angles, moves it by shares of its distance, or goes nearer by a factor.
+  turn(right: number, up: number): void {
+    const offset = this.camera.position.clone().sub(this.controls.target), axis = this.camera.up;
+    const side = new THREE.Vector3().crossVectors(axis, offset).normalize();
+    const angle = Math.min(Math.PI - 0.02, Math.max(0.02, offset.angleTo(axis) - up)) - offset.angleTo(axis);
+    offset.applyAxisAngle(side, angle).applyAxisAngle(axis, right);
+    this.camera.position.copy(this.controls.target).add(offset);
+    this.controls.update();
+  }
+  pan(right: number, up: number): void {
+    const distance = this.camera.position.distanceTo(this.controls.target);
+    const step = new THREE.Vector3(right, up, 0).multiplyScalar(distance).applyQuaternion(this.camera.quaternion);
+    this.camera.position.add(step);
+    this.controls.target.add(step);
+    this.controls.update();
+  }
+  zoom(by: number): void {
+    this.camera.position.sub(this.controls.target).multiplyScalar(by).add(this.controls.target);
+    this.controls.update();
+  }
+
+  setFile(i: number, mesh: Mesh): void {
+    while (this.files.length <= i) {
+      const file = new ShownMesh(this.matcap, '#ffffff', { side: this.closingLook.side });
+      this.files.push(file);
+      this.scene.add(file.group);
+      file.group.visible = false;
+    }
+    this.files[i].set(mesh);
+    this.dress();
+  }
+  styleFile(i: number, visible: boolean, color: string, opacity: number): void {
+    const file = this.files[i];
+    if (!file) return;
+    file.group.visible = visible;
+    file.looks[0].color.set(color);
+    file.setOpacity(opacity);
+    this.draw();
+  }
+
+  half(): THREE.Vector3 {
+    return new THREE.Vector3(...this.facts.max).sub(new THREE.Vector3(...this.facts.min)).multiplyScalar(0.5);
+  }
+
+  /// Leaves out what lies behind `plane`. Then surfaces are open, and are drawn from both sides.
+  cut(plane: THREE.Plane | null): void {
+    this.renderer.clippingPlanes = plane ? [plane] : [];
+    const side = plane ? THREE.DoubleSide : THREE.FrontSide;
+    for (const look of [this.closingLook, ...[this.proxy, ...this.files].flatMap((shown) => shown.looks)]) {
+      if (look.side !== side) look.needsUpdate = true;
+      look.side = side;
     }
     this.draw();
   }
 
   show(shown: Record<Layer, boolean>): void {
     for (const layer of Object.keys(shown) as Layer[]) this.layers[layer].visible = shown[layer];
-    const through = shown.proxy && (shown.scene || shown.closing);
-    this.proxyLook.transparent = through;
-    this.proxyLook.opacity = through ? 0.28 : 1;
-    this.proxyLook.depthWrite = !through;
-    this.proxyLook.needsUpdate = true;
+    this.proxy.setOpacity(shown.proxy && (shown.scene || shown.closing) ? 0.28 : 1);
     this.draw();
   }
 
@@ -158,6 +210,12 @@ export class View {
     this.draw();
   }
 
+  setRuler(points: THREE.Vector3[]): void {
+    this.ruler.geometry.dispose();
+    this.ruler.geometry = this.ends.geometry = new THREE.BufferGeometry().setFromPoints(points);
+    this.draw();
+  }
+
   setStroke(points: THREE.Vector3[]): void {
     this.stroke.geometry.dispose();
     this.stroke.geometry = new THREE.BufferGeometry().setFromPoints(points);
@@ -165,10 +223,10 @@ export class View {
     this.draw();
   }
 
-  /// Returns the visible point there, relative to the middle. A transparent proxy is ignored.
+  /// Returns the visible point there, relative to the middle. Transparent meshes are ignored.
   pick(x: number, y: number): THREE.Vector3 | null {
-    const hidden: THREE.Object3D[] = [this.edges, this.stroke];
-    if (this.proxyLook.transparent) hidden.push(this.layers.proxy);
+    const hidden: THREE.Object3D[] = [this.stroke, this.ruler, this.ends];
+    for (const shown of [this.proxy, ...this.files]) hidden.push(shown.transparent ? shown.group : shown.edges);
     return this.picker.pick(this.camera, x, y, this.canvas.clientWidth, this.canvas.clientHeight, hidden);
   }
 
@@ -194,6 +252,7 @@ export class View {
       this.due = false;
       if (this.facts) this.frames++;
       this.renderer.render(this.scene, this.camera);
+      this.drawn();
     });
   }
 }

@@ -1,16 +1,19 @@
-// Reads geometry as the server sends it (tools/view/wire.h).
+// Reads geometry as the server sends it (tools/view/geometry/wire.h, tools/view/shown_mesh.h).
 
-export interface Mesh { positions: Float32Array; normals?: Int8Array; corners?: Uint32Array }
+export interface Mesh { positions: Float32Array; normals: Int8Array | null; corners: Uint32Array | null; edges: Uint32Array | null; distances: Float32Array | null }
 export interface Piece { key: string; brick: [number, number, number]; vertices: number; bytes: ArrayBuffer; corners: Uint32Array }
 
-export function readScene(data: ArrayBuffer): Mesh {
-  const [vertices] = new Uint32Array(data, 0, 1);
-  return { positions: new Float32Array(data, 8, vertices * 3), normals: new Int8Array(data, 8 + vertices * 12, vertices * 4) };
-}
-
 export function readMesh(data: ArrayBuffer): Mesh {
-  const [vertices, triangles] = new Uint32Array(data, 0, 2);
-  return { positions: new Float32Array(data, 8, vertices * 3), corners: new Uint32Array(data, 8 + vertices * 12, triangles * 3) };
+  const [positions, normals, triangles, edges, distances] = new Uint32Array(data, 0, 5);
+  let at = 20;
+  const next = <T>(bytes: number, make: () => T): T => { const made = make(); at += bytes; return made; };
+  return {
+    positions: next(positions * 12, () => new Float32Array(data, at, positions * 3)),
+    normals: next(normals * 4, () => (normals ? new Int8Array(data, at, normals * 4) : null)),
+    corners: next(triangles * 12, () => (triangles ? new Uint32Array(data, at, triangles * 3) : null)),
+    edges: next(edges * 8, () => (edges ? new Uint32Array(data, at, edges * 2) : null)),
+    distances: next(distances * 4, () => (distances ? new Float32Array(data, at, distances) : null)),
+  };
 }
 
 export function readSurface(data: ArrayBuffer): { generation: number; pieces: Piece[] } {

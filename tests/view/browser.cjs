@@ -1,0 +1,70 @@
+// What the tests of the page share: bpview started on a scene, and headless Chromium. CHROMIUM: the browser, else /usr/bin/chromium.
+const path = require('path');
+const { spawn } = require('child_process');
+const { chromium } = require('playwright-core');
+
+exports.sleep = (ms) => new Promise((done) => setTimeout(done, ms));
+
+/// Counts what is wrong, and says it.
+exports.Checks = class {
+  failed = 0;
+  check(what, fine, ...facts) { if (!fine) { this.failed++; console.log('FAILED:', what, ...facts); } }
+};
+
+/// bpview, once it has printed its link.
+exports.serve = (folder, ...args) => {
+  const child = spawn('bpview', ['--no-open', ...args], { cwd: folder, stdio: ['ignore', 'pipe', 'inherit'] });
+  process.on('exit', () => child.kill('SIGKILL'));  // also when a test fails
+  return new Promise((done, fail) => {
+    let text = '';
+    child.stdout.on('data', (data) => { text += data; if (text.includes('\n')) done({ child, link: text.trim() }); });
+    child.on('exit', (code) => fail(new Error(`bpview ended with status ${code}`)));
+  });
+};
+
+exports.end = (child) => {
+  child.kill('SIGINT');
+  return new Promise((done) => child.on('exit', done));
+};
+
+exports.launch = () => chromium.launch({ executablePath: process.env.CHROMIUM || '/usr/bin/chromium',
+  args: ['--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync',
+    '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'] });
+
+/// Opens the page, and waits until it shows the closing. Its errors go to `troubles`.
+exports.open = async (context, link, troubles) => {
+  const page = await context.newPage();
+  page.setDefaultTimeout(60000);
+  page.on('pageerror', (error) => troubles.push(error.message));
+  page.on('console', (message) => { if (message.type() === 'error') troubles.push(message.text()); });
+  await page.goto(link);
+  await page.waitForFunction(() => window.bpview?.ready && window.bpview.generation > 0);
+  return page;
+};
+
+exports.state = (page) => page.evaluate(() => fetch('/api/state').then((r) => r.json()));
+
+exports.until = async (page, done, what) => {
+  for (let i = 0; i < 1200; ++i, await exports.sleep(50)) { const s = await exports.state(page); if (done(s)) return s; }
+  throw new Error(`waited in vain: ${what}`);
+};
+
+exports.picture = (page, folder, name) => page.screenshot({ path: path.join(folder, `${name}.png`) });
+
+/// Returns shares of the pixels in a box of the page: of those that differ from the one at its first corner, and of red ones.
+exports.colors = async (page, x, y, width, height) => {
+  const png = (await page.screenshot({ clip: { x, y, width, height } })).toString('base64');
+  return page.evaluate(async (data) => {
+    const bytes = Uint8Array.from(atob(data), (c) => c.charCodeAt(0));
+    const bitmap = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
+    const canvas = new OffscreenCanvas(bitmap.width, bitmap.height), context = canvas.getContext('2d');
+    context.drawImage(bitmap, 0, 0);
+    const pixels = context.getImageData(0, 0, bitmap.width, bitmap.height).data;
+    let other = 0, red = 0;
+    for (let i = 0; i < pixels.length; i += 4) {
+      if (pixels[i] > 60 && pixels[i + 1] < 0.5 * pixels[i] && pixels[i + 2] < 0.6 * pixels[i]) red++;
+      if (Math.abs(pixels[i] - pixels[0]) + Math.abs(pixels[i + 1] - pixels[1]) + Math.abs(pixels[i + 2] - pixels[2]) > 24) other++;
+    }
+    return { other: (4 * other) / pixels.length, red: (4 * red) / pixels.length };
+  }, png);
+};
