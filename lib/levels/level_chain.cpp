@@ -89,6 +89,7 @@ LevelFacts facts_of(const LodLevel& level, const LodTarget& target) {
   facts.reached = level.reached;
   facts.stopped_by = counts.stopped_by;
   facts.tried = level.tried;
+  facts.limbs = counts.limbs;
   return facts;
 }
 

@@ -37,6 +37,7 @@ struct LevelFacts {
   bool reached = true;          ///< as in LodLevel
   std::string stopped_by;       ///< as in LevelCounts; kFromScene: the level is triangles of the scene
   std::vector<TriedWay> tried;  ///< as in LodLevel
+  LimbCounts limbs;             ///< as in LevelCounts
 };
 [[nodiscard]] LevelFacts facts_of(const LodLevel& level, const LodTarget& target);
 

@@ -6,67 +6,13 @@
 #include <map>
 #include <tuple>
 
-#include "lib/grid/brick_voxels.h"
-#include "lib/quads/detail/cells.h"
+#include "lib/quads/detail/units.h"
 
 namespace bp {
 
 namespace {
 
-constexpr std::int32_t kUnitsAlong = 128;
 constexpr std::int32_t kCubesAlong = 40;  // planes along the longest side before merging
-
-template <class Visit>
-void for_each_voxel(const BrickShelf& shelf, const Visit& visit) {
-  BrickBits bits;
-  for (const BrickCoord& c : shelf.coords()) {
-    (void)shelf.get(c, bits);
-    for_each_voxel(bits, c, visit);
-  }
-}
-
-VoxelBox box_of_voxels(const BrickShelf& shelf) {
-  VoxelBox box;
-  for_each_voxel(shelf, [&](const VoxelCoord& p) {
-    if (box.empty()) box = {p, {p.x + 1, p.y + 1, p.z + 1}};
-    for (int i = 0; i < 3; ++i) {
-      box.min[i] = std::min(box.min[i], p[i]);
-      box.max[i] = std::max(box.max[i], p[i] + 1);
-    }
-  });
-  return box;
-}
-
-/// The grid of units (cubes of some voxels, counted from `origin`), and those units that the surface touches.
-struct Units {
-  VoxelCoord origin;
-  std::int32_t edge = 1;
-  VoxelBox box;
-  std::vector<VoxelCoord> surface;
-};
-
-Units units_of(const BrickShelf& shelf, const std::optional<MirrorPlane>& plane) {
-  Units units;
-  const VoxelBox box = box_of_voxels(shelf);
-  const VoxelCoord size = box.size();
-  units.origin = box.min;
-  if (plane) units.origin[plane->axis] = plane->at;
-  units.edge = (std::max({size.x, size.y, size.z}) + kUnitsAlong - 1) / kUnitsAlong;
-  const auto unit = [&](VoxelCoord p) {
-    for (int i = 0; i < 3; ++i) p[i] = floor_div(p[i] - units.origin[i], units.edge);
-    return p;
-  };
-  units.box.min = unit(box.min);
-  units.box.max = unit({box.max.x - 1, box.max.y - 1, box.max.z - 1}) + VoxelCoord{1, 1, 1};
-  Grid grid(units.box);
-  for_each_voxel(shelf, [&](const VoxelCoord& p) { grid.at(unit(p)) = 1; });
-  for_each(units.box, [&](const VoxelCoord& p) {
-    bool open = false;
-    if (grid.at(p)) for_each_neighbour(p, [&](const VoxelCoord& q, int, bool) { open = open || !grid.at(q); });
-    if (open) units.surface.push_back(p);
-  });
-  return units;
-}
 
 /// Makes the grid of cubes: solid where a cube holds a unit of the surface, or lies inside.
 BoxGrid cubes_of(const Units& units, std::int32_t edge, const std::optional<MirrorPlane>& plane) {
@@ -79,13 +25,18 @@ BoxGrid cubes_of(const Units& units, std::int32_t edge, const std::optional<Mirr
     for (std::int32_t c = first[i]; c <= last; ++c) cells.planes[std::size_t(i)].push_back(c * edge);
   }
   cells.solid = Grid(cells.box());
-  for (VoxelCoord p : units.surface) {
+  for_each(units.box, [&](VoxelCoord p) {
+    bool open = false;  // the surface suffices, since cubes inside are filled
+    if (units.solid.at(p)) {
+      for_each_neighbour(p, [&](const VoxelCoord& q, int, bool) { open = open || !units.solid.at(q); });
+    }
+    if (!open) return;
     for (int i = 0; i < 3; ++i) p[i] = floor_div(p[i], edge) - first[i];
     cells.solid.at(p) = 1;
-    if (!plane) continue;
+    if (!plane) return;
     p[plane->axis] = cells.box().max[plane->axis] - 1 - p[plane->axis];
     cells.solid.at(p) = 1;
-  }
+  });
   fill(cells.solid);
   return cells;
 }
@@ -271,6 +222,14 @@ CellQuads cell_quads(const BrickShelf& voxels, const GridFrame& frame, std::uint
   const Units units = units_of(voxels, plane);
   std::optional<BoxGrid> cells = Merger(cubes_of(units, kUnitsAlong / kCubesAlong, plane), faces, plane).run();
   return cells ? QuadMesher(*cells, units, plane).run(frame) : CellQuads{};
+}
+
+CellQuads cube_quads(const BrickShelf& voxels, const GridFrame& frame, std::int32_t units,
+                     const std::optional<MirrorPlane>& plane) {
+  const Units all = units_of(voxels, plane);
+  BoxGrid cells = cubes_of(all, units, plane);
+  mend(cells, plane);
+  return QuadMesher(cells, all, plane).run(frame);
 }
 
 }  // namespace bp

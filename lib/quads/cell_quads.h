@@ -22,4 +22,9 @@ struct CellQuads {
 [[nodiscard]] CellQuads cell_quads(const BrickShelf& voxels, const GridFrame& frame, std::uint64_t faces,
                                    const std::optional<MirrorPlane>& plane);
 
+/// Makes the boundary of cubes that hold all `voxels`, repaired, without hollows. A cube has `units` 128ths of the
+/// longest side. With a mirror plane the result is its own mirror image and holds the voxels and their mirror image.
+[[nodiscard]] CellQuads cube_quads(const BrickShelf& voxels, const GridFrame& frame, std::int32_t units,
+                                   const std::optional<MirrorPlane>& plane);
+
 }  // namespace bp

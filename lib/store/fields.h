@@ -33,7 +33,7 @@ template <class T, class Act>
 decltype(auto) with_fields(T& s, Act&& act) {
   static_assert(std::is_aggregate_v<std::remove_const_t<T>>, "only structs without constructors have fields");
   constexpr std::size_t n = kFieldCount<T>;
-  static_assert(n >= 1 && n <= 12, "with_fields() knows structs of 1 to 12 members");
+  static_assert(n >= 1 && n <= 13, "with_fields() knows structs of 1 to 13 members");
   if constexpr (n == 1) {
     auto& [a] = s;
     return act(a);
@@ -70,6 +70,9 @@ decltype(auto) with_fields(T& s, Act&& act) {
   } else if constexpr (n == 12) {
     auto& [a, b, c, d, e, f, g, h, i, j, k, l] = s;
     return act(a, b, c, d, e, f, g, h, i, j, k, l);
+  } else if constexpr (n == 13) {
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = s;
+    return act(a, b, c, d, e, f, g, h, i, j, k, l, m);
   }
 }
 

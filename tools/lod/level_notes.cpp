@@ -84,6 +84,22 @@ std::string closed_note(const LevelFacts& level) {
       fewer, level.scale_world, std::uint64_t(1) << (level.attempts - 1), budget);
 }
 
+std::string limbs_note(const LimbCounts& limbs, std::uint64_t budget) {
+  constexpr std::size_t kMostPlaces = 4;
+  if (limbs.joined.empty()) return "";
+  std::string places;
+  for (std::size_t i = 0; i < std::min(limbs.joined.size(), kMostPlaces); ++i) {
+    const Vec3d& p = limbs.joined[i];
+    places += fmt::format("{}{:.4g},{:.4g},{:.4g}", i > 0 ? " " : "", p[0], p[1], p[2]);
+  }
+  return fmt::format(
+      "{} of {} grow together with others in the cage, with tips at {}{}; --faces {} or a smaller --margin may keep "
+      "them "
+      "apart",
+      limbs.joined.size(), counted(limbs.count, "limb"), places, limbs.joined.size() > kMostPlaces ? " ..." : "",
+      2 * budget);
+}
+
 std::string error_note(std::size_t level, double error_world, double asked_world) {
   return fmt::format(
       "level {}: its error is at most {:.4g} instead of {:.4g}: its voxels or its scale are too large for less; a "
@@ -99,6 +115,8 @@ std::vector<std::string> level_notes(const std::vector<LevelFacts>& levels, std:
     const std::string title = title_of(first + i, level, asked && first + levels.size() > 1);
     if (const std::string missed = faces_note(level, asked, scene.triangles); !missed.empty())
       notes.push_back(fmt::format("{}: {}", title, missed));
+    if (const std::string joined = limbs_note(level.limbs, level.target.faces); !joined.empty())
+      notes.push_back(joined);
     if (const double error = level.target.error_world; error > 0 && level.error_world > error)
       notes.push_back(error_note(first + i, level.error_world, error));
     if (level.error_world > scene.bounds.diagonal() && level.target.faces > 0 && level.target.faces < kLeastFaces)

@@ -10,6 +10,9 @@ namespace bp {
 /// `triangles`: the scene's.
 [[nodiscard]] std::string faces_note(const LevelFacts& level, bool asked, std::uint64_t triangles);
 
+/// Returns a note that names the limbs that grow together in a cage of at most `budget` triangles.
+[[nodiscard]] std::string limbs_note(const LimbCounts& limbs, std::uint64_t budget);
+
 /// Returns a note on a level whose error exceeds the one that was asked for; scene units.
 [[nodiscard]] std::string error_note(std::size_t level, double error_world, double asked_world);
 

@@ -18,7 +18,7 @@
 #include "lib/pass/mesh/detail/proxy_limits.h"
 #include "lib/pass/mesh/detail/scaled_edges.h"
 #include "lib/pass/mesh/surface_around.h"
-#include "lib/quads/quad_cage.h"
+#include "lib/quads/limb_cage.h"
 #include "lib/quads/quad_slack.h"
 #include "lib/quads/quads.h"
 #include "lib/simplify/surface_tree.h"
@@ -205,13 +205,16 @@ class LevelMaker {
 
   std::vector<LatticeMesh> cage(const Shelves& shelves, std::uint64_t faces) {
     const std::optional<MirrorPlane>& plane = params_.cage->plane;
-    const CellQuads start = cell_quads(*shelves.meshed, header_.frame, faces, plane);
-    if (start.mesh.triangles.empty())
-      fail(ErrorCode::bad_argument, "{} faces: a cage of quads has at least 12 triangles, and a symmetric one 20",
-           faces);
     return {finish(header_.frame, faces, [&](const SimplifyParams&, LevelCounts& counts) {
       counts.simplify.stop = StopReason::faces;
-      return shrunk_cage(start, *ground_.enclosed, plane);
+      CageLimbs limbs;
+      LatticeMesh mesh = cage_with_limbs(*shelves.meshed, header_.frame, *ground_.enclosed, faces, plane, limbs);
+      if (mesh.triangles.empty())
+        fail(ErrorCode::bad_argument, "{} faces: a cage of quads has at least 12 triangles, and a symmetric one 20",
+             faces);
+      counts.limbs.count = limbs.count;
+      for (const LatticeCoord& tip : limbs.joined) counts.limbs.joined.push_back(header_.frame.world(tip));
+      return mesh;
     })};
   }
 

@@ -81,6 +81,12 @@ struct MeshParams {
   static constexpr double kErrorShareBall = 1e-3, kErrorShareCube = 1e-2;
 };
 
+/// The limbs of what a cage encloses (lib/quads/limbs.h).
+struct LimbCounts {
+  std::uint64_t count = 0;
+  std::vector<Vec3d> joined;  ///< tips of those that grow together in the cage, scene units
+};
+
 struct LevelCounts {
   SimplifyCounts simplify;
   TightenCounts tighten;
@@ -88,6 +94,7 @@ struct LevelCounts {
   double edge_factor = 0;  ///< the factor that limited the edges; 0: no limit
   std::string stopped_by;  ///< the target that was reached first (faces, error, volume, edge-length), or another reason
   MeshMeasures measures;
+  LimbCounts limbs;  ///< of a cage
 };
 
 struct MeshCounts {

@@ -18,6 +18,13 @@ class EnclosedByPairs final : public Enclosed {
     partner_[f] = g;
     partner_[g] = f;
   }
+  void part(FaceId f, FaceId g) { partner_[f] = partner_[g] = kNoId; }
+  /// Returns whether moving v to `to` keeps the enclosed set inside under the other diagonals of the pairs around v.
+  [[nodiscard]] bool allows_corner(VertexId v, const LatticeCoord& to) const { return across_allows(v, to, nullptr); }
+  /// Without contact points an editor is made quickly, but cannot fit.
+  void give_contacts(bool on) { contacts_ = on; }
+  /// A change leaves each quad at least this quality, or the one that it had.
+  void set_least_quality(double quality) { least_quality_ = quality; }
   /// Flips are refused unless this is set, since they would break pairs.
   void allow_flips(bool on) { flips_ = on; }
 
@@ -28,7 +35,7 @@ class EnclosedByPairs final : public Enclosed {
     return enclosed_.allows(star, swept, blocker) && across_allows(star[0].ids[0], star[0].corners[0], blocker);
   }
   [[nodiscard]] std::vector<Vec3d> contact_points(const LatticeCoord& origin, const LatticeBox& within) const override {
-    return enclosed_.contact_points(origin, within);
+    return contacts_ ? enclosed_.contact_points(origin, within) : std::vector<Vec3d>{};
   }
   [[nodiscard]] std::uint64_t bytes() const override { return enclosed_.bytes(); }
 
@@ -69,13 +76,14 @@ class EnclosedByPairs final : public Enclosed {
     for (std::size_t i = 0; i < 4; ++i) p[i] = mesh_.position(quad[i]);
     const double before = quad_quality(p);
     p[0] = to;
-    return quad_quality(p) >= std::min(before, kLeastQuadQuality);
+    return quad_quality(p) >= std::min(before, least_quality_);
   }
 
   const HalfEdgeMesh& mesh_;
   const Enclosed& enclosed_;
   std::vector<FaceId> partner_;
-  bool flips_ = false;
+  double least_quality_ = kLeastQuadQuality;
+  bool flips_ = false, contacts_ = true;
 };
 
 }  // namespace bp

@@ -1,0 +1,47 @@
+#pragma once
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "lib/quads/cell_quads.h"
+#include "lib/tighten/fan_fit.h"
+#include "lib/tighten/proxy_editor.h"
+
+namespace bp {
+
+/// Moves the vertices of a cage, each together with its mirror image, as far as its editor allows.
+class Skin {
+ public:
+  Skin(const CellQuads& cage, HalfEdgeMesh& mesh, ProxyEditor& editor, const std::optional<MirrorPlane>& plane);
+
+  /// Evens the vertices out and moves them inwards.
+  void relax();
+  /// Moves the vertices outwards by `share` times their mean edge.
+  void swell(double share);
+  /// Moves each vertex to where the solid is smallest.
+  void fit();
+
+  /// Moves v by `by`, or by the largest of its halves, quarters ... that is allowed.
+  bool go(VertexId v, Vec3d by);
+  /// Returns the outer normal at v, of length 1, or 0 if it has none.
+  [[nodiscard]] Vec3d normal(VertexId v) const;
+
+ private:
+  template <class Step>
+  void for_each(const Step& step);
+  [[nodiscard]] Vec3d to_mean(VertexId v, double& edge) const;
+  void relax(VertexId v);
+  void push(VertexId v, double inwards);
+  void fit(VertexId v);
+  double gather(VertexId v, const Vec3d& shift);
+  bool move(VertexId v, LatticeCoord to);
+
+  const CellQuads& cage_;
+  HalfEdgeMesh& mesh_;
+  ProxyEditor& editor_;
+  const std::optional<MirrorPlane>& plane_;
+  std::vector<std::set<VertexId>> near_;  // per vertex: its neighbours along edges of quads
+  FanFit fit_;
+};
+
+}  // namespace bp

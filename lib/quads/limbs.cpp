@@ -1,0 +1,266 @@
+#include "lib/quads/limbs.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "lib/quads/detail/units.h"
+
+namespace bp {
+
+namespace {
+
+constexpr double kLeastLength = 0.03;  // of the diagonal
+// A share of the way to the tip. Ways along the steps of cubes are up to a twelfth too long: a ball would have limbs.
+constexpr double kLeastShare = 0.1;
+constexpr std::int32_t kRim = 16;  // units that a cage may reach beyond the voxels; what lies farther is cut off
+constexpr std::int32_t kStep = 3;  // length of a step along an axis; 4 and 5 are those across two and three
+constexpr std::int32_t kFar = -1;  // no way leads there
+
+using Cell = std::uint32_t;
+constexpr Cell kNoCell = ~Cell(0);
+
+/// A box of cubes, numbered along x first. The outermost ones are empty.
+struct Cubes {
+  VoxelBox box;
+  std::array<std::int32_t, 26> step{}, length{};
+  std::vector<char> solid;
+
+  explicit Cubes(const VoxelBox& b) : box(b), solid(std::size_t(b.volume()), 0) {
+    std::size_t n = 0;
+    const VoxelCoord size = box.size();
+    for (std::int32_t z = -1; z <= 1; ++z) {
+      for (std::int32_t y = -1; y <= 1; ++y) {
+        for (std::int32_t x = -1; x <= 1; ++x) {
+          if (x == 0 && y == 0 && z == 0) continue;
+          step[n] = (z * size.y + y) * size.x + x;
+          length[n++] = kStep - 1 + std::abs(x) + std::abs(y) + std::abs(z);
+        }
+      }
+    }
+  }
+  [[nodiscard]] Cell number(const VoxelCoord& p) const {
+    const VoxelCoord d = p - box.min, size = box.size();
+    return Cell((d.z * size.y + d.y) * size.x + d.x);
+  }
+  [[nodiscard]] VoxelCoord place(Cell c) const {
+    const VoxelCoord size = box.size();
+    const auto i = std::int32_t(c);
+    return box.min + VoxelCoord{i % size.x, i / size.x % size.y, i / size.x / size.y};
+  }
+};
+
+/// The lengths of the ways from the root, and the cubes by their length.
+struct Ways {
+  std::vector<std::int32_t> length;
+  std::vector<std::vector<Cell>> by_length;
+};
+
+Ways ways_from(Cell root, const Cubes& cubes) {
+  Ways ways{std::vector<std::int32_t>(cubes.solid.size(), kFar), {{root}}};
+  ways.length[root] = 0;
+  for (std::size_t n = 0; n < ways.by_length.size(); ++n) {
+    std::vector<Cell> settled;
+    for (std::size_t i = 0; i < ways.by_length[n].size(); ++i) {
+      const Cell c = ways.by_length[n][i];
+      if (ways.length[c] != std::int32_t(n)) continue;
+      settled.push_back(c);
+      for (std::size_t k = 0; k < cubes.step.size(); ++k) {
+        const Cell to = c + Cell(cubes.step[k]);
+        const std::int32_t far = std::int32_t(n) + cubes.length[k];
+        if (!cubes.solid[to] || (ways.length[to] != kFar && ways.length[to] <= far)) continue;
+        ways.length[to] = far;
+        if (ways.by_length.size() <= std::size_t(far)) ways.by_length.resize(std::size_t(far) + 1);
+        ways.by_length[std::size_t(far)].push_back(to);
+      }
+    }
+    std::sort(settled.begin(), settled.end());
+    settled.erase(std::unique(settled.begin(), settled.end()), settled.end());
+    ways.by_length[n] = std::move(settled);
+  }
+  return ways;
+}
+
+/// Returns the cube that is left last if layers of cubes are taken away from outside.
+Cell deepest(const Cubes& cubes) {
+  std::vector<char> left = cubes.solid;
+  std::vector<Cell> layer, next;
+  const std::array<std::size_t, 6> sides{4, 10, 12, 13, 15, 21};  // the steps along axes
+  for (Cell c = 0; c < left.size(); ++c) {
+    if (!left[c]) continue;
+    if (std::any_of(sides.begin(), sides.end(), [&](std::size_t k) { return !left[c + Cell(cubes.step[k])]; }))
+      layer.push_back(c);
+  }
+  Cell last = kNoCell;
+  while (!layer.empty()) {
+    last = *std::min_element(layer.begin(), layer.end());
+    for (const Cell c : layer) left[c] = 0;
+    next.clear();
+    for (const Cell c : layer) {
+      for (const std::size_t k : sides) {
+        Cell to = c + Cell(cubes.step[k]);
+        if (left[to] == 1) left[to] = 2, next.push_back(to);
+      }
+    }
+    std::swap(layer, next);
+  }
+  return last;
+}
+
+/// Grows the parts of the cubes beyond t while t shrinks. Two parts that meet are named by a cube each; meet(one,
+/// other, t) returns the name that their union keeps.
+template <class Meet>
+void grow_parts(const Ways& ways, const Cubes& cubes, const Meet& meet) {
+  std::vector<Cell> up(ways.length.size(), kNoCell);
+  const auto find = [&](Cell c) {
+    while (up[c] != c) c = up[c] = up[up[c]];
+    return c;
+  };
+  for (std::size_t n = ways.by_length.size(); n-- > 0;) {
+    for (const Cell c : ways.by_length[n]) {
+      up[c] = c;
+      for (const std::int32_t step : cubes.step) {
+        const Cell to = c + Cell(step);
+        if (up[to] == kNoCell) continue;
+        const Cell a = find(c), b = find(to);
+        if (a == b) continue;
+        const Cell kept = meet(a, b, std::int32_t(n));
+        up[kept == a ? b : a] = kept;
+      }
+    }
+  }
+}
+
+/// Returns the tips of the parts that grow by `least` or more. A part is named by its tip.
+std::vector<Cell> tips_of(const Ways& ways, const Cubes& cubes, std::int32_t least) {
+  std::vector<Cell> tips{ways.by_length.back().front()};
+  grow_parts(ways, cubes, [&](Cell a, Cell b, std::int32_t t) {
+    const bool first = ways.length[a] != ways.length[b] ? ways.length[a] > ways.length[b] : a < b;
+    const Cell farther = first ? a : b, nearer = first ? b : a;
+    if (ways.length[nearer] - t >= std::max(least, std::int32_t(kLeastShare * ways.length[nearer])))
+      tips.push_back(nearer);
+    return farther;
+  });
+  std::sort(tips.begin(), tips.end());
+  tips.erase(std::unique(tips.begin(), tips.end()), tips.end());
+  return tips;
+}
+
+/// Returns, for each tip, the t at which its part first meets a part with another tip; 0 if it meets none.
+std::vector<std::int32_t> meetings_of(const std::vector<Cell>& tips, const Ways& ways, const Cubes& cubes) {
+  std::vector<std::int32_t> met(tips.size(), 0);
+  std::map<Cell, std::vector<std::size_t>> inside;  // tips of a part, by its name
+  for (std::size_t i = 0; i < tips.size(); ++i) inside[tips[i]] = {i};
+  grow_parts(ways, cubes, [&](Cell a, Cell b, std::int32_t t) {
+    const auto in_a = inside.find(a), in_b = inside.find(b);
+    if (in_b == inside.end()) return a;
+    if (in_a == inside.end()) return b;
+    for (const auto& part : {in_a, in_b}) {
+      if (part->second.size() == 1) met[part->second[0]] = t;
+    }
+    in_a->second.insert(in_a->second.end(), in_b->second.begin(), in_b->second.end());
+    inside.erase(in_b);
+    return a;
+  });
+  return met;
+}
+
+/// Marks the cubes whose middles lie inside a closed mesh. `corner`: lattice point at the corner of cube (0, 0, 0);
+/// `edge`: of a cube, lattice units. Along each line of middles, those lie inside that have an odd number of crossings
+/// below. Lines are moved off the corners of the mesh by an odd share of a lattice unit.
+void mark_inside(const LatticeMesh& mesh, const LatticeCoord& corner, double edge, Cubes& cubes) {
+  constexpr double kAside[2] = {0.137, 0.291};  // lattice units
+  const VoxelCoord size = cubes.box.size();
+  std::vector<char> crossed(cubes.solid.size(), 0);
+  for (const auto& t : mesh.triangles) {
+    std::array<std::array<double, 3>, 3> p{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (int i = 0; i < 3; ++i)
+        p[k][std::size_t(i)] = (double(mesh.vertices[t[k]][i] - corner[i]) + (i < 2 ? kAside[i] : 0)) / edge - 0.5;
+    }
+    const double area = (p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) - (p[1][1] - p[0][1]) * (p[2][0] - p[0][0]);
+    if (area == 0) continue;
+    std::array<std::int32_t, 2> low{}, high{};
+    for (std::size_t i = 0; i < 2; ++i) {
+      const auto [least, most] = std::minmax({p[0][i], p[1][i], p[2][i]});
+      low[i] = std::max(std::int32_t(std::ceil(least)), cubes.box.min[int(i)]);
+      high[i] = std::min(std::int32_t(std::floor(most)), cubes.box.max[int(i)] - 1);
+    }
+    for (std::int32_t y = low[1]; y <= high[1]; ++y) {
+      for (std::int32_t x = low[0]; x <= high[0]; ++x) {
+        const double u = ((x - p[0][0]) * (p[2][1] - p[0][1]) - (y - p[0][1]) * (p[2][0] - p[0][0])) / area;
+        const double v = ((p[1][0] - p[0][0]) * (y - p[0][1]) - (p[1][1] - p[0][1]) * (x - p[0][0])) / area;
+        if (u < 0 || v < 0 || u + v > 1) continue;
+        const double z = std::ceil(p[0][2] + u * (p[1][2] - p[0][2]) + v * (p[2][2] - p[0][2]));
+        if (z < cubes.box.max.z) crossed[cubes.number({x, y, std::max(std::int32_t(z), cubes.box.min.z)})] ^= 1;
+      }
+    }
+  }
+  for (std::int32_t y = cubes.box.min.y + 1; y < cubes.box.max.y - 1; ++y) {
+    for (std::int32_t x = cubes.box.min.x + 1; x < cubes.box.max.x - 1; ++x) {
+      char inside = crossed[cubes.number({x, y, cubes.box.min.z})];
+      for (std::int32_t z = cubes.box.min.z + 1; z < cubes.box.max.z - 1; ++z) {
+        const Cell c = cubes.number({x, y, z});
+        inside = char(inside ^ crossed[c]);
+        if (inside) cubes.solid[c] = 1;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+struct Limbs::State {
+  explicit State(const Units& u) : origin(u.origin), edge(u.edge), cubes(u.box.grown(kRim)) {
+    for_each(u.box, [&](const VoxelCoord& p) { cubes.solid[cubes.number(p)] = u.solid.at(p); });
+  }
+  VoxelCoord origin;  // in voxels
+  std::int32_t edge;  // in voxels
+  Cubes cubes;
+  Cell root = kNoCell;
+  std::vector<Cell> tips;
+  std::vector<std::int32_t> length;
+};
+
+Limbs::Limbs(const BrickShelf& voxels) {
+  const Units units = units_of(voxels, std::nullopt);
+  state_ = std::make_unique<State>(units);
+  State& s = *state_;
+  s.root = deepest(s.cubes);
+  if (s.root == kNoCell) return;
+  const Ways ways = ways_from(s.root, s.cubes);
+  const VoxelCoord size = units.box.size();
+  const double diagonal = std::sqrt(double(size.x) * size.x + double(size.y) * size.y + double(size.z) * size.z);
+  s.tips = tips_of(ways, s.cubes, std::int32_t(kLeastLength * kStep * diagonal));
+  const std::vector<std::int32_t> met = meetings_of(s.tips, ways, s.cubes);
+  for (std::size_t i = 0; i < s.tips.size(); ++i) s.length.push_back(ways.length[s.tips[i]] - met[i]);
+}
+
+Limbs::~Limbs() = default;
+
+std::size_t Limbs::count() const {
+  return state_->tips.size();
+}
+
+std::vector<LatticeCoord> Limbs::joined(const LatticeMesh& cage) const {
+  const State& s = *state_;
+  std::vector<LatticeCoord> places;
+  if (s.tips.size() < 2) return places;
+  Cubes around = s.cubes;
+  LatticeCoord corner;
+  for (int i = 0; i < 3; ++i) corner[i] = std::int64_t(s.origin[i]) * kLatticePerVoxel;
+  const std::int64_t edge = std::int64_t(s.edge) * kLatticePerVoxel;
+  mark_inside(cage, corner, double(edge), around);
+  const Ways ways = ways_from(s.root, around);
+  const std::vector<std::int32_t> met = meetings_of(s.tips, ways, around);
+  for (std::size_t i = 0; i < s.tips.size(); ++i) {
+    if (2 * (ways.length[s.tips[i]] - met[i]) > s.length[i]) continue;
+    const VoxelCoord p = s.cubes.place(s.tips[i]);
+    places.push_back(corner +
+                     LatticeCoord{(2 * p.x + 1) * edge / 2, (2 * p.y + 1) * edge / 2, (2 * p.z + 1) * edge / 2});
+  }
+  return places;
+}
+
+}  // namespace bp
