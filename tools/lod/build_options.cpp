@@ -10,6 +10,7 @@
 #include "tools/cli/names.h"
 #include "tools/cli/output_name.h"
 #include "tools/lod/choices.h"
+#include "tools/lod/scene/visual_options.h"
 
 namespace bp {
 
@@ -136,32 +137,6 @@ void check_profile(const Args& args, const BuildOptions& o) {
     fail(ErrorCode::bad_argument, "--enclose scene: a scene from a pipe cannot be read again; give it as a file");
 }
 
-/// Refuses what --mode visual cannot do.
-void check_visual(const Args& args, const BuildOptions& o) {
-  if (!o.proxy.visual) return;
-  if (o.profile != LodProfile::gltf && !o.is_tileset())
-    fail(ErrorCode::bad_argument, "--mode visual needs --profile gltf or 3dtiles");
-  if (o.obj) fail(ErrorCode::bad_argument, "--mode visual writes GLB; give -o a folder");
-  if (!can_read_again(o))
-    fail(ErrorCode::bad_argument, "--mode visual: a scene from a pipe cannot be read again; give it as a file");
-  for (const char* const name : {"--error", "--enclose", "--field"})
-    if (args.given(name))
-      fail(ErrorCode::bad_argument, "--mode visual takes a number of faces, and encloses nothing; leave {} out", name);
-}
-
-/// Refuses what tiles that are the scene's own triangles do not have: voxels, a closing, levels.
-void check_scene_tiles(const Args& args, const BuildOptions& o) {
-  if (!o.shows_scene()) return;
-  for (const char* const name :
-       {"--voxel", "--resolution", "--fill", "--scale", "--levels", "--tile", "--tiles", "--leaves"})
-    if (args.given(name))
-      fail(ErrorCode::bad_argument,
-           "{} has no meaning with --profile 3dtiles --mode visual: tiles follow from the scene", name);
-  if (o.levels.faces.size() > 1)
-    fail(ErrorCode::bad_argument,
-         "--faces: --profile 3dtiles --mode visual takes one number, the most triangles of each tile");
-}
-
 /// Sets the options of profiles that have only one level, which nobody looks at.
 void set_one_level(BuildOptions& o) {
   if (o.profile == LodProfile::gltf || o.is_tileset()) return;
@@ -212,7 +187,7 @@ void declare_profile(Args& args, BuildOptions& o) {
   args.group("Profile");
   args.option("--profile",
               {{"gltf", LodProfile::gltf, "levels of detail as GLB"},
-               {"3dtiles", LodProfile::tiles, "a tileset for CesiumJS; to be looked at with --mode visual"},
+               {"3dtiles", LodProfile::tiles, "a tileset for CesiumJS; to look at: --mode visual"},
                {"collision", LodProfile::collision,
                 "a body for physics: one mesh for Godot and Unity, convex hulls for Unreal"},
                {"occluder", LodProfile::occluder, "one mesh inside, for culling in Godot"},
@@ -362,7 +337,6 @@ BuildOptions parse_build_options(Args& args) {
   settle(o);
   take_obj_name(args, o);
   check_visual(args, o);
-  check_scene_tiles(args, o);
   check_output(o);
   check_jobs(o);
   check_name(o);
