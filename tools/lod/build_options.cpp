@@ -187,7 +187,7 @@ void declare_profile(Args& args, BuildOptions& o) {
   args.group("Profile");
   args.option("--profile",
               {{"gltf", LodProfile::gltf, "levels of detail as GLB"},
-               {"3dtiles", LodProfile::tiles, "a tileset for CesiumJS; to look at: --mode visual"},
+               {"3dtiles", LodProfile::tiles, "a tileset; to look at: --mode visual"},
                {"collision", LodProfile::collision,
                 "a body for physics: one mesh for Godot and Unity, convex hulls for Unreal"},
                {"occluder", LodProfile::occluder, "one mesh inside, for culling in Godot"},
