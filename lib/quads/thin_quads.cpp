@@ -28,6 +28,9 @@ constexpr double kPerRound = 0.25;  // share of the strips that a round tries be
 constexpr std::array<double, 6> kOutwards{0,    0.1, 0.2,
                                           0.35, 0.5, 0.75};  // times the mean edge: places of merged vertices
 constexpr std::array<double, 3> kAlong{0.5, 0, 1};
+/// A cage is given up when taking back failed steps has cost so many quads, each step all of the cage's: spiders and
+/// elephants need up to 1.4 million, and a soup of loose triangles would take minutes.
+constexpr std::uint64_t kMostTakenBack = std::uint64_t(1) << 21;
 
 std::vector<Quad> quads_of(const LatticeMesh& mesh) {
   std::vector<Quad> quads;
@@ -47,9 +50,10 @@ double area_of(const std::vector<Quad>& quads, const std::vector<Vec3d>& p) {
 class Thinner {
  public:
   Thinner(const CellQuads& cage, std::vector<Vec3d> tight, const Enclosed& enclosed,
-          const std::optional<MirrorPlane>& plane)
+          const std::optional<MirrorPlane>& plane, std::uint64_t& taken_back)
       : cage_(cage),
         plane_(plane),
+        taken_back_(taken_back),
         tight_(std::move(tight)),
         quads_(quads_of(cage.mesh)),
         alive_(quads_.size(), 1),
@@ -66,7 +70,7 @@ class Thinner {
   /// Removes strips until `goal` quads are left, or as many as are possible. `last`: the number for the whole cage.
   CellQuads run(std::size_t goal, std::size_t last, int most_worse) {
     std::size_t before = left_ + 1;
-    while (left_ > goal && left_ < before) {
+    while (left_ > goal && left_ < before && taken_back_ <= kMostTakenBack) {
       before = left_;
       round(goal, last, most_worse);
     }
@@ -92,8 +96,10 @@ class Thinner {
     touched_.assign(mesh_.vertex_capacity(), 0);
     const auto most = std::size_t(kPerRound * double(strips.size())) + 1;
     std::size_t removed = 0;
-    for (std::size_t i = 0; i < strips.size() && left_ > goal && (i < most || removed == 0); ++i)
+    for (std::size_t i = 0; i < strips.size() && left_ > goal && (i < most || removed == 0); ++i) {
+      if (taken_back_ > kMostTakenBack) return;
       removed += remove(strips[i]);
+    }
   }
 
   [[nodiscard]] std::uint32_t image(std::uint32_t quad) const {
@@ -132,6 +138,7 @@ class Thinner {
       }
       return true;
     }
+    taken_back_ += quads_.size();
     mesh_ = mesh;
     quads_ = quads;
     for (const std::uint32_t q : gone) {
@@ -253,7 +260,8 @@ class Thinner {
 
   const CellQuads& cage_;
   const std::optional<MirrorPlane>& plane_;
-  std::vector<Vec3d> tight_;  // by vertex: where it lies when the cage is shrunk
+  std::uint64_t& taken_back_;  // quads of cages that failed steps were taken back in
+  std::vector<Vec3d> tight_;   // by vertex: where it lies when the cage is shrunk
   std::vector<Quad> quads_;
   std::vector<char> alive_;
   std::size_t left_;
@@ -288,10 +296,12 @@ CellQuads thinned(CellQuads cage, const Enclosed& enclosed, std::uint64_t faces,
   const auto& worse = thinning == Thinning::strips ? kWorseAfterStrips : kWorseOfSingles;
   const std::size_t last = faces / 2;
   std::vector<Vec3d> tight = relax(cage, enclosed, plane);
+  std::uint64_t taken_back = 0;
   for (std::size_t step = 0; cage.mesh.quads.size() > last;) {
     const std::size_t before = cage.mesh.quads.size();
     const auto goal = std::max(last, std::size_t((step == 0 ? kPerStage : kPerSingles) * double(before)));
-    cage = Thinner(cage, std::move(tight), enclosed, plane).run(goal, last, worse[step]);
+    cage = Thinner(cage, std::move(tight), enclosed, plane, taken_back).run(goal, last, worse[step]);
+    if (taken_back > kMostTakenBack) return {};
     if (double(cage.mesh.quads.size()) <= kLeastProgress * double(before))
       step = 0;
     else if (++step == worse.size())
