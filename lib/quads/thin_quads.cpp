@@ -30,7 +30,7 @@ constexpr std::array<double, 6> kOutwards{0,    0.1, 0.2,
 constexpr std::array<double, 3> kAlong{0.5, 0, 1};
 /// A cage is given up when taking back failed steps has cost so many quads, each step all of the cage's: spiders and
 /// elephants need up to 1.4 million, and a soup of loose triangles would take minutes.
-constexpr std::uint64_t kMostTakenBack = std::uint64_t(1) << 21;
+constexpr std::uint64_t kMostTakenBack = std::uint64_t(1) << 22;
 
 std::vector<Quad> quads_of(const LatticeMesh& mesh) {
   std::vector<Quad> quads;

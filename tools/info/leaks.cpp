@@ -38,7 +38,7 @@ std::set<std::string> parts_near(const StreamHeader& header, SceneOptions how, c
 
 std::string row_text(const PlacedLeak& leak, const GridFrame& frame, std::size_t number) {
   return fmt::format(
-      "leak {:<6} {}, {:.3g} wide{}; needs --scale {:.4g}\n"
+      "leak {:<6} {}, {:.3g} wide{}; needs --scale {:.4g} or more\n"
       "  room      {:.4g}, up to {:.3g} wide; --scale {:.4g} fills it\n",
       number, place_text(middle_of(leak.place, frame), frame), leak.width * frame.voxel, parts_text(leak.parts),
       closing_scale(leak, frame), room_volume(leak, frame), 2 * filling_scale(leak, frame), filling_scale(leak, frame));
@@ -105,6 +105,7 @@ LeakInfo leak_info(const StreamHeader& header, const BitBox& walls, const Memory
   const GridFrame& frame = header.frame;
   GroundedLeaks found = find_grounded_leaks(walls, ground_of(frame), part_of(memory, 1 - kDenseShare));
   LeakInfo info{frame, {}, 0, 0, double(found.closed_voxels) * std::pow(frame.voxel, 3), found.on_ground};
+  info.is_filled = header.fill != FillMode::none;
   for (const Leak& leak : found.leaks) {
     if (info.leaks.size() < kMostLeaks) {
       info.leaks.push_back({leak, {}});
@@ -129,12 +130,16 @@ void name_parts(const StreamHeader& header, const SceneOptions& how, LeakInfo& i
 std::string leak_text(const LeakInfo& info, const std::string& name) {
   std::string text = fmt::format("{}: leaks\nvoxel       {}\n", name, info.frame.voxel);
   if (info.on_ground) text += "ground      the scene stands on it\n";
-  text += fmt::format("closed      {:.4g} that the outside does not reach\n", info.closed_volume);
+  if (info.is_filled) {
+    text += "closed      not known: the stream is filled; bpvox --fill none leaves rooms empty\n";
+  } else {
+    text += fmt::format("closed      {:.4g} that the outside does not reach\n", info.closed_volume);
+  }
   for (std::size_t i = 0; i < info.leaks.size(); ++i) text += row_text(info.leaks[i], info.frame, i + 1);
   if (info.left_out > 0)
     text += fmt::format("more        {} leak{}, of rooms of {:.3g} together\n", info.left_out,
                         info.left_out == 1 ? "" : "s", info.left_out_volume);
-  if (info.leaks.empty()) text += "leaks       none: no room is wider than the way into it\n";
+  if (info.leaks.empty()) text += "leaks       none: what the outside reaches is nowhere wider than the way into it; open sides make no rooms\n";
   return text;
 }
 
@@ -145,7 +150,7 @@ Json leak_json(const LeakInfo& info) {
           {"voxel", info.frame.voxel},
           {"up", name_of(info.frame.up)},
           {"ground", info.on_ground},
-          {"closed_volume", info.closed_volume},
+          {"closed_volume", info.is_filled ? Json(nullptr) : Json(info.closed_volume)},
           {"leaks", rows},
           {"left_out", {{"leaks", info.left_out}, {"volume", info.left_out_volume}}}};
 }

@@ -46,6 +46,7 @@ struct LeakInfo {
   double left_out_volume = 0;     ///< of their rooms, scene units
   double closed_volume = 0;       ///< of rooms that the outside does not reach, scene units
   bool on_ground = false;
+  bool is_filled = false;  ///< the stream has what its surface encloses as solid: closed rooms cannot be seen
 };
 
 /// Finds the leaks of the walls, without names of parts. Throws as find_leaks().

@@ -47,7 +47,7 @@ std::string place_text(const Vec3d& p, const GridFrame& frame) {
 }
 
 std::string leak_sentence(const Leak& leak, const GridFrame& frame) {
-  return fmt::format("the largest room ({:.3g}) leaks at {}, where it is {:.3g} wide and needs --scale {:.4g}",
+  return fmt::format("the largest room ({:.3g}) leaks at {}, where it is {:.3g} wide and needs --scale {:.4g} or more",
                      room_volume(leak, frame), place_text(middle_of(leak.place, frame), frame),
                      leak.width * frame.voxel, closing_scale(leak, frame));
 }

@@ -3,6 +3,8 @@
 #include <httplib.h>
 
 #include <atomic>
+#include <charconv>
+#include <mutex>
 
 #include "lib/core/error.h"
 #include "tools/view/access.h"
@@ -52,10 +54,14 @@ void answer(Response& response, const Make& make) {
   }
 }
 
-/// Returns a number of the request's address; 0 if it is missing or no number.
+/// Returns a number of the request's address; 0 if it is missing. Throws bad_argument if it is no number.
 std::uint64_t number_in(const Request& request, const char* key) {
   const std::string text = request.get_param_value(key);
-  return text.empty() ? 0 : std::strtoull(text.c_str(), nullptr, 10);
+  std::uint64_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (!text.empty() && (error != std::errc() || end != text.data() + text.size()))
+    fail(ErrorCode::bad_argument, "{}: is no number", key);
+  return number;
 }
 
 /// Binds the port that is wanted, or any free one. Returns the port, or -1. Connections inherit the options of this
@@ -89,6 +95,7 @@ struct Server::State {
   const int port;
   Access access;
   std::atomic<int> listeners{0};
+  std::mutex layers;  ///< one layer is made at a time
 };
 
 Server::State::State(Session& of, int wanted) : session(of), port(bound(http, wanted)), access(port) {
@@ -177,6 +184,7 @@ void Server::State::add_routes() {
   });
   bytes("/api/surface", [this](const Request& request) { return session.surface(number_in(request, "after")); });
   bytes("/api/layer", [this](const Request& request) {
+    const std::lock_guard one(layers);  // each takes memory while it is made
     return session.layer(number_in(request, "file"), number_in(request, "level"), number_in(request, "distances") == 1);
   });
   http.Get("/api/state",

@@ -1,6 +1,7 @@
 #include "tools/view/files/shown_files.h"
 
 #include <algorithm>
+#include <atomic>
 #include <filesystem>
 
 #include "io/scene/scene_format.h"
@@ -35,6 +36,8 @@ ShownFile shown_file(const std::string& path, const std::string& name) {
   ShownFile file;
   file.path = path;
   file.name = name;
+  std::error_code none;
+  if (!fs::is_regular_file(path, none)) fail(ErrorCode::bad_input, "{}: is neither a file nor a folder", path);
   if (begins_as_stream(path)) {
     file.kind = ShownFile::Kind::voxels;
     const BrickReader reader(path);
@@ -81,16 +84,19 @@ ShownMesh voxels_of_stream(const ShownFile& file, const Vec3d& middle, std::uint
   }
   const std::vector<BrickCoord> bricks = shelf->coords();
   std::vector<SurfacePiece> pieces(bricks.size());
+  std::atomic<std::uint64_t> made = 0;
   parallel_for(std::int64_t(bricks.size()), [&](std::int64_t i) {
+    if (made > most) return;  // it is refused below
     const BrickCoord c = bricks[std::size_t(i)];
     const VoxelBox box = voxels_of(BrickBox{c, {c.x + 1, c.y + 1, c.z + 1}}).grown(1);
     pieces[std::size_t(i)] = piece_of(*shelf, c, header.scale.sample(header.frame, box));
+    made += pieces[std::size_t(i)].triangles.size();
   });
+  if (made > most) refuse_large(file, most);
   ShownMesh out;
   const Vec3d origin = header.frame.world_origin();
   const double step = header.frame.voxel / SurfacePiece::kPerVoxel;
   for (const SurfacePiece& piece : pieces) {
-    if (out.triangles.size() + piece.triangles.size() > most) refuse_large(file, most);
     const auto first = std::uint32_t(out.positions.size());
     for (const SurfacePiece::Vertex& v : piece.vertices) {
       std::array<float, 3> p{};
