@@ -139,7 +139,9 @@ std::string leak_text(const LeakInfo& info, const std::string& name) {
   if (info.left_out > 0)
     text += fmt::format("more        {} leak{}, of rooms of {:.3g} together\n", info.left_out,
                         info.left_out == 1 ? "" : "s", info.left_out_volume);
-  if (info.leaks.empty()) text += "leaks       none: what the outside reaches is nowhere wider than the way into it; open sides make no rooms\n";
+  if (info.leaks.empty())
+    text +=
+        "leaks       none: what the outside reaches is nowhere wider than the way into it; open sides make no rooms\n";
   return text;
 }
 

@@ -10,7 +10,6 @@
 #include "tools/cli/names.h"
 #include "tools/cli/output_name.h"
 #include "tools/lod/choices.h"
-#include "tools/lod/scene/visual_options.h"
 
 namespace bp {
 

@@ -42,4 +42,7 @@ namespace bp {
 [[nodiscard]] OptionText option_text(const BuildOptions& options, Enclose enclosed, const LodTarget& target,
                                      std::size_t level, double scale_world, const GridFrame& frame);
 
+/// Refuses options that --mode visual has no use for. Throws bad_argument.
+void check_visual(const Args& args, const BuildOptions& options);
+
 }  // namespace bp
