@@ -3,6 +3,7 @@
 
 #include "lib/grid/bit_box.h"
 #include "lib/grid/brick.h"
+#include "lib/grid/stream.h"
 
 namespace bp {
 
@@ -29,6 +30,24 @@ void for_each_voxel(const BitBox& voxels, const Visit& visit) {
       }
     }
   }
+}
+
+/// Does the same for each occupied voxel of a shelf, in the order of its bricks.
+template <class Visit>
+void for_each_voxel(const BrickShelf& shelf, const Visit& visit) {
+  BrickBits bits;
+  for (const BrickCoord& coord : shelf.coords()) {
+    (void)shelf.get(coord, bits);
+    for_each_voxel(bits, coord, visit);
+  }
+}
+
+/// Returns the box around all occupied voxels of a box or a shelf; empty if there is none.
+template <class Voxels>
+[[nodiscard]] VoxelBox bounds_of_voxels(const Voxels& voxels) {
+  VoxelBox bounds;
+  for_each_voxel(voxels, [&](VoxelCoord p) { bounds = hull(bounds, VoxelBox{p, {p.x + 1, p.y + 1, p.z + 1}}); });
+  return bounds;
 }
 
 }  // namespace bp

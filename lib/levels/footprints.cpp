@@ -10,16 +10,6 @@ namespace {
 
 constexpr std::int32_t kHighest = std::int32_t(1) << 30;  // above all voxels
 
-/// Calls f for each voxel of a shelf.
-template <class F>
-void for_each_voxel_of(const BrickShelf& shelf, const F& f) {
-  BrickBits bits;
-  for (const BrickCoord at : shelf.coords()) {
-    shelf.get(at, bits);
-    for_each_voxel(bits, at, f);
-  }
-}
-
 /// The columns of a scene, and the part that each belongs to.
 class Columns {
  public:
@@ -81,15 +71,15 @@ std::vector<Footprint> footprints(const BrickShelf& touched, const BrickShelf& h
     for (const BrickCoord at : shelf->coords()) bricks = hull(bricks, BrickBox{at, {at.x + 1, at.y + 1, at.z + 1}});
   }
   Columns columns(voxels_of(bricks), up);
-  for_each_voxel_of(touched, [&](VoxelCoord p) { columns.add(p); });
+  for_each_voxel(touched, [&](VoxelCoord p) { columns.add(p); });
   std::vector<Footprint> all = columns.parts();
   for (Footprint& part : all) part.box.min[up] = kHighest, part.box.max[up] = -kHighest;
-  for_each_voxel_of(touched, [&](VoxelCoord p) {
+  for_each_voxel(touched, [&](VoxelCoord p) {
     VoxelBox& box = all[columns.part_of(p)].box;
     box.min[up] = std::min(box.min[up], p[up]);
     box.max[up] = std::max(box.max[up], p[up] + 1);
   });
-  for_each_voxel_of(hidden, [&](VoxelCoord p) {
+  for_each_voxel(hidden, [&](VoxelCoord p) {
     const std::uint32_t part = columns.part_of(p);
     if (part < all.size()) ++all[part].hidden;
   });

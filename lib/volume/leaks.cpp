@@ -26,12 +26,6 @@ constexpr std::int32_t kPadding = 2;
 // Voxels from the middle of a way within which an opening is looked at; doubled while it is longer.
 constexpr std::int32_t kFirstReach = 16, kLastReach = 128;
 
-VoxelBox bounds_of(const BitBox& solid) {
-  VoxelBox bounds;
-  for_each_voxel(solid, [&](VoxelCoord p) { bounds = hull(bounds, VoxelBox{p, {p.x + 1, p.y + 1, p.z + 1}}); });
-  return bounds;
-}
-
 /// Floods the empty voxels from the outside along the widest ways first (Prim's maximum spanning tree).
 class LeakSearch {
  public:
@@ -298,7 +292,7 @@ class LeakSearch {
 
 /// Returns the solid voxels' bounds with padding; the ground has none below it.
 VoxelBox box_of(const BitBox& solid, const std::optional<GroundSide>& ground) {
-  VoxelBox box = bounds_of(solid);
+  VoxelBox box = bounds_of_voxels(solid);
   if (box.empty()) return box;
   const VoxelBox tight = box;
   box = box.grown(kPadding);
@@ -323,7 +317,7 @@ std::uint64_t leaks_bytes(const VoxelBox& box) {
 Leaks find_leaks(const BitBox& solid, const std::optional<GroundSide>& ground, const MemoryShare& memory) {
   const VoxelBox box = box_of(solid, ground);
   if (box.empty()) return {};
-  const std::uint64_t needed = leaks_bytes(bounds_of(solid));
+  const std::uint64_t needed = leaks_bytes(bounds_of_voxels(solid));
   if (needed > memory.bytes)
     throw NeedsMemory("looking for leaks", needed, memory.bytes, memory.limit_for(needed), {Remedy::larger_voxels});
   if (box.volume() > std::numeric_limits<std::uint32_t>::max())
