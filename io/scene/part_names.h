@@ -14,9 +14,9 @@ struct PartNames {
   static constexpr std::size_t kMostBytes = std::size_t(1) << 20;
   std::set<std::string> names;
   bool complete = true;
-  /// Returns whether a triangle is asked for: parts that hold such a triangle are noted, by one name each. Empty: all
-  /// names are noted.
-  std::function<bool(const TriangleD&)> of_triangle;
+  /// Returns whether a triangle of the part of this name is asked for: parts that hold such a triangle are noted, by
+  /// one name each, and are not asked about any more. Empty: all names are noted.
+  std::function<bool(const std::string& name, const TriangleD&)> of_triangle;
 
   void add(const std::string& name) {
     if (name.empty() || names.contains(name)) return;
@@ -44,7 +44,7 @@ class PartFilter {
   [[nodiscard]] bool asks_for_triangles() const { return met_ != nullptr && met_->of_triangle != nullptr; }
   /// Notes the part of this name if the triangle is asked for; returns whether it is.
   bool note(const std::string& name, const TriangleD& triangle) const {
-    const bool holds = met_->of_triangle(triangle);
+    const bool holds = met_->of_triangle(name, triangle);
     if (holds) met_->add(name);
     return holds;
   }

@@ -28,14 +28,6 @@ constexpr double kSearchShare = 0.6;      // part of the memory; the bricks take
 constexpr double kDenseShare = 1.0 / 16;  // part of the search's memory for the voxels that it is given
 constexpr double kBesideOpening = 1.733;  // sqrt(3), rounded up: cubes reach so much farther at an angle
 
-/// Returns the names of the parts that have a triangle within the distance of a point.
-std::set<std::string> parts_near(const StreamHeader& header, SceneOptions how, const Vec3d& p, double distance) {
-  how.part_names = std::make_shared<PartNames>();
-  how.part_names->of_triangle = [&](const TriangleD& t) { return distance_squared(p, t) <= distance * distance; };
-  read_again(header.scene, header.bounds, how, [](const TriangleD&) {});
-  return how.part_names->names;
-}
-
 std::string row_text(const PlacedLeak& leak, const GridFrame& frame, std::size_t number) {
   return fmt::format(
       "leak {:<6} {}, {:.3g} wide{}; needs --scale {:.4g} or more\n"
@@ -117,14 +109,23 @@ LeakInfo leak_info(const StreamHeader& header, const BitBox& walls, const Memory
   return info;
 }
 
-void name_parts(const StreamHeader& header, const SceneOptions& how, LeakInfo& info) {
-  try {
-    for (PlacedLeak& leak : info.leaks) {
+void name_parts(const StreamHeader& header, SceneOptions how, LeakInfo& info) {
+  std::vector<PartNames> near(info.leaks.size());
+  how.part_names = std::make_shared<PartNames>();
+  how.part_names->of_triangle = [&](const std::string& name, const TriangleD& t) {
+    for (std::size_t i = 0; i < near.size(); ++i) {
+      const Leak& leak = info.leaks[i];
       const double distance = kBesideOpening * (leak.clearance + 0.5) * info.frame.voxel;
-      leak.parts = parts_near(header, how, middle_of(leak.place, info.frame), distance);
+      if (distance_squared(middle_of(leak.place, info.frame), t) <= distance * distance) near[i].add(name);
     }
+    return false;  // the part may lie beside other openings, too
+  };
+  try {
+    read_again(header.scene, header.bounds, how, [](const TriangleD&) {});
   } catch (const Error&) {  // without names the places are told all the same
+    return;
   }
+  for (std::size_t i = 0; i < near.size(); ++i) info.leaks[i].parts = std::move(near[i].names);
 }
 
 std::string leak_text(const LeakInfo& info, const std::string& name) {

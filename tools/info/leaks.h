@@ -51,9 +51,9 @@ struct LeakInfo {
 
 /// Finds the leaks of the walls, without names of parts. Throws as find_leaks().
 [[nodiscard]] LeakInfo leak_info(const StreamHeader& header, const BitBox& walls, const MemoryShare& memory);
-/// Names the parts at each leak. Reads the scene of the header once for each; a scene that cannot be read again, or has
+/// Names the parts at each leak. Reads the scene of the header once more; a scene that cannot be read again, or has
 /// no names, leaves them empty.
-void name_parts(const StreamHeader& header, const SceneOptions& how, LeakInfo& info);
+void name_parts(const StreamHeader& header, SceneOptions how, LeakInfo& info);
 
 [[nodiscard]] std::string leak_text(const LeakInfo& info, const std::string& name);
 [[nodiscard]] Json leak_json(const LeakInfo& info);

@@ -33,7 +33,7 @@ std::set<std::string> names_of(const StrayPart& stray, const SceneAgain& scene) 
   if (std::count(scene.files.begin(), scene.files.end(), "-") > 0) return {};
   SceneOptions options = scene.options;
   options.part_names = std::make_shared<PartNames>();
-  options.part_names->of_triangle = [&](const TriangleD& t) { return stray.holds(t); };
+  options.part_names->of_triangle = [&](const std::string&, const TriangleD& t) { return stray.holds(t); };
   try {
     const auto source = open_scenes(scene.files, options);
     for (std::vector<TriangleD> chunk; source->read(chunk);) {

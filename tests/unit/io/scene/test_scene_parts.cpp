@@ -90,7 +90,9 @@ TEST_CASE("parts are asked for by a triangle, and have one name each", "[quick][
   const auto names_at = [&](const std::string& path, double x) {
     SceneOptions options;
     options.part_names = std::make_shared<PartNames>();
-    options.part_names->of_triangle = [&](const TriangleD& t) { return std::min({t[0][0], t[1][0], t[2][0]}) == x; };
+    options.part_names->of_triangle = [&](const std::string&, const TriangleD& t) {
+      return std::min({t[0][0], t[1][0], t[2][0]}) == x;
+    };
     const std::size_t all = read_all(path, options).size();
     CHECK(all == read_all(path).size());  // none is left out
     return options.part_names->names;
