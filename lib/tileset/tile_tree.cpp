@@ -28,6 +28,17 @@ Tile tile_at(const TreeTile& tile, const Vec3d& parent, UpAxis up) {
   return out;
 }
 
+Tileset tileset_of(Tile root, double diameter, UpAxis up, const std::optional<Placement>& placement) {
+  Tileset tileset;
+  tileset.up = up;
+  tileset.placement = placement;
+  if (placement) tileset.placement->at = turned(placement->at, up, UpAxis::z);
+  tileset.root = std::move(root);
+  tileset.root.refine = "REPLACE";
+  tileset.geometric_error = std::max(diameter, tileset.root.geometric_error);
+  return tileset;
+}
+
 Vec3d middle_of(const Bounds3d& box) {
   Vec3d middle;
   for (std::size_t i = 0; i < 3; ++i) middle[i] = box.min[i] + (box.max[i] - box.min[i]) / 2;
@@ -149,14 +160,7 @@ Tileset TileTree::finish(double diameter, const std::optional<Placement>& placem
       raise();
     }
   }
-  Tileset tileset;
-  tileset.up = up_;
-  tileset.placement = placement;
-  if (placement) tileset.placement->at = turned(placement->at, up_, UpAxis::z);
-  tileset.root = tile_of(*root_, Vec3d{}, diameter);
-  tileset.root.refine = "REPLACE";
-  tileset.geometric_error = std::max(diameter, tileset.root.geometric_error);
-  return tileset;
+  return tileset_of(tile_of(*root_, Vec3d{}, diameter), diameter, up_, placement);
 }
 
 /// Makes the tile of a node. `above`: the error of the tile above. A node without content draws nothing, so a viewer

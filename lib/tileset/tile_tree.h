@@ -74,6 +74,9 @@ class TileTree {
 /// Returns a tile of this content: its place below a tile whose vertices are relative to `parent`, in 3D Tiles' axes.
 [[nodiscard]] Tile tile_at(const TreeTile& tile, const Vec3d& parent, UpAxis up);
 
+/// Returns the tileset of a root. `up`: axis of the scene; `diameter` and `placement`: as in TileTree::finish().
+[[nodiscard]] Tileset tileset_of(Tile root, double diameter, UpAxis up, const std::optional<Placement>& placement);
+
 [[nodiscard]] Vec3d middle_of(const Bounds3d& box);
 /// Returns octant k of a box: bit i of k chooses the half along axis i.
 [[nodiscard]] Bounds3d octant_of(const Bounds3d& box, int k);

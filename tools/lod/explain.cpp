@@ -266,9 +266,7 @@ std::string visual_text(const Scene& scene, const Plan& plan) {
 }
 
 std::string text_of(const Build& build, const Scene& scene, const Plan& plan) {
-  const Vec3d &lo = scene.bounds.min, &hi = scene.bounds.max;
-  std::string out = fmt::format("scene\t{} from {:.6g} {:.6g} {:.6g} to {:.6g} {:.6g} {:.6g}\n",
-                                counted(scene.counts.triangles, "triangle"), lo[0], lo[1], lo[2], hi[0], hi[1], hi[2]);
+  std::string out = scene_text(scene.counts.triangles, scene.bounds);
   const std::array<std::int32_t, 3> size = grid_of(plan.header);
   out += fmt::format("grid\t{} x {} x {} voxels of {:.6g}\n", size[0], size[1], size[2], plan.header.frame.voxel);
   if (plan.origin != Vec3d{}) out += fmt::format("origin\t{}\n", origin_text(plan.origin));
@@ -294,6 +292,12 @@ std::string text_of(const Build& build, const Scene& scene, const Plan& plan) {
 }
 
 }  // namespace
+
+std::string scene_text(std::uint64_t triangles, const Bounds3d& bounds) {
+  const Vec3d &lo = bounds.min, &hi = bounds.max;
+  return fmt::format("scene\t{} from {:.6g} {:.6g} {:.6g} to {:.6g} {:.6g} {:.6g}\n", counted(triangles, "triangle"),
+                     lo[0], lo[1], lo[2], hi[0], hi[1], hi[2]);
+}
 
 void explain(const BuildOptions& options) {
   Build build(options);

@@ -7,4 +7,7 @@ namespace bp {
 /// once, for its bounds; with --cache it is also voxelized, to find which results are kept (look_up_tileset()).
 void explain(const BuildOptions& options);
 
+/// Returns the first line of a plan: the scene's triangles and bounds.
+[[nodiscard]] std::string scene_text(std::uint64_t triangles, const Bounds3d& bounds);
+
 }  // namespace bp

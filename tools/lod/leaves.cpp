@@ -9,8 +9,6 @@
 #include "lib/core/parallel.h"
 #include "lib/pass/bake/textured_triangle.h"
 #include "lib/pass/leaf/scene_leaf.h"
-#include "lib/store/content_hash.h"
-#include "lib/store/hex.h"
 #include "lib/store/packing.h"
 #include "lib/store/result_key.h"
 #include "tools/lod/tiles/image_files.h"

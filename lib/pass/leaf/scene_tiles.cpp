@@ -5,7 +5,7 @@
 
 #include "lib/geometry/surface_distance.h"
 #include "lib/geometry/triangle_bvh.h"
-#include "lib/pass/leaf/detail/filled_square.h"
+#include "lib/pass/leaf/detail/missing_length.h"
 #include "lib/pass/leaf/fewer_triangles.h"
 #include "lib/pass/leaf/joined_leaves.h"
 #include "lib/tileset/tile_tree.h"

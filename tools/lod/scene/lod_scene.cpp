@@ -63,6 +63,14 @@ void note_scene(Build& build, const LodScene& scene, std::optional<UpAxis> up_to
   for (const std::string& text : option_notes(o, scene.size, scene.voxels.header)) build.note(text);
 }
 
+/// Opens the scene with the colours and images that the options want, for which it makes the scene's table.
+std::unique_ptr<TriangleSource> open_with_looks(const Build& build, LodScene& scene) {
+  SceneOptions how = build.scene_options();
+  how.colors = build.options.colors();
+  if (build.options.may_have_textures()) how.textures = scene.textures = std::make_shared<TextureTable>();
+  return build.open_scene(how);
+}
+
 /// Returns whether levels get textures. `tell`: if they are missing, a note says why.
 bool choose_textures(Build& build, const TriangleSource& source, const LodScene& scene, bool tell) {
   if (!scene.textures) return false;
@@ -145,10 +153,7 @@ LodScene read_scene(Build& build, const ReadOptions& read) {
   build.place();
   build.report.begin("voxelize");
   LodScene scene;
-  SceneOptions how = build.scene_options();
-  how.colors = o.colors();
-  if (o.may_have_textures()) how.textures = scene.textures = std::make_shared<TextureTable>();
-  auto source = build.open_scene(how);
+  auto source = open_with_looks(build, scene);
   if (read.ground) source = std::make_unique<GroundedSource>(std::move(source), o.voxels.up);
   VoxelizeOptions v = voxelize_options(build, read);
   v.voxel_size = [&](const Bounds3d& bounds) {  // is called when the scene has been read
@@ -185,10 +190,7 @@ LodScene measure_scene(Build& build) {
   build.place();
   build.report.begin("read");
   LodScene scene;
-  SceneOptions how = build.scene_options();
-  how.colors = o.colors();
-  if (o.may_have_textures()) how.textures = scene.textures = std::make_shared<TextureTable>();
-  const auto source = build.open_scene(how);
+  const auto source = open_with_looks(build, scene);
   StreamHeader& header = scene.voxels.header;
   header.bounds = bounds_of(*source);
   if (header.bounds.empty()) fail(ErrorCode::bad_input, "{}: no triangles; a scene needs at least one", source->name());

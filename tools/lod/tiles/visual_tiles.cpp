@@ -316,13 +316,8 @@ Tile VisualTiles::tile_of(const Job& job, const Vec3d& parent) const {
 }
 
 Tileset VisualTiles::tileset() const {
-  Tileset tileset;
-  tileset.up = scene_.voxels.header.frame.up;
-  tileset.root = tile_of(jobs_.front(), {});
-  tileset.root.refine = "REPLACE";
-  tileset.geometric_error = std::max(scene_.size.bounds.diagonal(), tileset.root.geometric_error);
-  tileset.placement = build_.placed.placement;
-  if (tileset.placement) tileset.placement->at = turned(tileset.placement->at, tileset.up, UpAxis::z);
+  Tileset tileset = tileset_of(tile_of(jobs_.front(), {}), scene_.size.bounds.diagonal(), scene_.voxels.header.frame.up,
+                               build_.placed.placement);
   for (const std::string& name : used_images_) tileset.images.push_back(folder() + "/" + name);
   return tileset;
 }

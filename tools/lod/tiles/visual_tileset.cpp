@@ -7,8 +7,8 @@
 #include "io/files/file.h"
 #include "io/store/scratch.h"
 #include "io/tiles/tileset_file.h"
-#include "lib/check/counted.h"
 #include "tools/lod/bake_levels.h"
+#include "tools/lod/explain.h"
 #include "tools/lod/kept_results.h"
 #include "tools/lod/tiles/visual_tiles.h"
 
@@ -43,20 +43,19 @@ void explain_visual_tileset(const BuildOptions& o) {
   Build build(o);
   const LodScene scene = measure_scene(build);
   const std::uint64_t triangles = scene.size.triangles, most = most_tile_triangles(o);
-  // A tile has about as many triangles as each of the four below it, if the scene is a surface.
-  const auto tiles = std::uint64_t(std::ceil(double(triangles) / double(most) * 4 / 3 * 2));
+  // Leaf tiles are half full in the mean. A tile has about as many triangles as each of the four below it, if the scene
+  // is a surface, so all others are a third as many.
+  const auto tiles = triangles <= most ? 1 : std::uint64_t(std::ceil(double(triangles) / double(most) * 2 * 4 / 3));
   const double lattice = tile_cube(scene.size.bounds).unit;
   Json& counts = build.report.counts;
   counts = {{"triangles", triangles}, {"min", scene.size.bounds.min},   {"max", scene.size.bounds.max},
             {"lattice", lattice},     {"tile_triangles_at_most", most}, {"tiles_about", tiles}};
   build.report.bytes_in = size_of_files(o.voxels.scenes);
   build.report.write(o.common);
-  const Vec3d &lo = scene.size.bounds.min, &hi = scene.size.bounds.max;
-  print(
-      fmt::format("scene\t{} from {:.6g} {:.6g} {:.6g} to {:.6g} {:.6g} {:.6g}\n"
-                  "tiles\tabout {}, of at most {} triangles; leaf tiles are the scene itself\n"
-                  "lattice\t{:.3g}: vertices are rounded to this\n",
-                  counted(triangles, "triangle"), lo[0], lo[1], lo[2], hi[0], hi[1], hi[2], tiles, most, lattice));
+  print(scene_text(triangles, scene.size.bounds) +
+        fmt::format("tiles\tabout {}, of at most {} triangles; leaf tiles are the scene itself\n"
+                    "lattice\t{:.3g}: vertices are rounded to this\n",
+                    tiles, most, lattice));
 }
 
 }  // namespace bp

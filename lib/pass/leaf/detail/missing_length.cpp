@@ -1,4 +1,4 @@
-#include "lib/pass/leaf/detail/filled_square.h"
+#include "lib/pass/leaf/detail/missing_length.h"
 
 #include <algorithm>
 #include <array>

@@ -5,7 +5,7 @@
 #include "lib/core/vec3.h"
 #include "lib/geometry/surface_distance.h"
 #include "lib/geometry/triangle_bvh.h"
-#include "lib/pass/leaf/detail/filled_square.h"
+#include "lib/pass/leaf/detail/missing_length.h"
 #include "lib/pass/leaf/scene_tiles.h"
 #include "lib/tileset/tile_tree.h"
 #include "tests/catch.h"
