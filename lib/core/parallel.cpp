@@ -51,13 +51,24 @@ class Item {
   InWork in_;
 };
 
+/// The threads of the process; 0 until a ThreadLimit has been made. oneTBB answers the same under a lock, for which the
+/// threads of small loops would wait most of their time.
+std::atomic<int> process_threads{0};
+
+void note_process_threads() {
+  process_threads = int(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+}
+
 }  // namespace
 
 ThreadLimit::ThreadLimit(int threads)
     : control_(new tbb::global_control(tbb::global_control::max_allowed_parallelism,
-                                       std::size_t(threads > 0 ? threads : tbb::info::default_concurrency()))) {}
+                                       std::size_t(threads > 0 ? threads : tbb::info::default_concurrency()))) {
+  note_process_threads();
+}
 ThreadLimit::~ThreadLimit() {
   delete static_cast<tbb::global_control*>(control_);
+  note_process_threads();
 }
 
 struct WorkArena::State {
@@ -86,7 +97,8 @@ void stop_if_asked() {
 
 int thread_count() {
   if (this_work != nullptr) return this_work->threads;
-  return int(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+  if (process_threads == 0) note_process_threads();
+  return process_threads;
 }
 
 void parallel_for(std::int64_t n, const std::function<void(std::int64_t)>& body) {

@@ -24,6 +24,7 @@ class ThreadLimit {
 };
 
 /// Returns the number of computing threads that the caller's work has: that of its WorkArena, else of the process.
+/// Takes no lock, so small loops may ask.
 [[nodiscard]] int thread_count();
 
 /// Thrown by work that was told to stop. Its output is incomplete then.

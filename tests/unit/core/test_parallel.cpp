@@ -105,4 +105,18 @@ TEST_CASE("work that is told to stop throws Cancelled, and other work goes on", 
   CHECK(next < 1000);
 }
 
+TEST_CASE("the number of threads is that of the smallest limit, and of all cores again without one", "[quick][core]") {
+  const int all = thread_count();
+  {
+    const ThreadLimit three(3);
+    CHECK(thread_count() == 3);
+    {
+      const ThreadLimit two(2);
+      CHECK(thread_count() == 2);
+    }
+    CHECK(thread_count() == 3);
+  }
+  CHECK(thread_count() == all);
+}
+
 }  // namespace bp::test
