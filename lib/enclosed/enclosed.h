@@ -39,6 +39,9 @@ class Enclosed {
     static_cast<void>(faces), static_cast<void>(distance);
     return true;
   }
+  /// Makes what is_near() needs for this distance, on all threads. Without this call the first question makes it, on
+  /// one thread, while all others that ask wait.
+  virtual void expect_near(double distance) const { static_cast<void>(distance); }
   /// Returns true if the set is the scene itself, false if it lies around the scene, as voxels do: then the last
   /// percent of a volume means nothing.
   [[nodiscard]] virtual bool is_exact() const { return false; }

@@ -43,6 +43,9 @@ class EnclosedScene final : public EnclosedTriangles {
   [[nodiscard]] bool is_near(std::span<const NewFace> faces, double distance) const override {
     return near_ ? near_->is_near(faces, distance) : voxels_->is_near(faces, distance);
   }
+  void expect_near(double distance) const override {
+    if (voxels_) voxels_->prepare(distance);
+  }
   [[nodiscard]] std::uint64_t bytes() const override {
     const auto of = [](const auto& one) { return one ? one->bytes() : 0; };
     return EnclosedTriangles::bytes() + of(near_) + of(voxels_) + of(held_);

@@ -21,6 +21,7 @@ class EnclosedVoxels : public Enclosed {
                             Blocker* blocker) const override;
   [[nodiscard]] std::vector<Vec3d> contact_points(const LatticeCoord& origin, const LatticeBox& within) const override;
   [[nodiscard]] bool is_near(std::span<const NewFace> faces, double distance) const override;
+  void expect_near(double distance) const override { near_.prepare(distance); }
   void outer_boxes(const UseBoxes& use) const override;
   [[nodiscard]] std::uint64_t bytes() const override;
 

@@ -36,6 +36,7 @@ class FewContacts final : public Enclosed {
   [[nodiscard]] bool is_near(std::span<const NewFace> faces, double distance) const override {
     return all_.is_near(faces, distance);
   }
+  void expect_near(double distance) const override { all_.expect_near(distance); }
   [[nodiscard]] bool is_exact() const override { return all_.is_exact(); }
   void outer_boxes(const UseBoxes& use) const override { all_.outer_boxes(use); }
   [[nodiscard]] std::uint64_t bytes() const override {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <memory>
 #include <unordered_map>
 #include <utility>
 
@@ -72,27 +74,24 @@ class Bricks final : public BrickShelf {
 
 }  // namespace
 
-struct NearMasks::Mask {
-  double distance = 0;
-  std::int64_t edge = kLatticePerVoxel;  // edge of its voxels, lattice units
-  Bricks bricks;
-  const Mask* next = nullptr;
-
-  Mask(const BrickShelf& voxels, double of) : distance(of) {
+class NearMasks::Mask {
+ public:
+  Mask(const BrickShelf& voxels, double distance) {
     std::unique_ptr<Bricks> larger;
-    for (std::size_t count = voxels.coords().size(); count > kMostBricks || distance / double(2 * edge) >= kLeastReach;
+    for (std::size_t count = voxels.coords().size(); count > kMostBricks || distance / double(2 * edge_) >= kLeastReach;
          count /= 4) {
       auto doubled = std::make_unique<Bricks>();
       reduce(larger ? *larger : voxels, GridFrame{}, *doubled);  // the origin stays: voxel p lies in p / 2
       larger = std::move(doubled);
-      edge *= 2;
+      edge_ *= 2;
     }
-    const double reach = std::min(distance / double(edge), kMostReach);
-    dilate_ball(larger ? *larger : voxels, reach, bricks, {kWorkBytes});
+    const double reach = std::min(distance / double(edge_), kMostReach);
+    dilate_ball(larger ? *larger : voxels, reach, bricks_, {kWorkBytes});
   }
 
   [[nodiscard]] VoxelCoord voxel_of(const LatticeCoord& p) const {
-    return {std::int32_t(floor_div(p.x, edge)), std::int32_t(floor_div(p.y, edge)), std::int32_t(floor_div(p.z, edge))};
+    return {std::int32_t(floor_div(p.x, edge_)), std::int32_t(floor_div(p.y, edge_)),
+            std::int32_t(floor_div(p.z, edge_))};
   }
 
   /// Returns whether all voxels from `low` to `high` are set.
@@ -103,25 +102,6 @@ struct NearMasks::Mask {
         for (std::int32_t bx = brick_of(low.x); bx <= brick_of(high.x); ++bx) {
           if (!holds({bx, by, bz}, low, high)) return false;
         }
-      }
-    }
-    return true;
-  }
-
-  [[nodiscard]] bool holds(const BrickCoord& brick, const VoxelCoord& low, const VoxelCoord& high) const {
-    const BrickBits* bits = nullptr;
-    if (!bricks.find(brick, bits)) return false;
-    if (bits == nullptr) return true;
-    const VoxelCoord first = first_voxel(brick);
-    VoxelCoord a, b;
-    for (int i = 0; i < 3; ++i) {
-      a[i] = std::max(low[i] - first[i], 0);
-      b[i] = std::min(high[i] - first[i], kBrickEdge - 1);
-    }
-    const std::uint64_t row = (~std::uint64_t(0) << a.x) & (~std::uint64_t(0) >> (kBrickEdge - 1 - b.x));
-    for (std::int32_t z = a.z; z <= b.z; ++z) {
-      for (std::int32_t y = a.y; y <= b.y; ++y) {
-        if ((~(*bits)[std::size_t(z * kBrickEdge + y)] & row) != 0) return false;
       }
     }
     return true;
@@ -142,26 +122,68 @@ struct NearMasks::Mask {
     const std::array<LatticeCoord, 3> m = {middle(t[0], t[1]), middle(t[1], t[2]), middle(t[2], t[0])};
     return holds(m) && holds({t[0], m[0], m[2]}) && holds({m[0], t[1], m[1]}) && holds({m[2], m[1], t[2]});
   }
+  [[nodiscard]] std::uint64_t bytes() const { return bricks_.memory_bytes(); }
+
+ private:
+  [[nodiscard]] bool holds(const BrickCoord& brick, const VoxelCoord& low, const VoxelCoord& high) const {
+    const BrickBits* bits = nullptr;
+    if (!bricks_.find(brick, bits)) return false;
+    if (bits == nullptr) return true;
+    const VoxelCoord first = first_voxel(brick);
+    VoxelCoord a, b;
+    for (int i = 0; i < 3; ++i) {
+      a[i] = std::max(low[i] - first[i], 0);
+      b[i] = std::min(high[i] - first[i], kBrickEdge - 1);
+    }
+    const std::uint64_t row = (~std::uint64_t(0) << a.x) & (~std::uint64_t(0) >> (kBrickEdge - 1 - b.x));
+    for (std::int32_t z = a.z; z <= b.z; ++z) {
+      for (std::int32_t y = a.y; y <= b.y; ++y) {
+        if ((~(*bits)[std::size_t(z * kBrickEdge + y)] & row) != 0) return false;
+      }
+    }
+    return true;
+  }
+
+  std::int64_t edge_ = kLatticePerVoxel;  // edge of its voxels, lattice units
+  Bricks bricks_;
+};
+
+/// The mask for a distance, which may not be made yet.
+struct NearMasks::Entry {
+  double distance = 0;
+  std::once_flag once;
+  std::unique_ptr<const Mask> owner;
+  std::atomic<const Mask*> mask{nullptr};  // null until it is whole
+  Entry* next = nullptr;
 };
 
 NearMasks::~NearMasks() {
-  for (const Mask* mask = masks_; mask != nullptr;) delete std::exchange(mask, mask->next);
+  for (Entry* entry = entries_; entry != nullptr;) delete std::exchange(entry, entry->next);
+}
+
+NearMasks::Entry& NearMasks::entry(double distance) const {
+  const auto find = [&]() -> Entry* {
+    Entry* entry = entries_.load(std::memory_order_acquire);
+    while (entry != nullptr && entry->distance != distance) entry = entry->next;
+    return entry;
+  };
+  if (Entry* known = find()) return *known;
+  const std::lock_guard lock(adding_);
+  if (Entry* known = find()) return *known;
+  auto added = std::make_unique<Entry>();
+  added->distance = distance;
+  added->next = entries_.load(std::memory_order_relaxed);
+  entries_.store(added.get(), std::memory_order_release);
+  return *added.release();
 }
 
 const NearMasks::Mask& NearMasks::mask(double distance) const {
-  const auto find = [&]() -> const Mask* {
-    const Mask* mask = masks_.load(std::memory_order_acquire);
-    while (mask != nullptr && mask->distance != distance) mask = mask->next;
-    return mask;
-  };
-  if (const Mask* known = find()) return *known;
-  const std::lock_guard lock(making_);
-  if (const Mask* known = find()) return *known;
-  std::unique_ptr<Mask> made;
-  isolated([&] { made = std::make_unique<Mask>(voxels_, distance); });
-  made->next = masks_.load(std::memory_order_relaxed);
-  masks_.store(made.get(), std::memory_order_release);
-  return *made.release();
+  Entry& entry = this->entry(distance);
+  std::call_once(entry.once, [&] {
+    isolated([&] { entry.owner = std::make_unique<Mask>(voxels_, distance); });
+    entry.mask = entry.owner.get();
+  });
+  return *entry.mask;
 }
 
 bool NearMasks::is_near(std::span<const NewFace> faces, double distance) const {
@@ -177,7 +199,10 @@ bool NearMasks::is_near(std::span<const NewFace> faces, double distance) const {
 
 std::uint64_t NearMasks::bytes() const {
   std::uint64_t sum = 0;
-  for (const Mask* mask = masks_; mask != nullptr; mask = mask->next) sum += mask->bricks.memory_bytes();
+  for (const Entry* entry = entries_; entry != nullptr; entry = entry->next) {
+    const Mask* mask = entry->mask;
+    sum += mask != nullptr ? mask->bytes() : 0;
+  }
   return sum;
 }
 

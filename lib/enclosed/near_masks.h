@@ -26,15 +26,18 @@ class NearMasks {
   /// face. Pieces are quartered until all voxels around a piece are set, or one around a piece of a voxel's size is
   /// not.
   [[nodiscard]] bool is_near(std::span<const NewFace> faces, double distance) const;
-  [[nodiscard]] std::uint64_t bytes() const;  ///< bytes of all masks so far
+  void prepare(double distance) const { static_cast<void>(mask(distance)); }  ///< makes the mask for the distance
+  [[nodiscard]] std::uint64_t bytes() const;                                  ///< bytes of all masks so far
 
  private:
-  struct Mask;
+  class Mask;
+  struct Entry;
+  [[nodiscard]] Entry& entry(double distance) const;
   [[nodiscard]] const Mask& mask(double distance) const;
 
   const BrickShelf& voxels_;
-  mutable std::mutex making_;
-  mutable std::atomic<const Mask*> masks_{nullptr};  // a linked list, the last one made first
+  mutable std::mutex adding_;                     // an entry, not the mask in it
+  mutable std::atomic<Entry*> entries_{nullptr};  // a linked list, the last one added first
 };
 
 }  // namespace bp

@@ -28,6 +28,7 @@ bool ProxyEditor::loosen() {
   if (reach_ == 0 || check_.counts.beyond_reach == beyond_reach_before_) return false;
   beyond_reach_before_ = check_.counts.beyond_reach;
   reach_ = loosened(reach_, first_reach_);
+  proxy_.enclosed.expect_near(reach_);
   return true;
 }
 

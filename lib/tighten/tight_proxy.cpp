@@ -128,6 +128,7 @@ class Steps {
     late.enclosed = &enclosed_;
     late.most_growth = kMostGrowth;
     for (;; late.reach = loosened(late.reach, params_.reach)) {
+      if (late.reach > 0) enclosed_.expect_near(late.reach);
       SimplifyCounts now;
       proxy_.mesh = simplify(proxy_.mesh, late, now);
       proxy_.simplified.add(now);

@@ -1,3 +1,4 @@
+#include "lib/core/parallel.h"
 #include "lib/enclosed/near_masks.h"
 #include "tests/catch.h"
 #include "tests/support/memory_shelf.h"
@@ -72,6 +73,32 @@ TEST_CASE("a mask errs by two of its voxels at most, to either side, also where 
   CHECK(near > 0);
   CHECK(far > 1000);
   CHECK(masks.bytes() > 0);
+}
+
+TEST_CASE("masks that several threads ask for at the same time are made once, with the same answers",
+          "[quick][meshing]") {
+  constexpr int kDistances = 3, kQuestions = 300;
+  MemoryShelf shelf;
+  add_dots(shelf, 2, 2);
+  const NearMasks together(shelf), prepared(shelf);
+  const auto distance = [](std::int64_t i) { return double(3 + 4 * (i % kDistances)) * kLatticePerVoxel; };
+  const auto ask = [&](const NearMasks& masks, std::int64_t i) {
+    const LatticeCoord p = LatticeCoord{40 + i % 16, 30, 20} * kLatticePerVoxel;
+    return masks.is_near(std::array<NewFace, 1>{{{{}, {p, p, p}}}}, distance(i));
+  };
+  for (int i = 0; i < kDistances; ++i) prepared.prepare(distance(i));
+  const std::uint64_t bytes = prepared.bytes();
+  std::vector<char> answers(kQuestions);
+  parallel_for(kQuestions, [&](std::int64_t i) { answers[std::size_t(i)] = ask(together, i); });
+  int near = 0;
+  for (std::int64_t i = 0; i < kQuestions; ++i) {
+    CHECK(bool(answers[std::size_t(i)]) == ask(prepared, i));
+    near += answers[std::size_t(i)];
+  }
+  CHECK(near > 0);
+  CHECK(near < kQuestions);
+  CHECK(together.bytes() == bytes);
+  CHECK(prepared.bytes() == bytes);
 }
 
 }  // namespace bp::test
