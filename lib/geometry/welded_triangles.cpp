@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <compare>
+#include <functional>
 #include <numeric>
+
+#include "lib/core/parallel_sort.h"
 
 namespace bp {
 
@@ -21,7 +24,11 @@ WeldedTriangles welded(std::span<const TriangleD> triangles) {
   std::vector<std::uint32_t> order(3 * triangles.size());
   std::iota(order.begin(), order.end(), 0u);
   const auto place = [&](std::uint32_t i) -> const Vec3d& { return triangles[i / 3][i % 3]; };
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return place(a) < place(b); });
+  // Corners at one place are ordered by their numbers, so that of 0 and -0 always the same one is kept.
+  parallel_sort(order, [&](std::uint32_t a, std::uint32_t b) {
+    const auto by_place = place(a) <=> place(b);
+    return by_place != 0 ? by_place < 0 : a < b;
+  });
   WeldedTriangles mesh;
   mesh.triangles.resize(triangles.size());
   for (const std::uint32_t i : order) {
@@ -38,7 +45,7 @@ std::vector<std::uint32_t> twins_of(std::span<const std::array<std::uint32_t, 3>
     const std::uint32_t a = triangles[h / 3][h % 3], b = triangles[h / 3][(h + 1) % 3];
     if (a != b) sides.push_back({std::min(a, b), std::max(a, b), h, a < b});
   }
-  std::sort(sides.begin(), sides.end());
+  parallel_sort(sides, std::less<>());
   std::vector<std::uint32_t> twins(3 * triangles.size(), kNoTwin);
   for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
     for (end = i + 1; end < sides.size() && sides[end].low == sides[i].low && sides[end].high == sides[i].high;) ++end;

@@ -14,12 +14,12 @@ struct WeldedTriangles {
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< as many as were given, in their order
 };
 
-/// Merges corners whose coordinates are equal. Fewer than 2^32 / 3 triangles. O(n log n).
+/// Merges corners whose coordinates are equal. Fewer than 2^32 / 3 triangles. O(n log n), parallel.
 [[nodiscard]] WeldedTriangles welded(std::span<const TriangleD> triangles);
 
 constexpr std::uint32_t kNoTwin = ~std::uint32_t(0);
 /// Returns for each half-edge 3 f + k, from corner k of triangle f to the next one, the other half of its edge: kNoTwin
-/// unless the edge belongs to exactly two triangles, in opposite directions, or if both ends are one place. O(n log n).
+/// unless the edge belongs to exactly two triangles, in opposite directions, or if both ends are one place. O(n log n), parallel.
 [[nodiscard]] std::vector<std::uint32_t> twins_of(std::span<const std::array<std::uint32_t, 3>> triangles);
 
 }  // namespace bp
