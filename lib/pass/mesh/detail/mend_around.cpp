@@ -59,9 +59,10 @@ class SceneBoxes {
       for (auto i = std::size_t(begin); i < std::size_t(end); ++i)
         boxes_[i] = lattice_box(triangles[i], frame, kept_from(triangles[i]) * kLatticePerVoxel / frame.voxel);
     });
+    std::vector<std::uint32_t> all(boxes_.size());
+    std::iota(all.begin(), all.end(), 0U);
+    tree_.build(boxes_, std::move(all));
   }
-  [[nodiscard]] std::span<const TriangleD> triangles() const { return triangles_; }
-  [[nodiscard]] const LatticeBox& box(std::size_t i) const { return boxes_[i]; }
   /// Returns whether the face meets triangle i, or may come as near to it as that may be off by.
   [[nodiscard]] bool touches(std::size_t i, const TriangleD& face) const {
     const TriangleD& t = triangles_[i];
@@ -69,15 +70,7 @@ class SceneBoxes {
     return collinear(t[0], t[1], t[2]) ? degenerate_triangle_meets(t.data(), face.data())
                                        : triangles_intersect(t.data(), face.data());
   }
-  /// Returns a tree over the boxes. It is made on the first call, since most scenes have no folds and need none.
-  [[nodiscard]] const BoxTree& tree() {
-    if (tree_.size() == 0) {
-      std::vector<std::uint32_t> all(boxes_.size());
-      std::iota(all.begin(), all.end(), 0U);
-      tree_.build(boxes_, std::move(all));
-    }
-    return tree_;
-  }
+  [[nodiscard]] const BoxTree& tree() const { return tree_; }  ///< over the boxes
 
  private:
   [[nodiscard]] double kept_from(const TriangleD& t) const { return rounding_.any() ? rounding_.of(t) + kept_ : 0; }
@@ -103,33 +96,29 @@ int winding(const LatticeMesh& mesh, const FaceTree& tree, const Vec3d& point) {
 
 using Faults = std::vector<std::atomic<char>>;  // one flag for each face
 
-/// Marks the faces that have no area or meet other faces.
-void mark_met(const LatticeMesh& mesh, const FaceTree& tree, Faults& faulty) {
+/// Marks the faces that have no area, meet other faces or touch the scene. `doubtful`: for each face, whether it may be
+/// one of these; no two other faces meet.
+void mark_faults(const LatticeMesh& mesh, const FaceTree& tree, const SceneBoxes& scene,
+                 const std::vector<char>& doubtful, Faults& faulty) {
+  const auto mark = [&](std::uint32_t f) {
+    if (!has_area(mesh, f)) {
+      faulty[f] = 1;
+      return;
+    }
+    const LatticeBox box = box_of_face(mesh, mesh.triangles[f]);
+    static_cast<void>(tree.query(box, [&](std::uint32_t g) {
+      const bool is_asked_twice = doubtful[g] != 0 && g <= f;
+      if (!is_asked_twice && has_area(mesh, g) &&
+          triangles_meet_beyond_shared(mesh.vertices.data(), mesh.triangles[f], mesh.triangles[g]))
+        faulty[f] = faulty[g] = 1;
+      return true;
+    }));
+    const TriangleD face = world_face(mesh, f);
+    if (!scene.tree().query(box, [&](std::uint32_t t) { return !scene.touches(t, face); })) faulty[f] = 1;
+  };
   parallel_ranges(std::int64_t(mesh.triangles.size()), kGrain, [&](std::int64_t begin, std::int64_t end) {
     for (auto f = std::uint32_t(begin); f < std::uint32_t(end); ++f) {
-      if (!has_area(mesh, f)) {
-        faulty[f] = 1;
-        continue;
-      }
-      static_cast<void>(tree.query(box_of_face(mesh, mesh.triangles[f]), [&](std::uint32_t g) {
-        if (g > f && has_area(mesh, g) &&
-            triangles_meet_beyond_shared(mesh.vertices.data(), mesh.triangles[f], mesh.triangles[g]))
-          faulty[f] = faulty[g] = 1;
-        return true;
-      }));
-    }
-  });
-}
-
-/// Marks the faces that touch the scene.
-void mark_touched(const LatticeMesh& mesh, const FaceTree& tree, const SceneBoxes& scene, Faults& faulty) {
-  const std::span<const TriangleD> triangles = scene.triangles();
-  parallel_ranges(std::int64_t(triangles.size()), kGrain, [&](std::int64_t begin, std::int64_t end) {
-    for (auto i = std::size_t(begin); i < std::size_t(end); ++i) {
-      static_cast<void>(tree.query(scene.box(i), [&](std::uint32_t f) {
-        if (has_area(mesh, f) && scene.touches(i, world_face(mesh, f))) faulty[f] = 1;
-        return true;
-      }));
+      if (doubtful[f] != 0) mark(f);
     }
   });
 }
@@ -213,11 +202,12 @@ std::vector<Disc> discs_around(const HalfEdgeMesh& mesh, const std::vector<char>
 class Tents {
  public:
   /// `faces`: a tree over the mesh's present faces.
-  Tents(LatticeMesh& mesh, const FaceTree& faces, SceneBoxes& scene)
-      : mesh_(mesh), faces_(faces), scene_(scene), scene_tree_(scene.tree()) {}
+  Tents(LatticeMesh& mesh, const FaceTree& faces, const SceneBoxes& scene)
+      : mesh_(mesh), faces_(faces), scene_(scene) {}
 
-  /// Puts a tent over each disc for which an apex is found.
-  void put_over(const std::vector<Disc>& discs) {
+  /// Puts a tent over each disc for which an apex is found. Returns for each face of the new mesh whether it may have a
+  /// fault: it had one, or it is a tent's.
+  std::vector<char> put_over(const std::vector<Disc>& discs, const Faults& faulty) {
     std::vector<char> gone(mesh_.triangles.size());
     for (const Disc& disc : discs) {
       for (const FaceId f : disc.faces) gone[f] = 1;
@@ -227,11 +217,16 @@ class Tents {
       for (const FaceId f : disc.faces) gone[f] = 0;
     }
     std::vector<Triangle> kept;
+    std::vector<char> doubtful;
     for (std::size_t f = 0; f < mesh_.triangles.size(); ++f) {
-      if (f >= gone.size() || gone[f] == 0) kept.push_back(mesh_.triangles[f]);
+      const bool is_new = f >= gone.size();
+      if (!is_new && gone[f] != 0) continue;
+      kept.push_back(mesh_.triangles[f]);
+      doubtful.push_back(is_new || faulty[f] != 0);
     }
     mesh_.triangles = std::move(kept);
     drop_unused_vertices(mesh_.vertices, mesh_.triangles);
+    return doubtful;
   }
 
  private:
@@ -319,7 +314,7 @@ class Tents {
       free = normal_of(p, q, r) != LatticeCoord{} && faces_.query(box, [&](std::uint32_t f) {
         return gone[f] != 0 || !has_area(mesh_, f) ||
                !triangles_meet_beyond_shared(mesh_.vertices.data(), tent[i], mesh_.triangles[f]);
-      }) && scene_tree_.query(box, [&](std::uint32_t t) { return !scene_.touches(t, world); });
+      }) && scene_.tree().query(box, [&](std::uint32_t t) { return !scene_.touches(t, world); });
       for (std::size_t j = 0; j < i && free; ++j)
         free = !triangles_meet_beyond_shared(mesh_.vertices.data(), tent[i], tent[j]);
     }
@@ -330,7 +325,6 @@ class Tents {
   LatticeMesh& mesh_;
   const FaceTree& faces_;
   const SceneBoxes& scene_;
-  const BoxTree& scene_tree_;
 };
 
 /// Marks the vertices of faulty faces, and those up to `rings` edges away.
@@ -354,20 +348,21 @@ bool mend_around(LatticeMesh& mesh, std::span<const TriangleD> scene, const Roun
   constexpr int kRounds = 6;
   constexpr std::size_t kFewFaults = 50;  // at most one fault for so many faces: a scene of overlapping parts has more
   if (!std::all_of(scene.begin(), scene.end(), is_in_domain)) return false;
-  SceneBoxes inside(scene, rounding, mesh.frame);
+  const SceneBoxes inside(scene, rounding, mesh.frame);
+  std::vector<char> doubtful(mesh.triangles.size(), 1);
   for (int round = 0; round < kRounds; ++round) {
     const HalfEdgeMesh connected(mesh);
     const FaceTree faces(connected);
     Faults faulty(mesh.triangles.size());
-    mark_met(mesh, faces, faulty);
-    mark_touched(mesh, faces, inside, faulty);
+    mark_faults(mesh, faces, inside, doubtful, faulty);
     const auto faults = std::size_t(std::count(faulty.begin(), faulty.end(), 1));
     if (faults * kFewFaults > mesh.triangles.size()) return false;
     if (faults == 0) {
       const std::vector<Vec3d> points = points_of_parts(scene);
       return std::all_of(points.begin(), points.end(), [&](const Vec3d& p) { return winding(mesh, faces, p) > 0; });
     }
-    Tents(mesh, faces, inside).put_over(discs_around(connected, vertices_near(connected, faulty, round)));
+    doubtful =
+        Tents(mesh, faces, inside).put_over(discs_around(connected, vertices_near(connected, faulty, round)), faulty);
   }
   return false;
 }
