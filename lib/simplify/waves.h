@@ -20,11 +20,16 @@
 /// So new faces of different edits have no point in common.
 namespace bp {
 
-/// Returns whether edits of the mesh are made in waves. Small meshes, parts of a mesh, and edits under limits, which
-/// count what they have allowed, are edited one by one.
+/// Returns whether several threads may plan edits of the mesh at the same time. Parts of a mesh have a thread each, and
+/// limits count what they have allowed.
+[[nodiscard]] inline bool has_planners(const HalfEdgeMesh& mesh, bool any_limits) {
+  return !any_limits && mesh.cell().holds(kEverywhere);
+}
+
+/// Returns whether edits of the mesh are made in waves. Small meshes are edited one by one.
 [[nodiscard]] inline bool has_waves(const HalfEdgeMesh& mesh, bool any_limits) {
   constexpr std::uint64_t kFewFaces = 512;
-  return mesh.face_count() >= kFewFaces && !any_limits && mesh.cell().holds(kEverywhere);
+  return mesh.face_count() >= kFewFaces && has_planners(mesh, any_limits);
 }
 
 /// The vertices that the edits of a wave have claimed.

@@ -30,7 +30,8 @@ class ProxyEditor {
   /// Returns EditCheck::blocker() of the last refused change.
   [[nodiscard]] const Blocker* blocker() const { return check_.blocker(); }
 
-  /// Returns whether changes may be made in waves.
+  /// Returns whether several checks may plan changes at the same time, and whether changes may be made in waves.
+  [[nodiscard]] bool has_planners() const { return bp::has_planners(mesh_, proxy_.limits != nullptr); }
   [[nodiscard]] bool has_waves() const { return bp::has_waves(mesh_, proxy_.limits != nullptr); }
   /// Returns a check of this proxy for another thread, which may be used while the proxy does not change. A change that
   /// it allows can be made later, if nothing has changed in its way (waves.h). Not for a proxy with limits.

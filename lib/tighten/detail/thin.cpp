@@ -16,7 +16,8 @@ namespace {
 // The largest distance of the merged vertex from the edge's middle, in mean spokes.
 constexpr double kMergeReach = 0.5;
 constexpr int kMergeRounds = 4;
-constexpr std::size_t kCostsPerThread = 8;
+// Faces of small meshes have hundreds of contact points each, so that a single cost is worth another thread.
+constexpr std::size_t kCostsPerThread = 8, kCostsOfFewPerThread = 1;
 
 struct Candidate {
   Vec3d offset;  // from the position of from(h)
@@ -284,7 +285,8 @@ class Thinner final : public ThinOrder {
 
   void push_renewed() {
     costs_.resize(renewed_.size());
-    const std::size_t grain = editor_.has_waves() ? kCostsPerThread : renewed_.size() + 1;
+    const std::size_t per_thread = editor_.has_waves() ? kCostsPerThread : kCostsOfFewPerThread;
+    const std::size_t grain = editor_.has_planners() ? per_thread : renewed_.size() + 1;
     planners_.for_each(renewed_.size(), grain,
                        [&](ThinPlanner& planner, std::size_t i) { costs_[i] = planner.cost(renewed_[i].edge); });
     for (std::size_t i = 0; i < renewed_.size(); ++i) {
