@@ -73,7 +73,7 @@ class PanelPainter {
  public:
   PanelPainter(const Camera& camera, Canvas& canvas, Color color) : camera_(camera), canvas_(canvas), color_(color) {}
 
-  /// What triangles have beside their corners: one of each, or none.
+  /// The looks of triangles, one of each kind for each triangle, or none of that kind.
   struct Looks {
     std::span<const TriangleColors> colors{};
     std::span<const std::array<PackedNormal, 3>> normals{};

@@ -16,7 +16,7 @@ async function main() {
   const tabTo = async (selector) => {
     for (let i = 0; i < 150; ++i) {
       if (await page.evaluate((s) => document.activeElement?.matches(s), selector)) {
-        const seen = await page.evaluate(() => { const s = getComputedStyle(document.activeElement); return s.outlineStyle !== 'none' || s.boxShadow !== 'none'; });
+        const seen = await page.evaluate(() => { const s = getComputedStyle(document.activeElement); return s.outlineStyle !== 'none' || s.boxShadow !== 'none' || s.strokeWidth === '3px'; });
         return check('the focus is seen', seen, selector);
       }
       await keys.press('Tab');

@@ -35,6 +35,27 @@ TEST_CASE("the smooth surface of a ball is closed, has its volume, and normals w
   CHECK(worst > 0.97);
 }
 
+TEST_CASE("creases of a block stay, and a thin sheet beside it keeps its own normals", "[quick][live]") {
+  BitBox cells(VoxelBox{{0, 0, 0}, {64, 64, 64}});
+  for_each(VoxelBox{{4, 4, 10}, {60, 60, 11}}, [&](VoxelCoord p) { cells.set(p); });    // the sheet
+  for_each(VoxelBox{{20, 20, 11}, {40, 40, 31}}, [&](VoxelCoord p) { cells.set(p); });  // the block
+  const SmoothSurface surface = smooth_surface(cells, 1, {});
+  double sheet = 1, top = 1, side = 1;
+  for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3d& p = surface.triangles[i][k];
+      const Vec3d n = unpack_normal(surface.normals[i][k]);
+      const double away = std::max(std::abs(p[0] - 30), std::abs(p[1] - 30));
+      if (away > 14 && away < 24 && p[2] > 10.5 && p[2] < 11.5) sheet = std::min(sheet, n[2]);
+      if (away < 8 && p[2] > 29) top = std::min(top, n[2]);
+      if (std::abs(p[1] - 30) < 8 && p[0] > 38 && p[2] > 14 && p[2] < 28 && p[0] < 41) side = std::min(side, n[0]);
+    }
+  }
+  CHECK(sheet > 0.98);
+  CHECK(top > 0.99);
+  CHECK(side > 0.98);
+}
+
 TEST_CASE("a wire and a sheet of one cell do not vanish", "[quick][live]") {
   BitBox cells(VoxelBox{{0, 0, 0}, {64, 64, 64}});
   const bool sheet = GENERATE(false, true);

@@ -24,7 +24,7 @@ function badgeOf(layer: LayerState): [string, string] {
   return [answer, answer === 'proven' ? 'proven' : 'refuted'];
 }
 
-/// Whether bpcheck can be asked now; it can be asked again, since files change.
+/// Returns whether bpcheck can be asked now; it can be asked again, since files change.
 export function isProvable(layer: LayerState): boolean {
   return layer.kind !== 'voxels' && layer.step !== 'waiting' && layer.step !== 'checking';
 }
