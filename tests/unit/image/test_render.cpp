@@ -91,32 +91,6 @@ TEST_CASE("the nearer triangle wins in whichever order they come", "[quick][imag
   CHECK(draw(far, {0, 200, 0}, near, {200, 0, 0}) == c);
 }
 
-TEST_CASE("normals of corners decide the shade, and it is linear between them", "[quick][image]") {
-  const TriangleD t{{{0, 0, 1}, {200, 0, 1}, {0, 200, 1}}};
-  const auto draw = [&](const std::vector<Canvas::Normals>& normals, bool colored) {
-    Canvas canvas(200, 200, {0, 0, 0});
-    const TriangleColors white{};
-    if (colored) {
-      canvas.draw(std::span(&t, 1), std::span(&white, 1), normals);
-    } else {
-      canvas.draw(std::span(&t, 1), Color{255, 255, 255}, normals);
-    }
-    Image image(100, 100, {});
-    canvas.resolve(image, 0, 0);
-    return image;
-  };
-  const Vec3d front{0, 0, 1}, right{-0.8, 0, 0.6}, none{};  // the triangle faces away, so they are turned
-  for (const bool colored : {false, true}) {
-    const Image flat = draw({}, colored);
-    CHECK(draw({{front, front, front}}, colored).pixels == flat.pixels);
-    CHECK(draw({{none, none, none}}, colored).pixels == flat.pixels);
-    const Image bent = draw({{front, right, front}}, colored);
-    CHECK(std::abs(int(bent.at(1, 1).r) - int(flat.at(1, 1).r)) <= 2);
-    CHECK(int(bent.at(95, 1).r) < int(flat.at(95, 1).r) - 40);
-    CHECK(std::abs(2 * int(bent.at(49, 1).r) - int(bent.at(1, 1).r) - int(bent.at(97, 1).r)) <= 3);
-  }
-}
-
 TEST_CASE("a triangle with colours shows them at its corners and light between them", "[quick][image]") {
   const TriangleD t{{{0, 0, 1}, {200, 0, 1}, {0, 200, 1}}};
   const LinearColor red{65535, 0, 0}, blue{0, 0, 65535};

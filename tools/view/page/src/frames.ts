@@ -87,6 +87,7 @@ export class Frames {
   }
   /// Makes cubes upright (null), or lets them stand as the scene does.
   choose(value: null | 'auto'): void {
+    if (this.frames.length === 0 && this.told === value) return;
     this.frames = [];
     this.touched = performance.now();
     this.send(value, false);
