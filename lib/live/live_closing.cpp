@@ -7,6 +7,7 @@
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/pass/close/close_pass.h"
+#include "lib/pass/measure/orientation.h"
 #include "lib/pass/measure/shape_rules.h"
 
 namespace bp {
@@ -142,7 +143,8 @@ void LiveClosing::close(const ScalePlan& plan, std::uint64_t revision, Clock::ti
 
 const OrientationField* LiveClosing::cubes_of(const ScalePlan& plan) {
   if (plan.orientation.empty() || scene_.params.element != StructuringElement::cube) return nullptr;
-  if (plan.orientation != cubes_text_ || plan.field.base != cubes_scale_) {
+  const std::int32_t cell = orientation_cell_vox(scene_.header, plan.field.base);
+  if (plan.orientation != cubes_text_ || cell != cubes_cell_vox_) {
     const TriangleReader read_scene = [&](const auto& take) {
       scene_.triangles([&](const TriangleD& t) {
         if (stop_) throw Cancelled{};
@@ -152,7 +154,7 @@ const OrientationField* LiveClosing::cubes_of(const ScalePlan& plan) {
     cubes_ = make_orientation(parse_orientation(plan.orientation, "orientation"), scene_.header, plan.field.base,
                               read_scene);
     cubes_text_ = plan.orientation;
-    cubes_scale_ = plan.field.base;
+    cubes_cell_vox_ = cell;
   }
   return cubes_.empty() ? nullptr : &cubes_;
 }

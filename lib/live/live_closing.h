@@ -90,7 +90,7 @@ class LiveClosing {
   std::unique_ptr<BrickShelf> closing_;          ///< closing that the surface shows
   std::map<BrickCoord, ScaleLattice> lattices_;  ///< scales that the pieces show
   std::string cubes_text_;                       ///< the orientation of cubes_, as JSON
-  double cubes_scale_ = 0;                       ///< the base for which cubes_ were made
+  std::int32_t cubes_cell_vox_ = 0;              ///< edge of the cells of cubes_
   OrientationField cubes_;
   std::thread thread_;  ///< the last member: the thread begins when all others exist
 };

@@ -199,6 +199,30 @@ TEST_CASE("a frame turns the cubes of the closing, and undo turns them back", "[
   CHECK(closed() == upright);
 }
 
+TEST_CASE("the scene is read again for its orientation only where cells change", "[quick][live]") {
+  LiveScene live_of = live_scene(scene(), 0.125);
+  int reads = 0;
+  live_of.triangles = [&, read = live_of.triangles](const auto& take) {
+    ++reads;
+    read(take);
+  };
+  Design design(R"({"base": 1.1, "orientation": "auto"})", "rules.json", context_of(live_of.header),
+                live_of.header.frame);
+  Backends backends = test::plain_backends(2);
+  LiveClosing live(std::move(live_of), backends, [] {});
+  const auto close_with = [&](const char* base) {
+    design.set_base(base);
+    live.request(design.plan(), design.revision());
+    live.wait();
+    REQUIRE(live.status().error.empty());
+  };
+  close_with("1.2");  // 9.6 voxels: cells of 16
+  close_with("1.3");
+  CHECK(reads == 1);
+  close_with("2.2");  // 17.6 voxels: cells of 32
+  CHECK(reads == 2);
+}
+
 TEST_CASE("a rule that cannot be closed by is an error, and the next one is not", "[quick][live]") {
   LiveScene live_of = live_scene(scene(), 0.25);
   live_of.context.memory.bytes = 1000;  // not even a tile fits
