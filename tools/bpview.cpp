@@ -5,6 +5,8 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <future>
+#include <memory>
 #include <thread>
 
 #include "io/files/file.h"
@@ -28,6 +30,7 @@ class EndSignals {
   ~EndSignals() { ::pthread_sigmask(SIG_UNBLOCK, &set_, nullptr); }
   EndSignals(const EndSignals&) = delete;
   EndSignals& operator=(const EndSignals&) = delete;
+  [[nodiscard]] const sigset_t& set() const { return set_; }
   void wait() const {
     int number = 0;
     ::sigwait(&set_, &number);
@@ -35,6 +38,26 @@ class EndSignals {
 
  private:
   sigset_t set_{};
+};
+
+/// While it lives, the end signals end the process as they end any tool: during the start nobody waits for them.
+class EndsAtOnce {
+ public:
+  explicit EndsAtOnce(const EndSignals& signals)
+      : thread_([set = signals.set(), started = started_.get_future()] {
+          ::pthread_sigmask(SIG_UNBLOCK, &set, nullptr);  // in this thread only
+          started.wait();
+        }) {}
+  ~EndsAtOnce() {
+    started_.set_value();
+    thread_.join();
+  }
+  EndsAtOnce(const EndsAtOnce&) = delete;
+  EndsAtOnce& operator=(const EndsAtOnce&) = delete;
+
+ private:
+  std::promise<void> started_;
+  std::thread thread_;
 };
 
 /// Opens a browser, if there is a screen and a program that knows the browser.
@@ -60,8 +83,10 @@ void run(const bp::ViewOptions& o) {
   bp::Report report("bpview");
   constexpr double kLongWork = 1e3;  // a page waits for each closing, so a GPU is worth its start
   bp::Backends backends = bp::make_backends(o.common, kLongWork, &report);
+  auto starting = std::make_unique<EndsAtOnce>(signals);
   bp::Session session(o, backends);
   bp::Server server(session, o.port);
+  starting.reset();
   bp::print(fmt::format("{}\n", server.link()));
   if (bp::page_files().empty())
     report.note("this build has no page: it was made without npm; install npm and build again", o.common);

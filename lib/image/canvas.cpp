@@ -17,10 +17,13 @@ constexpr double kMaxCoordinate = 1 << 22;       // samples; products of two dif
 constexpr double kClipped = kMaxCoordinate / 2;  // parts beyond that are cut off
 constexpr int kBand = 32;                        // rows per work item
 
-double shade(const Vec3d& n) {
-  // A key light comes from the upper left, a fill light from the right, both from the viewer's side. A normal that
-  // faces away is turned.
-  const double s = n[2] > 0 ? -1 : 1;
+/// Returns 1 for the normal of a triangle that faces the viewer, -1 for one that faces away, whose normals are turned.
+double facing(const Vec3d& n) {
+  return n[2] > 0 ? -1 : 1;
+}
+
+double shade(const Vec3d& n, double s) {
+  // A key light comes from the upper left, a fill light from the right, both from the viewer's side.
   const double key = s * (-0.41 * n[0] - 0.62 * n[1] - 0.67 * n[2]);
   const double fill = s * (0.74 * n[0] - 0.12 * n[1] - 0.66 * n[2]);
   return 0.42 + 0.56 * std::max(0.0, key) + 0.16 * std::max(0.0, fill);
@@ -85,9 +88,12 @@ struct Canvas::Shaded {
   int x_min = 0, x_max = -1, y_min = 0, y_max = -1;  // samples whose centres may be inside; empty if x_max < x_min
   double z, dz_dx, dz_dy;                            // depth at sample (0, 0), clamped to [z_low, z_high]
   float z_low, z_high;
-  Color color;
-  bool varies = false;  // whether the colour varies: linear light as planes, and the shade
-  double light[3]{}, dl_dx[3]{}, dl_dy[3]{}, s = 1;
+  Vec3d normal{};
+  Color base, color;    // without and with the shade
+  bool varies = false;  // whether the colour varies: linear light as planes
+  double light[3]{}, dl_dx[3]{}, dl_dy[3]{};
+  double s = 1, ds_dx = 0, ds_dy = 0;                     // the shade at sample (0, 0), and its steps
+  bool is_smooth = false;                                 // whether the shade varies
   std::uint32_t material = TriangleTexture::kNoMaterial;  // of the image on the triangle; its place is given by planes
   double uv[2], duv_dx[2], duv_dy[2];
 
@@ -108,6 +114,18 @@ struct Canvas::Shaded {
     d_dx = (du * vy - dv * uy) / (ux * vy - uy * vx), d_dy = (dv * ux - du * vx) / (ux * vy - uy * vx);
     first = at[0] + (0.5 - t[0][0]) * d_dx + (0.5 - t[0][1]) * d_dy;
   }
+  /// Shades the part by the normals at the corners of `t`, the whole triangle.
+  void shade_by(const Normals& normals, const TriangleD& t) {
+    if (x_min > x_max) return;
+    Vec3d at{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const bool none = normals[k] == Vec3d{};
+      at[k] = shade(none ? normal : normals[k], facing(normal));
+    }
+    is_smooth = true;
+    set_plane(t, at, s, ds_dx, ds_dy);
+  }
+  [[nodiscard]] double shade_at(int px, int py) const { return s + px * ds_dx + py * ds_dy; }
   /// Lays an image on the part. `t`: the whole triangle.
   void lay(const TriangleTexture& texture, const TriangleD& t) {
     if (x_min > x_max) return;
@@ -121,11 +139,11 @@ struct Canvas::Shaded {
     return {at(0), at(1), at(2)};
   }
   [[nodiscard]] Color color_at(int px, int py) const {
-    if (!varies) return color;
+    if (!varies) return is_smooth ? scaled(base, shade_at(px, py)) : color;
     const auto [r, g, b] = light_at(px, py);
-    return scaled(shown(r, g, b), s);
+    return scaled(shown(r, g, b), shade_at(px, py));
   }
-  Shaded(const TriangleD& t, Color base, int width, int height) {
+  Shaded(const TriangleD& t, Color plain, int width, int height) : base(plain) {
     if (!drawable(t)) return;
     const Vec3d u{t[1][0] - t[0][0], t[1][1] - t[0][1], t[1][2] - t[0][2]};
     const Vec3d v{t[2][0] - t[0][0], t[2][1] - t[0][1], t[2][2] - t[0][2]};
@@ -135,7 +153,8 @@ struct Canvas::Shaded {
     dz_dx = -n[0] / n[2], dz_dy = -n[1] / n[2];
     z = t[0][2] + (0.5 - t[0][0]) * dz_dx + (0.5 - t[0][1]) * dz_dy;
     z_low = float(std::min({t[0][2], t[1][2], t[2][2]})), z_high = float(std::max({t[0][2], t[1][2], t[2][2]}));
-    s = shade({n[0] / length, n[1] / length, n[2] / length});
+    normal = {n[0] / length, n[1] / length, n[2] / length};
+    s = shade(normal, facing(normal));
     color = scaled(base, s);
     for (int k = 0; k < 3; ++k) {
       const std::size_t from = n[2] > 0 ? std::size_t(k) : std::size_t(2 - k);
@@ -188,7 +207,7 @@ class Canvas::Painter {
       if (!material_->replaces_color || image_ == nullptr) light = t_.light_at(x, y);
       for (std::size_t i = 0; i < 3; ++i) light[i] *= double(texel[i]);
       if (glows_) add_glow(light, x, y);
-      color = scaled(shown(light[0], light[1], light[2]), t_.s);
+      color = scaled(shown(light[0], light[1], light[2]), t_.shade_at(x, y));
       return true;
     }
 
@@ -228,34 +247,39 @@ void Canvas::for_each_band(const std::function<void(Row)>& body) const {
   });
 }
 
-void Canvas::draw(std::span<const TriangleD> triangles, Color color) {
-  draw_shaded(triangles, [&](std::size_t) { return color; }, {});
+void Canvas::draw(std::span<const TriangleD> triangles, Color color, std::span<const Normals> normals) {
+  draw_shaded(triangles, [&](std::size_t) { return color; }, normals, {});
 }
 
 void Canvas::draw(std::span<const TriangleD> triangles, std::span<const TriangleColors> colors,
-                  std::span<const TriangleTexture> textures, ImageCache* images) {
+                  std::span<const Normals> normals, std::span<const TriangleTexture> textures, ImageCache* images) {
   draw_shaded(
-      triangles, [&](std::size_t i) { return colors[i]; }, Painter(textures, images));
+      triangles, [&](std::size_t i) { return colors[i]; }, normals, Painter(textures, images));
 }
 
 template <class ColorOf>
-void Canvas::draw_shaded(std::span<const TriangleD> triangles, const ColorOf& color_of, const Painter& painter) {
+void Canvas::draw_shaded(std::span<const TriangleD> triangles, const ColorOf& color_of,
+                         std::span<const Normals> normals, const Painter& painter) {
   constexpr std::size_t kBatch = 1 << 15;
   std::vector<Shaded> ready;
+  const auto coat = [&](Shaded& shaded, std::size_t i) {
+    if (i < normals.size()) shaded.shade_by(normals[i], triangles[i]);
+    painter.lay(shaded, i, triangles[i]);
+  };
   for (std::size_t begin = 0; begin < triangles.size(); begin += kBatch) {
     const std::size_t n = std::min(kBatch, triangles.size() - begin);
     ready.resize(n);
     parallel_ranges(std::int64_t(n), 1024, [&](std::int64_t b, std::int64_t e) {
       for (auto i = std::size_t(b); i < std::size_t(e); ++i) {
         ready[i] = Shaded(triangles[begin + i], color_of(begin + i), width_, height_);
-        painter.lay(ready[i], begin + i, triangles[begin + i]);
+        coat(ready[i], begin + i);
       }
     });
     for (std::size_t i = begin; i < begin + n; ++i) {
       if (drawable(triangles[i])) continue;
       for (const ClippedTriangle& part : clipped(triangles[i], color_of(i))) {
         ready.emplace_back(part.corners, color_of_part(part, color_of(i)), width_, height_);
-        painter.lay(ready.back(), i, triangles[i]);
+        coat(ready.back(), i);
       }
     }
     for_each_band([&](Row rows) {

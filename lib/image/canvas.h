@@ -16,12 +16,16 @@ class Canvas {
  public:
   Canvas(int width, int height, Color background);
 
-  /// Draws triangles flat shaded, facing either way. Triangles are cut off far beyond the canvas (2^21 samples), and
-  /// left out if coordinates are not finite. Parallel.
-  void draw(std::span<const TriangleD> triangles, Color color);
+  using Normals = std::array<Vec3d, 3>;  ///< of the corners of a triangle, in the directions of sample coordinates
+
+  /// Draws triangles that face either way. Without normals they are shaded flat; a normal of no length stands for that
+  /// of its triangle. Triangles are cut off far beyond the canvas (2^21 samples), and left out if coordinates are not
+  /// finite. Parallel.
+  void draw(std::span<const TriangleD> triangles, Color color, std::span<const Normals> normals = {});
   /// Draws triangles with colours of their own, one for each, and with images on them, unless `images` is null.
   void draw(std::span<const TriangleD> triangles, std::span<const TriangleColors> colors,
-            std::span<const TriangleTexture> textures = {}, ImageCache* images = nullptr);
+            std::span<const Normals> normals = {}, std::span<const TriangleTexture> textures = {},
+            ImageCache* images = nullptr);
 
   /// Draws antialiased lines where nothing lies in front. Parallel.
   void draw_lines(std::span<const std::array<Vec3d, 2>> lines, Color color, double half_width);
@@ -36,7 +40,8 @@ class Canvas {
   struct Shaded;
   class Painter;
   template <class ColorOf>
-  void draw_shaded(std::span<const TriangleD> triangles, const ColorOf& color_of, const Painter& painter);
+  void draw_shaded(std::span<const TriangleD> triangles, const ColorOf& color_of, std::span<const Normals> normals,
+                   const Painter& painter);
   struct Row {
     int begin, end;
   };

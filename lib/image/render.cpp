@@ -73,10 +73,17 @@ class PanelPainter {
  public:
   PanelPainter(const Camera& camera, Canvas& canvas, Color color) : camera_(camera), canvas_(canvas), color_(color) {}
 
-  /// corner(i) returns a TriangleD in scene units, for i in [0, n). `colors`, `textures`: one for each, or none.
+  /// The looks of triangles, one of each kind for each triangle, or none of that kind.
+  struct Looks {
+    std::span<const TriangleColors> colors{};
+    std::span<const std::array<PackedNormal, 3>> normals{};
+    std::span<const TriangleTexture> textures{};
+    ImageCache* images = nullptr;
+  };
+
+  /// corner(i) returns a TriangleD in scene units, for i in [0, n).
   template <class Corners>
-  void paint(std::size_t n, const Corners& corners, std::span<const TriangleColors> colors = {},
-             std::span<const TriangleTexture> textures = {}, ImageCache* images = nullptr) {
+  void paint(std::size_t n, const Corners& corners, const Looks& looks) {
     for (std::size_t begin = 0; begin < n; begin += kBatch) {
       projected_.resize(std::min(kBatch, n - begin));
       parallel_ranges(std::int64_t(projected_.size()), 2048, [&](std::int64_t b, std::int64_t e) {
@@ -85,11 +92,15 @@ class PanelPainter {
           for (std::size_t k = 0; k < 3; ++k) projected_[i][k] = camera_.project(t[k]);
         }
       });
-      if (colors.empty()) {
-        canvas_.draw(projected_, color_);
+      normals_.resize(looks.normals.empty() ? 0 : projected_.size());
+      for (std::size_t i = 0; i < normals_.size(); ++i) {
+        for (std::size_t k = 0; k < 3; ++k) normals_[i][k] = camera_.turned(unpack_normal(looks.normals[begin + i][k]));
+      }
+      if (looks.colors.empty()) {
+        canvas_.draw(projected_, color_, normals_);
       } else {
-        canvas_.draw(projected_, colors.subspan(begin, projected_.size()),
-                     textures.subspan(std::min(begin, textures.size())), images);
+        canvas_.draw(projected_, looks.colors.subspan(begin, projected_.size()), normals_,
+                     looks.textures.subspan(std::min(begin, looks.textures.size())), looks.images);
       }
     }
   }
@@ -99,6 +110,7 @@ class PanelPainter {
   Canvas& canvas_;
   Color color_;
   std::vector<TriangleD> projected_;
+  std::vector<std::array<Vec3d, 3>> normals_;
 };
 
 TriangleD corners_or_nothing(const IndexedMesh& mesh, std::size_t t) {
@@ -129,9 +141,8 @@ struct SourceBatch {
 void paint_source(const View& view, PanelPainter& painter) {
   SourceBatch batch, part;
   const auto paint = [&] {
-    painter.paint(
-        batch.triangles.size(), [&](std::size_t t) { return batch.triangles[t]; }, batch.colors, batch.textures,
-        view.source_images);
+    painter.paint(batch.triangles.size(), [&](std::size_t t) { return batch.triangles[t]; },
+                  {batch.colors, {}, batch.textures, view.source_images});
     batch = {};
   };
   view.source->rewind();
@@ -145,9 +156,8 @@ void paint_source(const View& view, PanelPainter& painter) {
 void paint_faces(const View& view, const Camera& camera, Canvas& canvas) {
   PanelPainter painter(camera, canvas, view.color);
   if (view.mesh != nullptr)
-    painter.paint(view.mesh->triangles.size(), [&](std::size_t t) { return corners_or_nothing(*view.mesh, t); });
-  painter.paint(
-      view.triangles.size(), [&](std::size_t t) { return view.triangles[t]; }, view.colors);
+    painter.paint(view.mesh->triangles.size(), [&](std::size_t t) { return corners_or_nothing(*view.mesh, t); }, {});
+  painter.paint(view.triangles.size(), [&](std::size_t t) { return view.triangles[t]; }, {view.colors, view.normals});
   if (view.source != nullptr) paint_source(view, painter);
 }
 

@@ -7,6 +7,7 @@
 
 #include "lib/core/grid_frame.h"
 #include "lib/core/indexed_mesh.h"
+#include "lib/core/packed_normal.h"
 #include "lib/core/triangle_source.h"
 #include "lib/image/color_bar.h"
 #include "lib/image/image.h"
@@ -26,7 +27,9 @@ struct View {
       nullptr;                 ///< streamed from its start, in bounded memory; RenderOptions::bounds must cover it
   Color color{176, 188, 204};  ///< of everything without a colour of its own
   std::span<const TriangleColors> colors;  ///< of `triangles`; empty: none
-  bool source_colors = false;              ///< draw `source` in its own colours
+  /// Normals of the corners of `triangles`, between which shades are interpolated; empty: flat shading.
+  std::span<const std::array<PackedNormal, 3>> normals;
+  bool source_colors = false;           ///< draw `source` in its own colours
   ImageCache* source_images = nullptr;  ///< draw `source` with these images, and in its colours; null: without images
   std::span<const std::uint8_t> inner_edges;  ///< of `triangles` (TriangleSource::read_faces()); empty: none
   bool edges = false;  ///< draw the edges of `mesh` and `triangles`, except inner ones, as dark lines
@@ -41,7 +44,7 @@ struct View {
 constexpr int kLeastPanelSide = 16, kMostImageSide = 16384;  ///< pixels; the latter for all panels together
 
 /// Renders panels. The view is orthographic. All panels without bounds of their own have one scale and one centre, so
-/// that they can be compared. A z-buffer, flat shading from both sides under two lights, and 2 x 2 samples a pixel are
+/// that they can be compared. A z-buffer, shading from both sides under two lights, and 2 x 2 samples a pixel are
 /// used. A panel without anything finite to draw stays empty. Memory: 32 bytes a pixel of one panel. Throws
 /// bad_argument if a side is too small or too large; passes on what a source throws.
 [[nodiscard]] Image render(std::span<const View> views, const RenderOptions& options = {});

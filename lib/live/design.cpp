@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lib/core/error.h"
+#include "lib/pass/measure/orientation_rules.h"
 
 namespace bp {
 
@@ -74,6 +75,7 @@ std::string Design::text_of(const Step& step) {
 ScalePlan Design::read(const std::string& json) const {
   ScalePlan plan = parse_scale_rules(json, name_, context_);
   (void)plan.field.upper_bound(frame_);
+  if (!plan.orientation.empty()) (void)parse_orientation(plan.orientation, name_);
   return plan;
 }
 
@@ -100,12 +102,23 @@ void Design::set_base(const std::string& length, bool again) {
   push(std::move(step), again);
 }
 
+void Design::set_orientation(const std::string& value, bool again) {
+  const Json json = parse_flat(value, name_);
+  Step step = next(Kind::orientation, again);
+  step.orientation = json.is_null() ? "" : compact(json, name_);
+  push(std::move(step), again);
+}
+
 void Design::add(const std::string& rule, bool again) {
-  const Json json = parse_flat(rule, name_);
-  if (!json.is_object()) fail(ErrorCode::bad_input, "{}: a rule is no object", name_);
-  if (rules() >= kMostRules) fail(ErrorCode::bad_input, "{}: has {} rules, the most there can be", name_, kMostRules);
+  Json some = parse_flat(rule, name_);
+  if (!some.is_array() || some.empty()) some = Json::array({some});
   Step step = next(Kind::rule, again);
-  step.rules.push_back(std::make_shared<const std::string>(compact(json, name_)));
+  for (const Json& json : some) {
+    if (!json.is_object()) fail(ErrorCode::bad_input, "{}: a rule is no object", name_);
+    step.rules.push_back(std::make_shared<const std::string>(compact(json, name_)));
+  }
+  if (step.rules.size() > kMostRules)
+    fail(ErrorCode::bad_input, "{}: has {} rules; {} is the most", name_, step.rules.size(), kMostRules);
   push(std::move(step), again);
 }
 

@@ -28,6 +28,8 @@ class Design {
   [[nodiscard]] std::size_t rules() const { return now().rules.size(); }                  ///< entries of the file
   [[nodiscard]] const std::string& rule(std::size_t i) const { return *now().rules[i]; }  ///< as JSON
   [[nodiscard]] const std::string& base() const { return now().base; }                    ///< as JSON: 0.1 or "3%"
+  /// Returns the orientation of cubes as JSON; empty if there is none.
+  [[nodiscard]] const std::string& orientation() const { return now().orientation; }
   /// Returns a number, from 1 on, that rises with each change. Undo and redo are changes, too.
   [[nodiscard]] std::uint64_t revision() const { return revision_; }
 
@@ -35,8 +37,11 @@ class Design {
   /// Sets the base; `length` is JSON. `again` replaces the last step if that set the base, too, as while a slider
   /// moves.
   void set_base(const std::string& length, bool again = false);
-  /// Adds a rule at the end; `rule` is JSON. `again` replaces the last step if that added a rule, as while a stroke is
-  /// drawn.
+  /// Sets the orientation of cubes; `value` is JSON, and null takes it away. `again` replaces the last step likewise,
+  /// as while a frame is turned.
+  void set_orientation(const std::string& value, bool again = false);
+  /// Adds a rule, or a list of rules, at the end; `rule` is JSON. `again` replaces the last step if that added a rule,
+  /// as while a stroke is drawn.
   void add(const std::string& rule, bool again = false);
   void remove(std::size_t i);  ///< throws bad_input if there is no such rule
   [[nodiscard]] bool can_undo() const { return at_ > 0; }
@@ -47,7 +52,7 @@ class Design {
  private:
   using Rule = std::shared_ptr<const std::string>;
   /// One state of the file. Texts are JSON; an empty text means that the file has no such key.
-  enum class Kind { other, base, rule };
+  enum class Kind { other, base, orientation, rule };
   struct Step {
     std::string base, slope, orientation;
     std::vector<Rule> rules;

@@ -7,6 +7,7 @@
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/pass/close/close_pass.h"
+#include "lib/pass/measure/orientation.h"
 #include "lib/pass/measure/shape_rules.h"
 
 namespace bp {
@@ -127,7 +128,9 @@ void LiveClosing::close(const ScalePlan& plan, std::uint64_t revision, Clock::ti
   options.context = scene_.context;
   options.context.stop = &stop_;
   const ScalePlan found = measured(plan, scene_.header, *scene_.solid, {0, options.context});
-  auto closing = close_shelf(scene_.header, *scene_.solid, backends_, found.field, scene_.params, options);
+  ClosingParams params = scene_.params;
+  params.orientation = cubes_of(found);
+  auto closing = close_shelf(scene_.header, *scene_.solid, backends_, found.field, params, options);
   options.context.check();
   make_pieces(*closing, found.field);
   const std::uint64_t voxels = count_voxels(*closing);
@@ -136,6 +139,24 @@ void LiveClosing::close(const ScalePlan& plan, std::uint64_t revision, Clock::ti
   status_.shown = revision;
   status_.voxels = voxels;
   status_.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+const OrientationField* LiveClosing::cubes_of(const ScalePlan& plan) {
+  if (plan.orientation.empty() || scene_.params.element != StructuringElement::cube) return nullptr;
+  const std::int32_t cell = orientation_cell_vox(scene_.header, plan.field.base);
+  if (plan.orientation != cubes_text_ || cell != cubes_cell_vox_) {
+    const TriangleReader read_scene = [&](const auto& take) {
+      scene_.triangles([&](const TriangleD& t) {
+        if (stop_) throw Cancelled{};
+        take(t);
+      });
+    };
+    cubes_ = make_orientation(parse_orientation(plan.orientation, "orientation"), scene_.header, plan.field.base,
+                              read_scene);
+    cubes_text_ = plan.orientation;
+    cubes_cell_vox_ = cell;
+  }
+  return cubes_.empty() ? nullptr : &cubes_;
 }
 
 std::vector<LiveClosing::Change> LiveClosing::changes(const BrickShelf& closing, const ScaleField& field) {

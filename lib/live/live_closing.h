@@ -10,6 +10,7 @@
 #include "lib/device/backend.h"
 #include "lib/live/surface_piece.h"
 #include "lib/pass/context.h"
+#include "lib/pass/measure/orientation_rules.h"
 
 /// The closing of a scene while its rules change. Each request replaces the one before, whose work is given up. Only
 /// the pieces of the surface that changed are made again.
@@ -20,7 +21,8 @@ struct LiveScene {
   StreamHeader header;                ///< of bpvox
   std::unique_ptr<BrickShelf> solid;  ///< with bricks of the header
   ClosingParams params;
-  PassContext context;  ///< for the closing, and for rules by shape
+  PassContext context;       ///< for the closing, and for rules by shape
+  TriangleReader triangles;  ///< reads the scene again, for an orientation that asks for it
 };
 
 class LiveClosing {
@@ -61,6 +63,8 @@ class LiveClosing {
   using Clock = std::chrono::steady_clock;
   void work();
   void close(const ScalePlan& plan, std::uint64_t revision, Clock::time_point begin);
+  /// Returns the turned cubes of a plan; null if it has none. Making them anew takes time only where they change.
+  [[nodiscard]] const OrientationField* cubes_of(const ScalePlan& plan);
   void make_pieces(const BrickShelf& closing, const ScaleField& field);
   /// A brick whose piece may have changed since closing_, because voxels near it did, or only the scales in it.
   struct Change {
@@ -85,7 +89,10 @@ class LiveClosing {
   std::atomic<bool> stop_{false};                ///< gives up the work that is going on
   std::unique_ptr<BrickShelf> closing_;          ///< closing that the surface shows
   std::map<BrickCoord, ScaleLattice> lattices_;  ///< scales that the pieces show
-  std::thread thread_;                           ///< the last member: the thread begins when all others exist
+  std::string cubes_text_;                       ///< the orientation of cubes_, as JSON
+  std::int32_t cubes_cell_vox_ = 0;              ///< edge of the cells of cubes_
+  OrientationField cubes_;
+  std::thread thread_;  ///< the last member: the thread begins when all others exist
 };
 
 }  // namespace bp

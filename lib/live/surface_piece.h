@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "lib/grid/bit_box.h"
 #include "lib/grid/scale_field.h"
 #include "lib/grid/stream.h"
 
@@ -10,7 +11,8 @@
 /// here.
 ///
 /// Each corner of the voxels' surface moves to the level of one half of the blurred occupancy, by at most kMostMoved
-/// along each axis. The gradient there is its normal. [CB17] §5.1 keeps the corners and filters normals of voxels;
+/// along each axis, and by less where the solid is thin, so that a wire of one voxel stays visible. The gradient there
+/// is its normal. [CB17] §5.1 keeps the corners and filters normals of voxels;
 /// moved corners have smooth outlines, too.
 namespace bp {
 
@@ -38,6 +40,8 @@ struct SurfacePiece {
 /// Returns the piece of a brick of `shelf`; empty if the brick has no face. `scale` has samples for the brick, grown by
 /// one voxel. Neighbours agree on the vertices that they share.
 [[nodiscard]] SurfacePiece piece_of(const BrickShelf& shelf, BrickCoord brick, const ScaleLattice& scale);
+/// Returns the piece of a brick of `cells`, which lie within their box, without scales.
+[[nodiscard]] SurfacePiece piece_of(const BitBox& cells, BrickCoord brick);
 /// Returns the piece with new scales, for a brick where only scales have changed.
 [[nodiscard]] SurfacePiece with_scales(SurfacePiece piece, const ScaleLattice& scale);
 

@@ -4,75 +4,6 @@
 
 namespace bp {
 
-namespace {
-
-/// Makes the surface of the occupied cells of one layer.
-class Faces {
- public:
-  Faces(const BitBox& cells, std::int32_t cell, const GridFrame& frame) : cells_(cells), cell_(cell), frame_(frame) {}
-
-  std::vector<TriangleD> all() {
-    for (int axis = 0; axis < 3; ++axis) {
-      for (const int side : {-1, 1}) sweep(axis, side);
-    }
-    return std::move(out_);
-  }
-
- private:
-  /// Adds all faces whose outer normal is `side` along `axis`, in runs along another axis.
-  void sweep(int axis, int side) {
-    const int along = axis == 0 ? 1 : 0, across = 3 - axis - along;
-    const VoxelBox& box = cells_.box();
-    VoxelCoord p;
-    for (p[axis] = box.min[axis]; p[axis] < box.max[axis]; ++p[axis]) {
-      for (p[across] = box.min[across]; p[across] < box.max[across]; ++p[across]) {
-        std::int32_t begin = box.min[along];
-        for (p[along] = begin; p[along] <= box.max[along]; ++p[along]) {
-          if (p[along] < box.max[along] && is_face(p, axis, side)) continue;
-          if (begin < p[along]) add(p, axis, side, along, begin);
-          begin = p[along] + 1;
-        }
-      }
-    }
-  }
-
-  [[nodiscard]] bool is_face(VoxelCoord p, int axis, int side) const {
-    if (!cells_.test(p)) return false;
-    p[axis] += side;
-    return !cells_.test(p);
-  }
-
-  /// Adds the rectangle of the cells from `begin` to p (excluded) along `along`.
-  void add(VoxelCoord p, int axis, int side, int along, std::int32_t begin) {
-    const int across = 3 - axis - along;
-    const auto corner = [&](bool far_along, bool far_across) {
-      VoxelCoord c = p;
-      c[axis] += side > 0 ? 1 : 0;
-      if (!far_along) c[along] = begin;
-      if (far_across) c[across] += 1;
-      const std::int64_t unit = std::int64_t(cell_) * kLatticePerVoxel;
-      return frame_.world({c.x * unit, c.y * unit, c.z * unit});
-    };
-    const Vec3d a = corner(false, false), b = corner(true, false), c = corner(true, true), d = corner(false, true);
-    // `along` x `across` points up `axis` if (axis, along, across) is an even permutation.
-    const bool even = (along + 1) % 3 == across;
-    if (even == (side > 0)) {
-      out_.push_back({a, b, c});
-      out_.push_back({a, c, d});
-    } else {
-      out_.push_back({a, c, b});
-      out_.push_back({a, d, c});
-    }
-  }
-
-  const BitBox& cells_;
-  std::int32_t cell_;
-  const GridFrame& frame_;
-  std::vector<TriangleD> out_;
-};
-
-}  // namespace
-
 CoarseView::CoarseView(const BrickBox& bricks, std::int32_t max_cells) {
   std::int64_t longest = 0;
   for (int axis = 0; axis < 3; ++axis)
@@ -89,6 +20,7 @@ CoarseView::CoarseView(const BrickBox& bricks, std::int32_t max_cells) {
 
 void CoarseView::add(const Brick& brick) {
   BitBox& cells = cells_[std::size_t(brick.layer)];
+  VoxelBox& occupied = occupied_[std::size_t(brick.layer)];
   const VoxelCoord first = first_voxel(brick.coord);
   const auto cell_of = [&](std::int32_t x, std::int32_t y, std::int32_t z) {
     return VoxelCoord{floor_div(first.x + x, cell_), floor_div(first.y + y, cell_), floor_div(first.z + z, cell_)};
@@ -100,14 +32,23 @@ void CoarseView::add(const Brick& brick) {
       const std::uint64_t row = brick.bits[std::size_t(z * kBrickEdge + y)];
       if (row == 0) continue;
       for (std::int32_t x = 0; x < kBrickEdge; x += step) {
-        if ((row >> x & mask) != 0) cells.set(cell_of(x, y, z));
+        if ((row >> x & mask) == 0) continue;
+        const VoxelCoord cell = cell_of(x, y, z);
+        cells.set(cell);
+        const VoxelBox one{cell, cell + VoxelCoord{1, 1, 1}};
+        occupied = occupied.empty() ? one : hull(occupied, one);
       }
     }
   }
 }
 
-std::vector<TriangleD> CoarseView::surface(Layer layer, const GridFrame& frame) const {
-  return Faces(cells_[std::size_t(layer)], cell_, frame).all();
+Bounds3d CoarseView::bounds(Layer layer, const GridFrame& frame) const {
+  Bounds3d bounds;
+  const VoxelBox& box = occupied_[std::size_t(layer)];
+  if (box.empty()) return bounds;
+  const std::int64_t unit = std::int64_t(cell_) * kLatticePerVoxel;
+  for (const VoxelCoord c : {box.min, box.max}) bounds.add(frame.world({c.x * unit, c.y * unit, c.z * unit}));
+  return bounds;
 }
 
 }  // namespace bp

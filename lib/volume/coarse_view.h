@@ -1,6 +1,5 @@
 #pragma once
 #include <array>
-#include <vector>
 
 #include "lib/grid/bit_box.h"
 #include "lib/grid/brick.h"
@@ -17,14 +16,15 @@ class CoarseView {
   void add(const Brick& brick);
 
   [[nodiscard]] std::int32_t cell_voxels() const { return cell_; }
-  [[nodiscard]] bool empty(Layer layer) const { return cells_[std::size_t(layer)].count() == 0; }
-  /// Returns the faces between occupied and empty cells, in scene units, counter-clockwise seen from outside. Faces in
-  /// a row along the longer edge become one rectangle of two triangles.
-  [[nodiscard]] std::vector<TriangleD> surface(Layer layer, const GridFrame& frame) const;
+  /// Returns the cells of a layer: cell (0,0,0) begins at voxel (0,0,0).
+  [[nodiscard]] const BitBox& cells(Layer layer) const { return cells_[std::size_t(layer)]; }
+  /// Returns the bounds of the occupied cells, in scene units; empty if there are none.
+  [[nodiscard]] Bounds3d bounds(Layer layer, const GridFrame& frame) const;
 
  private:
   std::int32_t cell_ = 1;
-  std::array<BitBox, 2> cells_;  ///< by Layer; in cells
+  std::array<BitBox, 2> cells_;       ///< by Layer; in cells
+  std::array<VoxelBox, 2> occupied_;  ///< by Layer: around the occupied cells
 };
 
 }  // namespace bp

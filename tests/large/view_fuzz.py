@@ -17,7 +17,9 @@ KEYS = ["file", "level", "number", "distances", "after", "x"]
 VALUES = ["0", "1", "2", "-1", "18446744073709551615", "99999999999999999999", "1e9", "", "%00", "../../etc/passwd", "nan", "0x10", "1;2", "\u00e9"]
 BODIES = ['{"op": "rule", "rule": {"at": [1, 1, 1], "radius": 1, "scale": 0.2, "mode": "decrease"}, "again": true}', '{"op": "base", "base": "3%"}', '{"op": "undo"}', '{"op": "redo"}',
           '{"op": "remove", "rule": 0}', '{"op": "faces", "faces": 300}', '{"op": "live", "live": false}', '{"file": 0}', '{"file": 1}', '{"what": "nothing"}', "{}", "[]", "null", '{"op": "rule", "rule": {"node": "*"}}',
-          '{"op": "rule", "rule": {"at": [[0,0,0],[1e308,1,1]], "radius": "5%", "scale": "1vx", "mode": "erase"}}', '{"op": "rule", "rule": {"box": [[0,0,0],[1,1,1]], "scale": 0}}']
+          '{"op": "rule", "rule": {"at": [[0,0,0],[1e308,1,1]], "radius": "5%", "scale": "1vx", "mode": "erase"}}', '{"op": "rule", "rule": {"box": [[0,0,0],[1,1,1]], "scale": 0}}',
+          '{"op": "orientation", "orientation": "auto"}', '{"op": "orientation", "orientation": [{"at": [1, 1, 1], "frame": [0.9, 0.1, 0, 0.4]}], "again": true}',
+          '{"op": "orientation", "orientation": [{"at": [1e308, -1e308, 0], "frame": [[1, 0, 0], [1e300, 1, 0]]}]}', '{"op": "rule", "rule": [{"node": "*", "scale": 0.2}, {"at": [9, 1, 1], "radius": 1, "scale": 0.2}]}']
 BYTES = b"GETPOS /:%.\\\r\n\0\xff?=&abc{}\"[]HTTP1,0-9e+"
 
 

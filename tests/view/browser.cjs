@@ -1,31 +1,9 @@
-// What the tests of the page share: bpview started on a scene, and headless Chromium. CHROMIUM: the browser, else /usr/bin/chromium.
+// What the tests of the page share in headless Chromium. CHROMIUM: the browser, else /usr/bin/chromium.
 const path = require('path');
-const { spawn } = require('child_process');
 const { chromium } = require('playwright-core');
+const served = require('./served.cjs');
 
-exports.sleep = (ms) => new Promise((done) => setTimeout(done, ms));
-
-/// Counts what is wrong, and says it.
-exports.Checks = class {
-  failed = 0;
-  check(what, fine, ...facts) { if (!fine) { this.failed++; console.log('FAILED:', what, ...facts); } }
-};
-
-/// bpview, once it has printed its link.
-exports.serve = (folder, ...args) => {
-  const child = spawn('bpview', ['--no-open', ...args], { cwd: folder, stdio: ['ignore', 'pipe', 'inherit'] });
-  process.on('exit', () => child.kill('SIGKILL'));  // also when a test fails
-  return new Promise((done, fail) => {
-    let text = '';
-    child.stdout.on('data', (data) => { text += data; if (text.includes('\n')) done({ child, link: text.trim() }); });
-    child.on('exit', (code) => fail(new Error(`bpview ended with status ${code}`)));
-  });
-};
-
-exports.end = (child) => {
-  child.kill('SIGINT');
-  return new Promise((done) => child.on('exit', done));
-};
+Object.assign(exports, served);
 
 exports.launch = () => chromium.launch({ executablePath: process.env.CHROMIUM || '/usr/bin/chromium',
   args: ['--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync',
@@ -45,7 +23,7 @@ exports.open = async (context, link, troubles) => {
 exports.state = (page) => page.evaluate(() => fetch('/api/state').then((r) => r.json()));
 
 exports.until = async (page, done, what) => {
-  for (let i = 0; i < 1200; ++i, await exports.sleep(50)) { const s = await exports.state(page); if (done(s)) return s; }
+  for (let i = 0; i < 1200; ++i, await served.sleep(50)) { const s = await exports.state(page); if (done(s)) return s; }
   throw new Error(`waited in vain: ${what}`);
 };
 

@@ -52,6 +52,7 @@ async function files(page) {
   check('voxels are not asked about', !(await row('closed.bpv').locator('button').isVisible()));
   check('the hulls claim to be convex parts', s.layers.find((l) => l.name === 'body/figure_unreal.glb').contract === 'convex parts');
   await page.waitForFunction(() => [...document.querySelectorAll('#files .badge')].filter((b) => b.textContent === 'proven').length === 5);
+  check('a file can be proven again', await row('fit.ply').locator('button').isVisible());
   await picture(page, folder, 'files');
   await rows.first().locator('input[type=checkbox]').uncheck();
   return names;
@@ -104,6 +105,15 @@ async function measuring(page) {
   check('the legend agrees with bpcheck', told <= 1.001 * bound && told > 0.9 * bound, told, bound);
   check('the legend tells voxels and percent', / \(\S+ voxels, \S+%\)$/.test(await page.textContent('#far-high')), await page.textContent('#far-high'));
   await picture(page, folder, 'distances');
+  const counts = [];
+  for (const level of ['0', '1']) {
+    const loaded = await page.evaluate(() => window.bpview.files());
+    await page.locator('#files select').first().selectOption(level);
+    await page.waitForFunction((n) => window.bpview.files() > n, loaded);
+    counts.push(await page.locator('#files .count').first().textContent());
+  }
+  check('with distances a row counts the faces of its level', counts[0] === '800' && counts[1] === '200', counts);
+  await page.locator('#view').focus();
   await page.keyboard.press('d');
   await page.waitForFunction(() => document.getElementById('far').hidden);
 

@@ -97,6 +97,72 @@ async function main() {
   s = await until((q) => q.design.rules.length === 6 && q.closing.shown === q.design.revision, 'the rule by name undone');
   check('without the rule the closing is as before', s.closing.voxels === unnamed, s.closing.voxels, unnamed);
 
+  // The mirror plane: a stroke and its mirror image are two rules and one step.
+  await page.keyboard.press('y');
+  check('Y chooses a plane through the middle', await page.getAttribute('[data-mirror=x]', 'aria-pressed') === 'true' && Math.abs(Number(await page.inputValue('#mirror-at')) - s.scene.middle[0]) < 1e-3, await page.inputValue('#mirror-at'));
+  await page.fill('#mirror-at', '0.05');
+  await page.keyboard.press('Enter');
+  await page.keyboard.press('b');
+  await stroke([[x - 10, y - 60], [x - 14, y - 30], [x - 16, y]]);
+  s = await until((q) => q.design.rules.length === 8 && q.closing.shown === q.design.revision, 'a stroke and its mirror image');
+  const [one, image] = s.design.rules.slice(6), ends = (rule) => [rule.at[0], rule.at.at(-1)];
+  check('the image lies across the plane', ends(one).every((p, i) => Math.abs(p[0] + ends(image)[i][0] - 0.1) < 1e-9 && p[1] === ends(image)[i][1] && p[2] === ends(image)[i][2]), one, image);
+  await picture('mirror');
+  await page.keyboard.press('Control+z');
+  s = await until((q) => q.design.rules.length === 6, 'both undone');
+  await page.keyboard.press('Control+Shift+Z');
+  s = await until((q) => q.design.rules.length === 8, 'both done again');
+  for (let i = 0; i < 3; ++i) await page.keyboard.press('y');
+  check('the last one is no plane', await page.getAttribute('[data-mirror=off]', 'aria-pressed') === 'true');
+  await page.keyboard.press('v');
+
+  // Frames that turn the cubes: by key, by numbers and by the gizmo; undone and removed.
+  await page.mouse.move(x, y - 20);
+  await page.waitForFunction(() => document.getElementById('point').textContent !== '');
+  const upright = (await until((q) => q.closing.shown === q.design.revision, 'the closing')).closing.voxels;
+  const place = (await page.textContent('#point')).split(/\s+/).map(Number);
+  await page.keyboard.press('o');
+  s = await until((q) => q.design.orientation?.length === 1, 'a frame');
+  check('O places a frame under the pointer', s.design.orientation[0].at.every((q, i) => Math.abs(q - place[i]) < 0.02), s.design.orientation, place);
+  await page.fill('#frame-rx', '30');
+  await page.keyboard.press('Enter');
+  s = await until((q) => q.design.orientation[0].frame[1] > 0.2 && q.closing.shown === q.design.revision, 'a turned frame');
+  check('the frame is turned by 30 degrees about x', Math.abs(s.design.orientation[0].frame[0] - 0.9659) < 1e-3 && Math.abs(s.design.orientation[0].frame[1] - 0.2588) < 1e-3, s.design.orientation);
+  check('turned cubes close otherwise', s.closing.voxels !== upright, s.closing.voxels, upright);
+  await picture('frame');
+  const turnedBy = JSON.stringify(s.design.orientation), revision = s.design.revision;
+  await page.click('[data-gizmo=translate]');
+  const gizmo = await page.evaluate(() => window.bpview.frame());  // where the frame is on the screen
+  let moved = false;
+  for (const [dx, dy] of [[0, -40], [40, 0], [-40, 0], [0, 40], [30, 15], [-30, 15]]) {  // an arrow of the gizmo is somewhere there
+    await page.mouse.move(gizmo[0] + dx, gizmo[1] + dy, { steps: 3 });
+    await page.mouse.down();
+    await page.mouse.move(gizmo[0] + dx * 1.6, gizmo[1] + dy * 1.6, { steps: 5 });
+    await page.mouse.up();
+    await sleep(250);
+    s = await state();
+    moved = JSON.stringify(s.design.orientation[0].at) !== JSON.stringify(JSON.parse(turnedBy)[0].at);
+    if (moved) break;
+  }
+  check('the gizmo moves the frame, and turns it not', moved && JSON.stringify(s.design.orientation[0].frame) === JSON.stringify(JSON.parse(turnedBy)[0].frame), s.design.orientation);
+  check('a drag was several requests', s.design.revision > revision);
+  await page.locator('#view').focus();
+  await page.keyboard.press('Control+z');
+  s = await until((q) => JSON.stringify(q.design.orientation) === turnedBy, 'the drag undone in one step');
+  await page.click('[data-cubes=auto]');
+  await until((q) => q.design.orientation === 'auto' && q.closing.shown === q.design.revision && !q.closing.error, 'cubes as the scene stands');
+  await page.keyboard.press('Control+z');
+  await until((q) => JSON.stringify(q.design.orientation) === turnedBy, 'the frame again');
+  await page.keyboard.press('o');
+  await until((q) => q.design.orientation?.length === 2, 'a second frame');
+  await page.locator('#frames li').first().locator('button').last().click();
+  s = await until((q) => q.design.orientation?.length === 1 && q.design.orientation[0].frame[1] === 0, 'the first frame removed');
+  await page.locator('#view').focus();
+  await page.keyboard.press('Control+z');
+  await page.keyboard.press('Control+z');
+  s = await until((q) => JSON.stringify(q.design.orientation) === turnedBy && q.closing.shown === q.design.revision, 'one frame, turned');  // it is saved below
+  await page.keyboard.press('f');
+
   // Sliders and keys.
   await page.keyboard.press('[');
   await page.locator('#base-slide').focus();
@@ -136,7 +202,9 @@ async function main() {
   await other.close();
   await page.reload();
   await page.waitForFunction(() => window.bpview?.ready && window.bpview.generation > 0);
-  check('a reload keeps the design', (await state()).design.rules.length === 6);
+  s = await state();
+  check('a reload keeps the design', s.design.rules.length === 8 && JSON.stringify(s.design.orientation) === turnedBy, s.design);
+  check('a reload shows the frame', await page.inputValue('#frame-rx') === '30' && await page.isVisible('#frame-rx'), await page.inputValue('#frame-rx'));
   check('nothing went wrong on the page', troubles.every((text) => text.includes('400')), troubles);  // the part that is not there
 
   // A stranger, and a server that is gone.
@@ -153,7 +221,7 @@ async function main() {
   await page.emulateMedia({ colorScheme: 'dark' });
   await page.goto(link);
   await page.waitForFunction(() => window.bpview?.ready && window.bpview.generation > 0);
-  check('a design goes on from its rules', (await state()).design.rules.length === 6);
+  check('a design goes on from its rules', (await state()).design.rules.length === 8);
   await until(isReady, 'a proxy of the saved rules');
   await sleep(500);
   await picture('dark');

@@ -62,7 +62,8 @@ def what_is_asked(s):
     check("a huge token is refused", s.ask("POST", "/session", big)[0] == 413)
     rule = {"at": [1, 1, 1], "radius": 1, "scale": 0.1}
     for body in ("", "{}", "[]", "null", '"x"', '{"op": 1}', '{"op": "save"}', '{"op": "rule"}', '{"op": "rule", "rule": 5}', '{"op": "faces", "faces": -1}', '{"op": "faces", "faces": 1e99}',
-                 '{"op": "faces", "faces": 3}', '{"op": "remove", "rule": 7}', '{"op": "base", "base": "999%"}', '{"op": "base", "base": [[[[[[[[[[1]]]]]]]]]]}', '{"op": "base"',
+                 '{"op": "faces", "faces": 3}', '{"op": "remove", "rule": 7}', '{"op": "base", "base": "999%"}', '{"op": "orientation"}', '{"op": "orientation", "orientation": "by hand"}', '{"op": "orientation", "orientation": [{"at": [0, 0, 0]}]}',
+                 '{"op": "rule", "rule": []}', '{"op": "rule", "rule": [5]}', '{"op": "base", "base": [[[[[[[[[[1]]]]]]]]]]}', '{"op": "base"',
                  json.dumps({"op": "rule", "rule": {**rule, "file": "/etc/passwd"}}), json.dumps({"op": "rule", "rule": {**rule, "at": [1e400, 0, 0]}}),
                  json.dumps({"op": "rule", "rule": {"node": "*", "scale": "\ud800"}}), '{"op": "rule", "rule": {"at": [1,1,1], "radius": 1, "scale": 1e308}}', b"\xff\xfe\x00"):
         status, _, answer = s.ask("POST", "/api/edit", body)
@@ -109,10 +110,15 @@ def same_bytes(s, folder):
                         "mode": generator.choice(["increase", "decrease", "erase"]), "scale": generator.choice(["1%", "3vx", number(0.05, 1)])}
                 if rule["mode"] == "erase":
                     del rule["scale"]
-                s.edit(op="rule", rule=rule, again=generator.random() < 0.3)
+                image = {**rule, "at": [[10 - p[0], *p[1:]] for p in rule["at"]] if isinstance(rule["at"][0], list) else [10 - rule["at"][0], *rule["at"][1:]]}
+                s.edit(op="rule", rule=generator.choice([rule, [rule, image]]), again=generator.random() < 0.3)  # a list: with its mirror image
             else:
-                s.edit(**generator.choice([{"op": "undo"}, {"op": "redo"}, {"op": "base", "base": number(0.1, 0.9)}]))
+                frames = [{"at": point(), "frame": [number(0.5, 1), *(number(-1, 1) for _ in range(3))]} for _ in range(generator.randrange(1, 4))]
+                s.edit(**generator.choice([{"op": "undo"}, {"op": "redo"}, {"op": "base", "base": number(0.1, 0.9)}, {"op": "orientation", "orientation": frames},
+                                           {"op": "orientation", "orientation": generator.choice(["auto", frames, None]), "again": generator.random() < 0.3}]))
         s.edit(op="rule", rule={"node": "part_2", "scale": 0.1, "radius": 0.3})
+        if round_ > 0:
+            s.edit(op="orientation", orientation="auto" if round_ == 1 else [{"at": [5, 2, 3], "frame": [0.92, 0.1, 0, 0.38]}])
         s.edit(op="faces", faces=generator.choice([60, 200, 500]))
         s.post("/api/mesh")
         state = s.wait(lambda q: q["proxy"]["step"] in ("ready", "failed") and q["proxy"]["current"] and q["closing"]["shown"] == q["design"]["revision"])
@@ -152,14 +158,14 @@ def distances(folder):
     def mesh(query):
         status, _, data = s.ask("GET", "/api/layer?" + query)
         check("a file is sent", status == 200, query, data[:200])
-        counts = struct.unpack_from("<5I", data)
-        at = 20
+        counts = struct.unpack_from("<6I", data)
+        at = 24
         positions = [tuple(x + m for x, m in zip(p, state["scene"]["middle"])) for p in struct.iter_unpack("<3f", data[at:at + 12 * counts[0]])]
         at += 12 * counts[0] + 4 * counts[1]
         corners = list(struct.iter_unpack("<3I", data[at:at + 12 * counts[2]]))
         at += 12 * counts[2] + 8 * counts[3]
         check("a mesh has the length that it tells", len(data) == at + 4 * counts[4], counts, len(data))
-        return positions, corners, [d for d, in struct.iter_unpack("<f", data[at:])]
+        return positions, corners, [d for d, in struct.iter_unpack("<f", data[at:])], counts[5]
 
     def area(positions, corners):
         total = 0
@@ -171,6 +177,7 @@ def distances(folder):
 
     plain, fine = mesh("file=1"), mesh("file=1&distances=1")
     check("without distances none are sent", plain[2] == [] and len(plain[1]) <= 100, len(plain[1]))
+    check("a refined proxy tells the faces of its file", plain[3] == fine[3] == len(plain[1]), plain[3], fine[3])
     check("a refined proxy has the same area", abs(area(*fine[:2]) / area(*plain[:2]) - 1) < 1e-5, area(*fine[:2]), area(*plain[:2]))
     longest = max(math.dist(fine[0][t[k]], fine[0][t[k - 1]]) for t in fine[1] for k in range(3))
     check("a refined proxy has short edges", longest <= 2 * state["scene"]["voxel"] and len(fine[1]) < 600000, longest, len(fine[1]))
@@ -179,16 +186,54 @@ def distances(folder):
         for k in range(3):
             edges[t[k - 1], t[k]] = edges.get((t[k - 1], t[k]), 0) + 1
     check("a refined proxy has no crack", all(n == 1 and (b, a) in edges for (a, b), n in edges.items()))
-    for positions, _, far in (fine, mesh("file=0&distances=1")):
+    for positions, _, far, _ in (fine, mesh("file=0&distances=1")):
         for i in random.Random(2).sample(range(len(far)), 400):
             wanted = min(from_box(positions[i], *box) for box in comb_boxes())
             check("a distance is that from the scene", abs(far[i] - wanted) < 1e-5, positions[i], far[i], wanted)
-    s.post("/api/check", {"file": 1})
-    state = s.wait(lambda q: q["layers"][1]["step"] in ("done", "failed"))
+    for _ in range(2):  # a file can be proven again
+        s.post("/api/check", {"file": 1})
+        state = s.wait(lambda q: q["layers"][1]["step"] in ("done", "failed"))
     verdict = state["layers"][1]["verdict"]
     check("bpcheck proves the file", verdict and verdict["answer"] == "proven", state["layers"][1])
     check("the farthest distance is within its bound", max(fine[2]) <= verdict["levels"][0]["farthest"] * 1.0001, max(fine[2]), verdict)
     s.end()
+
+
+def refusals(folder):
+    """A file with more than the page draws, and one that does not keep what it claims."""
+    line = "bpvox served.obj --resolution 900 -q -o many.bpv && sed 's/^v \\([^ ]*\\)/v 0.5/' served.obj > flat.obj"
+    subprocess.run(["bash", "-c", line], cwd=folder, check=True)
+    s = Served("served.obj", "--resolution", "20", "--show", "many.bpv", "--show", "flat.obj", cwd=folder)
+    s.enter()
+    status, _, answer = s.ask("GET", "/api/layer?file=0")
+    check("a file of too many triangles is refused, and says why", status == 413 and b"many.bpv" in answer and b"triangles" in answer, status, answer[:300])
+    s.post("/api/check", {"file": 1})
+    verdict = s.wait(lambda q: q["layers"][1]["step"] in ("done", "failed"))["layers"][1]["verdict"]
+    check("each level tells its answer", verdict["answer"] == "refuted" and [level["answer"] for level in verdict["levels"]] == ["refuted"], verdict)
+    s.end()
+
+
+def ends_while_it_starts(folder):
+    """Nobody writes to the pipe in place of the scene: bpvox waits for it, or, once it has read it, the page's reader."""
+    os.mkfifo(f"{folder}/slow.stl")
+    with open(f"{folder}/served.obj") as file:
+        points = [line.split()[1:] for line in file if line.startswith("v ")]
+    facets = "".join("facet normal 0 0 0\nouter loop\n" + "".join(f"vertex {' '.join(p)}\n" for p in points[i:i + 3]) + "endloop\nendfacet\n" for i in range(0, 54, 3))
+    for fed in (False, True):
+        process = subprocess.Popen(["bpview", "--no-open", "slow.stl", "--resolution", "20"], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        if fed:
+            with open(f"{folder}/slow.stl", "w") as pipe:
+                pipe.write(f"solid s\n{facets}endsolid s\n")
+        time.sleep(1)
+        check("it waits for the scene", process.poll() is None, fed, process.poll())
+        begin = time.time()
+        process.send_signal(signal.SIGTERM)
+        try:
+            said = process.communicate(timeout=10)
+            check("SIGTERM ends it at once", process.returncode == -signal.SIGTERM and time.time() - begin < 2, fed, process.returncode, time.time() - begin, said)
+        except subprocess.TimeoutExpired:
+            check("SIGTERM ends it", False, fed)
+            process.kill()
 
 
 def main():
@@ -229,6 +274,10 @@ def main():
     left = subprocess.run(["pgrep", "-f", "/proc/self/fd/"], capture_output=True, text=True).stdout
     check("no tool is left", left == "", left)
     distances(folder)
+    refusals(folder)
+    ends_while_it_starts(folder)
+    left = subprocess.run(["pgrep", "-f", "slow.stl"], capture_output=True, text=True).stdout
+    check("no tool waits for a scene", left == "", left)
     sys.exit(failed > 0)
 
 

@@ -8,6 +8,8 @@
 #include "io/image/label_font.h"
 #include "io/image/png_writer.h"
 #include "lib/core/error.h"
+#include "lib/geometry/smooth_normals.h"
+#include "lib/live/smooth_surface.h"
 #include "tools/cli/common_options.h"
 #include "tools/cli/names.h"
 #include "tools/info/scale_colors.h"
@@ -76,6 +78,9 @@ class TurnedSource final : public TriangleSource {
 
 void turn(Panel& panel, UpAxis from, UpAxis to) {
   turn(panel.triangles, from, to);
+  for (auto& corners : panel.normals) {
+    for (PackedNormal& n : corners) n = pack_normal(turned(unpack_normal(n), from, to));
+  }
   Bounds3d bounds;
   if (!panel.bounds.empty()) {
     for (const Vec3d& p : {panel.bounds.min, panel.bounds.max}) bounds.add(turned(p, from, to));
@@ -117,19 +122,18 @@ void Picture::add_layer(Layer layer, const CoarseView& cells, const StreamHeader
   auto panel = std::make_unique<Panel>();
   panel->input = in;
   panel->up = header.frame.up;
-  panel->triangles = cells.surface(layer, header.frame);
-  for (const TriangleD& t : panel->triangles) {
-    for (const Vec3d& p : t) panel->bounds.add(p);
-  }
+  SmoothSurface surface = smooth_surface(cells.cells(layer), cells.cell_voxels(), header.frame);
+  panel->triangles = std::move(surface.triangles);
+  panel->normals = std::move(surface.normals);
+  panel->view.normals = panel->normals;
+  panel->bounds = cells.bounds(layer, header.frame);
   if (totals.layers[0].bricks + totals.layers[1].bricks == 0) panel->bounds = bounds_of(header);
   panel->view.color = o_.several ? kColors[0] : kColors[i];
   panel->view.label =
       fmt::format("{}: {} voxels of {:.4g}", i == 0 ? "solid" : "closing", totals.layers[i].voxels, header.frame.voxel);
   if (cells.cell_voxels() > 1) panel->view.label += fmt::format("\ndrawn in cells of {} voxels", cells.cell_voxels());
   if ((header.has_closing || header.has_field) && !header.scale.constant() && !panel->triangles.empty()) {
-    constexpr double kCells = 4;  // cells along an edge between two colours
-    const double longest = kCells * cells.cell_voxels() * header.frame.voxel;
-    panel->view.bar = color_by_scale(header.scale, longest, panel->triangles, panel->colors);
+    panel->view.bar = color_by_scale(header.scale, panel->triangles, panel->colors);
     panel->view.colors = panel->colors;
     panel->view.label += "\ncolours: the scale";
   }
@@ -153,6 +157,8 @@ void Picture::add_mesh(MeshInfo& info, std::unique_ptr<TriangleSource> source, c
     panel->view.inner_edges = panel->inner_edges;
     panel->view.edges = panel->triangles.size() <= (o_.several ? kEdgesOfMany : kEdges);
     if (o_.several && panel->view.edges) panel->view.color = {238, 192, 130};
+    if (!panel->view.edges) panel->normals = smooth_normals(panel->triangles);  // with edges, faces shall be seen
+    panel->view.normals = panel->normals;
   } else {
     panel->source = std::move(source);
     panel->view.source_colors = panel->source->has_colors();

@@ -26,6 +26,7 @@ struct PictureOptions {
 struct Panel {
   std::string input;
   std::vector<TriangleD> triangles;
+  std::vector<std::array<PackedNormal, 3>> normals;
   std::vector<TriangleColors> colors;
   std::vector<std::uint8_t> inner_edges;
   std::unique_ptr<TriangleSource> source;  ///< for a mesh too large to keep, or with textures

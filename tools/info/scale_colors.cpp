@@ -5,33 +5,10 @@
 #include <algorithm>
 
 #include "lib/core/parallel.h"
-#include "lib/core/vec3.h"
 
 namespace bp {
 
 namespace {
-
-/// Cuts triangles across their longest edges until no edge is too long.
-std::vector<TriangleD> cut(std::vector<TriangleD> left, double longest) {
-  std::vector<TriangleD> done;
-  while (!left.empty()) {
-    const TriangleD t = left.back();
-    left.pop_back();
-    std::size_t k = 0;
-    const auto edge = [&](std::size_t i) { return length(t[(i + 1) % 3] - t[i]); };
-    for (std::size_t i = 1; i < 3; ++i) {
-      if (edge(i) > edge(k)) k = i;
-    }
-    if (!(edge(k) > longest)) {
-      done.push_back(t);
-      continue;
-    }
-    const Vec3d middle = 0.5 * (t[k] + t[(k + 1) % 3]);
-    left.push_back({t[k], middle, t[(k + 2) % 3]});
-    left.push_back({middle, t[(k + 1) % 3], t[(k + 2) % 3]});
-  }
-  return done;
-}
 
 LinearColor color_of(double t) {
   const Color c = color_on_bar(t);
@@ -40,9 +17,8 @@ LinearColor color_of(double t) {
 
 }  // namespace
 
-ColorBar color_by_scale(const ScaleField& scale, double longest, std::vector<TriangleD>& triangles,
+ColorBar color_by_scale(const ScaleField& scale, const std::vector<TriangleD>& triangles,
                         std::vector<TriangleColors>& colors) {
-  triangles = cut(std::move(triangles), longest);
   std::vector<std::array<double, 3>> scales(triangles.size());
   parallel_for(std::int64_t(triangles.size()), [&](std::int64_t i) {
     for (std::size_t k = 0; k < 3; ++k) scales[std::size_t(i)][k] = scale.evaluate(triangles[std::size_t(i)][k]);

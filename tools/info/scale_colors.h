@@ -8,8 +8,8 @@
 namespace bp {
 
 /// Colours triangles by the scale at their corners, from color_on_bar(0) for the least scale to color_on_bar(1) for the
-/// largest. Edges longer than `longest` (scene units) are cut before. Returns the numbers at the ends of the bar.
-[[nodiscard]] ColorBar color_by_scale(const ScaleField& scale, double longest, std::vector<TriangleD>& triangles,
+/// largest. Returns the numbers at the ends of the bar.
+[[nodiscard]] ColorBar color_by_scale(const ScaleField& scale, const std::vector<TriangleD>& triangles,
                                       std::vector<TriangleColors>& colors);
 
 }  // namespace bp

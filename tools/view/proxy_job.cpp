@@ -16,31 +16,20 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
 }  // namespace
 
 ProxyJob::ProxyJob(const ViewOptions& options, const MemoryFile& stream, std::function<void()> changed)
-    : options_(options), stream_(stream), changed_(std::move(changed)), thread_([this] { work(); }) {}
-
-ProxyJob::~ProxyJob() {
-  {
-    const std::lock_guard lock(mutex_);
-    ends_ = true;
-    pipe_.stop();
-  }
-  wake_.notify_all();
-  thread_.join();
-}
+    : options_(options), stream_(stream), changed_(std::move(changed)) {}
 
 void ProxyJob::request(std::string rules, std::uint64_t revision, std::uint64_t faces) {
-  {
-    const std::lock_guard lock(mutex_);
-    next_ = std::make_unique<Request>(Request{std::move(rules), revision, faces});
-    pipe_.stop();
-  }
-  wake_.notify_all();
+  worker_.replace([this, request = Request{std::move(rules), revision, faces}](ToolPipe& pipe) {
+    try {
+      make(pipe, request);
+    } catch (const std::exception& e) {
+      set([&](Status& s) { s.step = Step::failed, s.notes = e.what(); });
+    }
+  });
 }
 
 void ProxyJob::stop() {
-  const std::lock_guard lock(mutex_);
-  next_.reset();
-  pipe_.stop();
+  worker_.stop();
 }
 
 ProxyJob::Status ProxyJob::status() const {
@@ -56,26 +45,10 @@ void ProxyJob::set(const std::function<void(Status&)>& change) {
   changed_();
 }
 
-void ProxyJob::work() {
-  for (;;) {
-    std::unique_lock lock(mutex_);
-    wake_.wait(lock, [&] { return ends_ || next_ != nullptr; });
-    if (ends_) return;
-    const std::unique_ptr<Request> request = std::move(next_);
-    pipe_.allow();
-    lock.unlock();
-    try {
-      make(*request);
-    } catch (const std::exception& e) {
-      set([&](Status& s) { s.step = Step::failed, s.notes = e.what(); });
-    }
-  }
-}
-
-bool ProxyJob::run(const std::vector<ToolCommand>& commands, const std::vector<const MemoryFile*>& inputs,
-                   const MemoryFile& out, bool is_check) {
+bool ProxyJob::run(ToolPipe& pipe, const std::vector<ToolCommand>& commands,
+                   const std::vector<const MemoryFile*>& inputs, const MemoryFile& out, bool is_check) {
   constexpr int kRefuted = 1, kUndecided = 5;
-  const ToolResult result = pipe_.run(commands, inputs, out);
+  const ToolResult result = pipe.run(commands, inputs, out);
   const bool answered = is_check && (result.status == kRefuted || result.status == kUndecided);
   const bool failed = result.status != 0 && !answered && !result.stopped;
   set([&](Status& s) {
@@ -87,7 +60,7 @@ bool ProxyJob::run(const std::vector<ToolCommand>& commands, const std::vector<c
   return !result.stopped && !failed;
 }
 
-void ProxyJob::make(const Request& request) {
+void ProxyJob::make(ToolPipe& pipe, const Request& request) {
   set([&](Status& s) {
     const std::uint64_t number = s.number;
     s = {};
@@ -95,7 +68,7 @@ void ProxyJob::make(const Request& request) {
   });
   const MemoryFile rules(request.rules), proxy, verdict;
   auto begin = std::chrono::steady_clock::now();
-  if (!run(mesh_commands(options_, request.faces, {rules.path(), stream_.path(), "-"}), {&rules, &stream_}, proxy,
+  if (!run(pipe, mesh_commands(options_, request.faces, {rules.path(), stream_.path(), "-"}), {&rules, &stream_}, proxy,
            false))
     return;
   set([&](Status& s) {
@@ -103,7 +76,7 @@ void ProxyJob::make(const Request& request) {
     s.file = std::make_shared<const std::string>(proxy.bytes()), ++s.number;
   });
   begin = std::chrono::steady_clock::now();
-  if (!run({check_command(options_, proxy.path())}, {&proxy}, verdict, true)) return;
+  if (!run(pipe, {check_command(options_, proxy.path())}, {&proxy}, verdict, true)) return;
   set([&](Status& s) {
     s.step = Step::ready, s.check_seconds = seconds_since(begin);
     s.verdict = brief_verdict(verdict.bytes());

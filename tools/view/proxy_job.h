@@ -1,13 +1,12 @@
 #pragma once
-#include <condition_variable>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
-#include <thread>
 
 #include "tools/cli/report.h"
 #include "tools/view/commands.h"
+#include "tools/view/tool_worker.h"
 
 namespace bp {
 
@@ -29,9 +28,6 @@ class ProxyJob {
   /// `stream`: the voxels of the scene, as bpvox wrote them. `changed` is called on a thread of this object. Keeps
   /// references.
   ProxyJob(const ViewOptions& options, const MemoryFile& stream, std::function<void()> changed);
-  ~ProxyJob();
-  ProxyJob(const ProxyJob&) = delete;
-  ProxyJob& operator=(const ProxyJob&) = delete;
 
   void request(std::string rules, std::uint64_t revision, std::uint64_t faces);
   void stop();  ///< ends the work that is going on
@@ -42,23 +38,18 @@ class ProxyJob {
     std::string rules;
     std::uint64_t revision = 0, faces = 0;
   };
-  void work();
-  void make(const Request& request);
+  void make(ToolPipe& pipe, const Request& request);
   /// Returns false if the tools were stopped or failed. The status tells which.
-  bool run(const std::vector<ToolCommand>& commands, const std::vector<const MemoryFile*>& inputs,
+  bool run(ToolPipe& pipe, const std::vector<ToolCommand>& commands, const std::vector<const MemoryFile*>& inputs,
            const MemoryFile& out, bool is_check);
   void set(const std::function<void(Status&)>& change);
 
   const ViewOptions& options_;
   const MemoryFile& stream_;
   const std::function<void()> changed_;
-  ToolPipe pipe_;
   mutable std::mutex mutex_;
-  std::condition_variable wake_;
-  std::unique_ptr<Request> next_;
-  bool ends_ = false;
   Status status_;
-  std::thread thread_;  // the last member: the thread begins when all others exist
+  ToolWorker worker_;  // the last member: its tasks use the others
 };
 
 }  // namespace bp

@@ -42,13 +42,18 @@ void refuse(Response& response, int status, const std::string& text) {
   response.set_header("Connection", "close");  // the body of the request was not read
 }
 
+int status_of(ErrorCode code) {
+  if (code == ErrorCode::bad_input || code == ErrorCode::bad_argument) return 400;
+  return code == ErrorCode::out_of_resource ? 413 : 500;  // 413: a file has more than this server shows
+}
+
 /// Calls `make`, which sets the content. Refused input is an answer, not a failure of the server.
 template <class Make>
 void answer(Response& response, const Make& make) {
   try {
     make();
   } catch (const Error& e) {
-    response.status = e.code() == ErrorCode::bad_input || e.code() == ErrorCode::bad_argument ? 400 : 500;
+    response.status = status_of(e.code());
     response.set_content(Json{{"error", e.what()}}.dump(-1, ' ', false, Json::error_handler_t::replace),
                          "application/json");
   }

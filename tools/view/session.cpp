@@ -8,8 +8,10 @@
 #include "io/stream/brick_shelf.h"
 #include "io/stream/brick_stream.h"
 #include "lib/core/error.h"
+#include "tools/cli/names.h"
 #include "tools/run/memory_shares.h"
 #include "tools/run/part_boxes.h"
+#include "tools/run/read_again.h"
 #include "tools/run/scene_budget.h"
 #include "tools/view/geometry/wire.h"
 
@@ -83,6 +85,9 @@ Session::Session(const ViewOptions& options, Backends& backends) : options_(opti
   scene.header = header_;
   scene.solid = std::move(solid_);
   scene.params.element = options_.closing.element;
+  scene.triangles = [this](const auto& take) {
+    read_again(header_.scene, header_.bounds, scene_options(options_), take);
+  };
   const MemoryLimit limit{options_.common.memory_bytes, kVoxelProgram};
   scene.context.memory = {limit.rest_bytes() / 4, 0.25, limit};
   scene.context.make_shelf = make_shelf_factory(limit.rest_bytes() / 4, options_.common.temp);
@@ -133,6 +138,7 @@ void Session::begin_design() {
   RuleContext context;
   context.diagonal = header_.bounds.diagonal();
   context.voxel = header_.frame.voxel;
+  context.may_orient = true;
   context.parts = [this](const std::string& pattern) {
     return part_boxes(header_.scene, header_.bounds, pattern, scene_options(options_));
   };
@@ -174,6 +180,8 @@ void Session::edit(const std::string& json) {
       design_->add(member(request, "rule").dump(), flag(request, "again"));
     } else if (op == "base") {
       design_->set_base(member(request, "base").dump(), flag(request, "again"));
+    } else if (op == "orientation") {
+      design_->set_orientation(member(request, "orientation").dump(), flag(request, "again"));
     } else if (op == "remove") {
       design_->remove(number(request, "rule", 0, Design::kMostRules));
     } else if (op == "undo") {
@@ -286,6 +294,7 @@ Json Session::design_json() const {
           {"base", Json::parse(design_->base())},
           {"base_world", design_->plan().field.base},
           {"rules", std::move(rules)},
+          {"orientation", design_->orientation().empty() ? Json() : Json::parse(design_->orientation())},
           {"can_undo", design_->can_undo()},
           {"can_redo", design_->can_redo()},
           {"saved", saved_revision_ == design_->revision()}};
@@ -332,6 +341,7 @@ std::string Session::state() const {
                      {"seconds", c.seconds},
                      {"error", c.error}}},
                    {"proxy", proxy_json()},
+                   {"element", name_of(options_.closing.element)},
                    {"layers", layers_->json()},
                    {"made", made_->json()},
                    {"faces", faces_},

@@ -36,10 +36,10 @@ class Session {
   [[nodiscard]] std::string layer(std::uint64_t file, std::uint64_t level, bool distances) const;
 
   /// Makes one step of the design, which is JSON: {"op": "rule", "rule": {...}, "again": BOOL},
-  /// {"op": "base", "base": LENGTH, "again": BOOL},
-  /// {"op": "remove", "rule": N}, {"op": "undo"}, {"op": "redo"}, {"op": "faces", "faces": N}, {"op": "live", "live":
-  /// BOOL}.
-  /// Throws bad_input, and changes nothing, for any other JSON.
+  /// where a list of rules is one step, too, {"op": "base", "base": LENGTH, "again": BOOL},
+  /// {"op": "orientation", "orientation": "auto", a list of frames, or null, "again": BOOL}, {"op": "remove", "rule":
+  /// N}, {"op": "undo"}, {"op": "redo"}, {"op": "faces", "faces": N}, {"op": "live", "live": BOOL}. Throws bad_input,
+  /// and changes nothing, for any other JSON.
   void edit(const std::string& json);
   void check(const std::string& json);  ///< begins to prove a file of --show: `json` is {"file": N}
   void mesh();                          ///< begins a proxy of the present design

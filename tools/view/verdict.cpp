@@ -32,7 +32,8 @@ Json why_of(const Json& v) {
 }
 
 Json brief_level(const Json& v) {
-  return {{"triangles", at(v, "/proxy/triangles")},
+  return {{"answer", at(v, "/answer")},
+          {"triangles", at(v, "/proxy/triangles")},
           {"volume", at(v, "/measures/volume")},
           {"volume_ratio", at(v, "/measures/volume_ratio")},
           {"farthest", at(v, "/measures/proxy_to_scene/at_most")}};

@@ -143,12 +143,17 @@ struct OrientationMaker::Sums {
   }
 };
 
-OrientationMaker::OrientationMaker(const StreamHeader& header, double scale_world) : sums_(std::make_unique<Sums>()) {
+std::int32_t orientation_cell_vox(const StreamHeader& header, double scale_world) {
   if (header.bounds.empty()) fail(ErrorCode::bad_input, "the stream has no scene whose orientation could be made");
+  return cell_edge(voxel_bounds(header.frame, header.bounds), scale_world / header.frame.voxel);
+}
+
+OrientationMaker::OrientationMaker(const StreamHeader& header, double scale_world) : sums_(std::make_unique<Sums>()) {
+  const std::int32_t edge = orientation_cell_vox(header, scale_world);
   const VoxelBox voxels = voxel_bounds(header.frame, header.bounds);
   sums_->frame = header.frame;
   OrientationField& f = sums_->field;
-  f.cell_vox = cell_edge(voxels, scale_world / header.frame.voxel);
+  f.cell_vox = edge;
   for (int axis = 0; axis < 3; ++axis) {
     f.origin[axis] = floor_div(voxels.min[axis], f.cell_vox);
     f.size[axis] = ceil_div(voxels.max[axis], f.cell_vox) - f.origin[axis];

@@ -8,6 +8,10 @@
 /// Makes orientation fields: from a scene's surface, or from frames at a few places.
 namespace bp {
 
+/// Returns the edge of the cells for a closing by cubes of about this scale, in voxels. Scales of one edge have one
+/// field.
+[[nodiscard]] std::int32_t orientation_cell_vox(const StreamHeader& header, double scale_world);
+
 class OrientationMaker {
  public:
   /// Prepares a field for a closing of the grid of `header` by cubes of about this scale. Cells are as large as the

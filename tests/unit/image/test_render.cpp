@@ -327,7 +327,7 @@ TEST_CASE("images lie on triangles where their places say, also on ones cut off 
     }
     const std::vector<TriangleColors> white(2);
     Canvas canvas(64, 64, {9, 9, 9});
-    canvas.draw(square, white, laid, &images);
+    canvas.draw(square, white, {}, laid, &images);
     Image image(32, 32, {});
     canvas.resolve(image, 0, 0);
     const auto only = [](std::uint8_t a, std::uint8_t b, std::uint8_t c) { return a > 150 && b == 0 && c == 0; };

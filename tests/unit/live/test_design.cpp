@@ -14,6 +14,7 @@ RuleContext context() {
   RuleContext c;
   c.diagonal = 12;
   c.voxel = 0.125;
+  c.may_orient = true;
   return c;
 }
 
@@ -158,4 +159,41 @@ TEST_CASE("of very many steps the last ones can be undone", "[quick][live]") {
   for (; d.can_undo(); ++undone) d.undo();
   CHECK(undone == Design::kMostSteps);
   CHECK(d.rules() == 10);
+}
+
+TEST_CASE("a stroke and its mirror image are one step", "[quick][live]") {
+  Design d = design(R"({"base": "3%"})");
+  const std::string both = std::string("[") + kFiner + "," + kErased + "]";
+  d.add(both);
+  CHECK(d.rules() == 2);
+  d.add(both, true);  // replaces both
+  CHECK(d.rules() == 2);
+  CHECK(saved(d) == d.plan());
+  d.undo();
+  CHECK(d.rules() == 0);
+  CHECK_THROWS_AS(d.add(std::string("[") + kFiner + ",5]"), Error);
+  CHECK(d.rules() == 0);
+}
+
+TEST_CASE("frames of cubes are set, turned, undone and saved; wrong ones change nothing", "[quick][live]") {
+  Design d = design(R"({"base": "3%"})");
+  const std::string before = d.json();
+  d.set_orientation(R"([{"at": [1,2,3], "frame": [1,0,0,0]}])");
+  d.set_orientation(R"([{"at": [1,2,3], "frame": [1,0.5,0,0]}])", true);
+  CHECK(saved(d) == d.plan());
+  CHECK(d.plan().orientation == d.orientation());
+  const std::string framed = d.json();
+  for (const char* wrong :
+       {R"("by hand")", "[]", "5", R"([{"at": [1,2,3]}])", R"([{"at": [1,2,3], "frame": [0,0,0,0]}])",
+        R"([{"at": [1,2], "frame": [1,0,0,0]}])", R"([{"at": [1,2,3], "frame": [[1,0,0],[2,0,0]]}])"}) {
+    CAPTURE(wrong);
+    CHECK_THROWS_AS(d.set_orientation(wrong), Error);
+    CHECK(d.json() == framed);
+  }
+  d.set_orientation("null");
+  CHECK(d.json() == before);
+  d.undo();
+  CHECK(d.json() == framed);
+  d.undo();  // both turns were one step
+  CHECK(d.json() == before);
 }

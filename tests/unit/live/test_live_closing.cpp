@@ -32,6 +32,9 @@ LiveScene live_scene(const test::Triangles& triangles, double voxel) {
   out.solid = std::move(v.shelf);
   out.context.make_shelf = test::memory_shelves();
   out.context.memory.bytes = std::uint64_t(1) << 30;
+  out.triangles = [triangles](const auto& take) {
+    for (const TriangleD& t : triangles) take(t);
+  };
   return out;
 }
 
@@ -39,6 +42,7 @@ RuleContext context_of(const StreamHeader& header) {
   RuleContext c;
   c.diagonal = header.bounds.diagonal();
   c.voxel = header.frame.voxel;
+  c.may_orient = true;
   return c;
 }
 
@@ -51,7 +55,13 @@ std::unique_ptr<BrickShelf> by_the_pipe(const std::string& rules, const LiveScen
   const ScalePlan found = measured(plan, scene.header, solid, {0, options.context});
   const ScaleField field = parse_scale_field(to_json(found.field), "stream");
   Backends backends = test::plain_backends(1);
-  return close_shelf(scene.header, solid, backends, field, scene.params, options);
+  ClosingParams params = scene.params;
+  OrientationField cubes;
+  if (!plan.orientation.empty())
+    cubes = make_orientation(parse_orientation(plan.orientation, "rules.json"), scene.header, plan.field.base,
+                             scene.triangles);
+  if (!cubes.empty()) params.orientation = &cubes;
+  return close_shelf(scene.header, solid, backends, field, params, options);
 }
 
 std::map<BrickCoord, BrickBits> bricks(const BrickShelf& shelf) {
@@ -75,8 +85,19 @@ std::string random_rule(Random& random) {
                      support);
 }
 
+std::string random_orientation(Random& random) {
+  if (random.one_in(3)) return random.one_in(2) ? "null" : R"("auto")";
+  std::string frames;
+  for (int i = random.between(1, 3); i > 0; --i) {
+    frames += fmt::format(R"({}{{"at":[{},{},{}],"frame":[{},{},{},{}]}})", frames.empty() ? "" : ",",
+                          random.between(-1, 11), random.between(-1, 6), random.between(-1, 7), random.between(1, 4),
+                          random.between(-3, 3), random.between(-3, 3), random.between(-3, 3));
+  }
+  return "[" + frames + "]";
+}
+
 void random_edit(Design& design, Random& random) {
-  const int what = random.between(0, 9);
+  const int what = random.between(0, 11);
   if (what < 5) {
     design.add(random_rule(random));
   } else if (what == 5) {
@@ -85,6 +106,8 @@ void random_edit(Design& design, Random& random) {
     design.remove(std::size_t(random.between(0, int(design.rules()) - 1)));
   } else if (what == 7) {
     design.redo();
+  } else if (what >= 10) {
+    design.set_orientation(random_orientation(random), random.one_in(3));
   } else {
     design.undo();
   }
@@ -156,6 +179,48 @@ TEST_CASE("the closing shown is that of the pipe after strokes, undo and redo", 
 
 TEST_CASE("the closing shown is that of the pipe after a hundred random designs", "[property][live]") {
   for (std::uint64_t seed = 100; seed < 120; ++seed) random_design(seed, 10);
+}
+
+TEST_CASE("a frame turns the cubes of the closing, and undo turns them back", "[quick][live]") {
+  LiveScene live_of = live_scene(scene(), 0.125);
+  Design design(R"({"base": 0.5})", "rules.json", context_of(live_of.header), live_of.header.frame);
+  Backends backends = test::plain_backends(2);
+  LiveClosing live(std::move(live_of), backends, [] {});
+  const auto closed = [&] {
+    live.request(design.plan(), design.revision());
+    live.wait();
+    REQUIRE(live.status().error.empty());
+    return bricks(*live.closing());
+  };
+  const auto upright = closed();
+  design.set_orientation(R"([{"at": [5,2,3], "frame": [0.92,0,0,0.38]}])");
+  CHECK(closed() != upright);
+  design.undo();
+  CHECK(closed() == upright);
+}
+
+TEST_CASE("the scene is read again for its orientation only where cells change", "[quick][live]") {
+  LiveScene live_of = live_scene(scene(), 0.125);
+  int reads = 0;
+  live_of.triangles = [&, read = live_of.triangles](const auto& take) {
+    ++reads;
+    read(take);
+  };
+  Design design(R"({"base": 1.1, "orientation": "auto"})", "rules.json", context_of(live_of.header),
+                live_of.header.frame);
+  Backends backends = test::plain_backends(2);
+  LiveClosing live(std::move(live_of), backends, [] {});
+  const auto close_with = [&](const char* base) {
+    design.set_base(base);
+    live.request(design.plan(), design.revision());
+    live.wait();
+    REQUIRE(live.status().error.empty());
+  };
+  close_with("1.2");  // 9.6 voxels: cells of 16
+  close_with("1.3");
+  CHECK(reads == 1);
+  close_with("2.2");  // 17.6 voxels: cells of 32
+  CHECK(reads == 2);
 }
 
 TEST_CASE("a rule that cannot be closed by is an error, and the next one is not", "[quick][live]") {

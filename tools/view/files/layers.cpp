@@ -20,21 +20,7 @@ std::optional<Contract> contract_of(const ShownFile& file) {
 }  // namespace
 
 Layers::Layers(const ViewOptions& options, std::function<void()> changed)
-    : options_(options),
-      files_(shown_files(options.shown)),
-      changed_(std::move(changed)),
-      states_(files_.size()),
-      thread_([this] { work(); }) {}
-
-Layers::~Layers() {
-  {
-    const std::lock_guard lock(mutex_);
-    ends_ = true;
-    pipe_.stop();
-  }
-  wake_.notify_all();
-  thread_.join();
-}
+    : options_(options), files_(shown_files(options.shown)), changed_(std::move(changed)), states_(files_.size()) {}
 
 const ShownFile& Layers::file(std::size_t i) const {
   if (i >= files_.size()) fail(ErrorCode::bad_argument, "there is no file {}", i);
@@ -48,9 +34,14 @@ void Layers::check(std::size_t i) {
     const std::lock_guard lock(mutex_);
     if (states_[i].step == Step::waiting || states_[i].step == Step::checking) return;
     states_[i] = {Step::waiting, {}, {}};
-    waiting_.push_back(i);
   }
-  wake_.notify_all();
+  worker_.add([this, i](ToolPipe& pipe) {
+    try {
+      prove(pipe, i);
+    } catch (const std::exception& e) {
+      set(i, {Step::failed, {}, e.what()});
+    }
+  });
   changed_();
 }
 
@@ -62,29 +53,13 @@ void Layers::set(std::size_t i, State state) {
   changed_();
 }
 
-void Layers::work() {
-  for (;;) {
-    std::unique_lock lock(mutex_);
-    wake_.wait(lock, [&] { return ends_ || !waiting_.empty(); });
-    if (ends_) return;
-    const std::size_t i = waiting_.front();
-    waiting_.pop_front();
-    lock.unlock();
-    try {
-      prove(i);
-    } catch (const std::exception& e) {
-      set(i, {Step::failed, {}, e.what()});
-    }
-  }
-}
-
-void Layers::prove(std::size_t i) {
+void Layers::prove(ToolPipe& pipe, std::size_t i) {
   set(i, {Step::checking, {}, {}});
   const ShownFile& shown = files_[i];
   ToolCommand command = check_command(options_, shown.path);
   if (contract_of(shown)) command.push_back("--claimed");
   const MemoryFile text;
-  const ToolResult result = pipe_.run({command}, {}, text);
+  const ToolResult result = pipe.run({command}, {}, text);
   if (result.stopped) return;
   const Json verdict = brief_verdict(text.bytes());
   if (verdict.is_null()) {

@@ -110,6 +110,7 @@ ShownMesh voxels_of_stream(const ShownFile& file, const Vec3d& middle, std::uint
     }
     for (const auto& t : piece.triangles) out.triangles.push_back({first + t[0], first + t[1], first + t[2]});
   }
+  out.faces = std::uint32_t(out.triangles.size());
   return out;
 }
 

@@ -2,17 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <span>
 
-#include "lib/core/parallel.h"
 #include "lib/core/vec3.h"
+#include "lib/geometry/smooth_normals.h"
 
 namespace bp {
 
 namespace {
-
-constexpr double kSmoothCosine = 0.766;  // cosine of 40 degrees
 
 template <class T>
 void append_all(std::string& out, const std::vector<T>& values) {
@@ -21,31 +17,6 @@ void append_all(std::string& out, const std::vector<T>& values) {
 
 std::array<float, 3> moved(const Vec3d& p, const Vec3d& shift) {
   return {float(p[0] + shift[0]), float(p[1] + shift[1]), float(p[2] + shift[2])};
-}
-
-/// The corners sorted by place: numbers 3 t + k of corner k of triangle t, and where each place begins.
-struct Places {
-  std::vector<std::uint32_t> corners, place_of, begins;
-};
-
-Places places_of(const std::vector<TriangleD>& triangles) {
-  Places out;
-  out.corners.resize(triangles.size() * 3);
-  std::iota(out.corners.begin(), out.corners.end(), 0U);
-  const auto at = [&](std::uint32_t c) -> const Vec3d& { return triangles[c / 3][c % 3]; };
-  std::sort(out.corners.begin(), out.corners.end(),
-            [&](std::uint32_t a, std::uint32_t b) { return at(a) != at(b) ? at(a) < at(b) : a < b; });
-  out.place_of.resize(out.corners.size());
-  for (std::size_t i = 0; i < out.corners.size(); ++i) {
-    if (i == 0 || at(out.corners[i]) != at(out.corners[i - 1])) out.begins.push_back(std::uint32_t(i));
-    out.place_of[out.corners[i]] = std::uint32_t(out.begins.size() - 1);
-  }
-  out.begins.push_back(std::uint32_t(out.corners.size()));
-  return out;
-}
-
-Vec3d cross_of(const TriangleD& t) {
-  return cross(t[1] - t[0], t[2] - t[0]);
 }
 
 /// Returns the edges of faces, each once.
@@ -75,10 +46,10 @@ ShownMesh::Direction packed_direction(const Vec3d& n) {
 
 std::string ShownMesh::bytes() const {
   std::string out;
-  out.reserve(20 + positions.size() * 20 + triangles.size() * 12 + edges.size() * 8);
+  out.reserve(24 + positions.size() * 20 + triangles.size() * 12 + edges.size() * 8);
   append_all(out, std::vector<std::uint32_t>{std::uint32_t(positions.size()), std::uint32_t(normals.size()),
                                              std::uint32_t(triangles.size()), std::uint32_t(edges.size()),
-                                             std::uint32_t(distances.size())});
+                                             std::uint32_t(distances.size()), faces});
   append_all(out, positions);
   append_all(out, normals);
   append_all(out, triangles);
@@ -99,28 +70,17 @@ ShownMesh shown_mesh(const IndexedMesh& mesh, const Vec3d& shift) {
   out.positions.reserve(mesh.vertices.size());
   for (const Vec3d& p : mesh.vertices) out.positions.push_back(moved(p, shift));
   out.edges = edges_of(mesh, kept);
+  out.faces = std::uint32_t(out.triangles.size());
   return out;
 }
 
 ShownMesh shown_smooth(const std::vector<TriangleD>& triangles, const Vec3d& shift) {
-  const Places places = places_of(triangles);
   ShownMesh out;
-  out.normals.resize(triangles.size() * 3);
-  parallel_ranges(std::int64_t(triangles.size()), 4096, [&](std::int64_t begin, std::int64_t end) {
-    for (auto c = std::size_t(begin) * 3; c < std::size_t(end) * 3; ++c) {
-      const Vec3d own = cross_of(triangles[c / 3]);
-      const std::uint32_t place = places.place_of[c];
-      constexpr std::uint32_t kMost = 64;  // triangles: a fan of more is flat enough
-      const std::uint32_t last = std::min(places.begins[place + 1], places.begins[place] + kMost);
-      Vec3d sum = own;
-      for (std::uint32_t i = places.begins[place]; i < last; ++i) {
-        if (places.corners[i] / 3 == c / 3) continue;
-        const Vec3d other = cross_of(triangles[places.corners[i] / 3]);
-        if (dot(own, other) > kSmoothCosine * length(own) * length(other)) sum = sum + other;
-      }
-      out.normals[c] = packed_direction(sum);
-    }
-  });
+  out.faces = std::uint32_t(triangles.size());
+  out.normals.reserve(triangles.size() * 3);
+  for (const auto& corners : smooth_normals(triangles)) {
+    for (const PackedNormal n : corners) out.normals.push_back(packed_direction(unpack_normal(n)));
+  }
   out.positions.reserve(out.normals.size());
   for (const TriangleD& t : triangles) {
     for (const Vec3d& p : t) out.positions.push_back(moved(p, shift));

@@ -16,9 +16,10 @@ struct ShownMesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< none: each three positions are one
   std::vector<std::array<std::uint32_t, 2>> edges;      ///< of faces: inner edges of quads and polygons are left out
   std::vector<float> distances;                         ///< one for each position, or none; scene units
+  std::uint32_t faces = 0;                              ///< triangles of the file; SceneDistances may draw more
 
-  /// Returns five counts (u32: positions, normals, triangles, edges, distances), then the arrays in this order. Numbers
-  /// are little-endian and aligned to four bytes.
+  /// Returns six counts (u32: positions, normals, triangles, edges, distances, faces), then the arrays in this order.
+  /// Numbers are little-endian and aligned to four bytes.
   [[nodiscard]] std::string bytes() const;
 };
 
@@ -29,8 +30,7 @@ struct ShownMesh {
 /// left out.
 [[nodiscard]] ShownMesh shown_mesh(const IndexedMesh& mesh, const Vec3d& shift);
 
-/// Returns triangles, each with corners of its own. Normals are smooth across edges that are bent by less than 40
-/// degrees.
+/// Returns triangles, each with corners of its own, and the normals of smooth_normals().
 [[nodiscard]] ShownMesh shown_smooth(const std::vector<TriangleD>& triangles, const Vec3d& shift);
 
 }  // namespace bp

@@ -5,17 +5,21 @@ export interface Rule {
   at?: Vec3 | Vec3[]; box?: Vec3[]; node?: string; view?: unknown; thickness?: unknown; gap?: unknown;
   name?: string; radius?: number | string; support?: number | string; scale?: number | string; mode?: string;
 }
-export interface Measures { triangles: number; volume: number | null; volume_ratio: number | null; farthest: number | null }
+/// A frame is a quaternion w, x, y, z, or two axes.
+export interface Frame { at: Vec3; frame: number[] | Vec3[] }
+export type Orientation = null | 'auto' | Frame[];
+export interface Measures { answer: string; triangles: number; volume: number | null; volume_ratio: number | null; farthest: number | null }
 export interface Verdict { answer: string; why: string | null; levels: Measures[] }
-export interface MadeProxy extends Measures { number: number; revision: number; faces: number; answer: string }
+export interface MadeProxy extends Measures { number: number; revision: number; faces: number }
 export interface LayerState {
   name: string; kind: 'mesh' | 'tileset' | 'voxels'; levels: number; contract: string; claims: string; not_claimed: string; made_by: string[];
   step: 'none' | 'waiting' | 'checking' | 'done' | 'failed'; verdict: Verdict | null; notes: string;
 }
 export interface State {
   scene: { files: string[]; triangles: number; shown: boolean; min: Vec3; max: Vec3; diagonal: number; middle: Vec3; voxel: number; origin: Vec3; up: string };
-  design: { revision: number; base: number | string; base_world: number; rules: Rule[]; can_undo: boolean; can_redo: boolean; saved: boolean };
+  design: { revision: number; base: number | string; base_world: number; rules: Rule[]; orientation: Orientation; can_undo: boolean; can_redo: boolean; saved: boolean };
   closing: { asked: number; shown: number; generation: number; voxels: number; seconds: number; error: string };
+  element: 'cube' | 'ball';
   layers: LayerState[];
   made: MadeProxy[];
   proxy: { step: 'none' | 'meshing' | 'checking' | 'ready' | 'failed' | 'stopped'; current: boolean; faces: number; number: number; bytes: number;

@@ -21,7 +21,7 @@ export class Brush {
   private pending = false;
 
   constructor(private canvas: HTMLCanvasElement, private view: View, private facts: () => State['scene'],
-    private send: (rule: Rule, again: boolean) => void, private hover: (at: Vec3 | null) => void) {
+    private send: (rule: Rule | Rule[], again: boolean) => void, private both: (rule: Rule) => Rule | Rule[], private hover: (at: Vec3 | null) => void) {
     // This listener comes before OrbitControls, so a stroke that begins on the surface does not turn the view.
     canvas.addEventListener('pointerdown', (event) => this.down(event), { capture: true });
     canvas.addEventListener('pointermove', (event) => { this.last = event; this.schedule(); });
@@ -83,12 +83,12 @@ export class Brush {
     this.send(this.rule(), true);
   }
 
-  private rule(): Rule {
+  private rule(): Rule | Rule[] {
     const step = Math.pow(10, Math.floor(Math.log10(this.facts().voxel / 4)));
     const digits = Math.max(0, Math.round(-Math.log10(step)));
     const all = this.points.map((p) => this.view.toScene(p).map((x) => Number(x.toFixed(Math.min(digits, 20)))) as Vec3);
     const rule: Rule = { at: all.length === 1 ? all[0] : all, radius: this.radius, mode: this.tool };
     if (this.tool !== 'erase') rule.scale = this.target;
-    return rule;
+    return this.both(rule);
   }
 }

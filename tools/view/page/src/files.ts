@@ -8,7 +8,7 @@ const kColors = ['#d98c5f', '#7fa7d9', '#b98bd0', '#d3b85a', '#6fbfb0', '#d77a95
 
 interface Row {
   item: HTMLLIElement; shown: HTMLInputElement; color: HTMLInputElement; opacity: HTMLInputElement; level: HTMLSelectElement;
-  count: HTMLElement; badge: HTMLElement; prove: HTMLButtonElement; loaded: string | null; faces: number;
+  count: HTMLElement; badge: HTMLElement; prove: HTMLButtonElement; loaded: string | null;
 }
 
 function make<K extends keyof HTMLElementTagNameMap>(tag: K, more: Partial<HTMLElementTagNameMap[K]> = {}): HTMLElementTagNameMap[K] {
@@ -22,6 +22,11 @@ function badgeOf(layer: LayerState): [string, string] {
   if (layer.step === 'none') return ['', ''];
   const answer = layer.verdict?.answer ?? 'no answer';
   return [answer, answer === 'proven' ? 'proven' : 'refuted'];
+}
+
+/// Returns whether bpcheck can be asked now; it can be asked again, since files change.
+export function isProvable(layer: LayerState): boolean {
+  return layer.kind !== 'voxels' && layer.step !== 'waiting' && layer.step !== 'checking';
 }
 
 function factsOf(layer: LayerState): string {
@@ -51,7 +56,7 @@ export class Files {
       row.badge.textContent = text;
       row.badge.className = `badge ${kind}`;
       row.badge.hidden = text === '';
-      row.prove.hidden = layer.kind === 'voxels' || text !== '';
+      row.prove.hidden = !isProvable(layer);
       row.item.title = factsOf(layer);
       row.item.querySelector('.why')!.textContent = layer.step === 'done' && layer.verdict?.answer !== 'proven' ? layer.verdict?.why ?? '' : layer.step === 'failed' ? layer.notes : '';
     });
@@ -63,7 +68,7 @@ export class Files {
       item: make('li'), shown: make('input', { type: 'checkbox' }), color: make('input', { type: 'color', value: kColors[i % kColors.length], title: 'Colour' }),
       opacity: make('input', { type: 'range', min: '5', max: '100', value: '40', step: '5', title: 'Opacity' }), level: make('select', { title: 'Level; 0 is the finest' }),
       count: make('span', { className: 'count' }), badge: make('span', { className: 'badge', hidden: true }),
-      prove: make('button', { textContent: 'Prove', title: `Asks bpcheck about ${layer.name}` }), loaded: null, faces: 0,
+      prove: make('button', { textContent: 'Prove', title: `Asks bpcheck about ${layer.name}` }), loaded: null,
     };
     row.color.setAttribute('aria-label', `Colour of ${layer.name}`);
     row.opacity.setAttribute('aria-label', `Opacity of ${layer.name}`);
@@ -121,8 +126,7 @@ export class Files {
         const mesh = readMesh(await bytes(`/api/layer?${wanted}`));
         if (row.loaded !== wanted) return;
         this.view.setFile(i, mesh);
-        if (!this.distances) row.faces = (mesh.corners?.length ?? mesh.positions.length) / 3;  // else they were refined
-        row.count.textContent = row.faces ? row.faces.toLocaleString('en') : '';
+        row.count.textContent = mesh.faces.toLocaleString('en');
         this.told.loaded++;
       } catch (error) {
         row.loaded = null;

@@ -7,17 +7,25 @@ import { Ruler } from './ruler';
 import { complain, FaceField, LengthField, showState } from './panel';
 import { View, type Layer } from './view';
 import { Cut } from './cut';
-import { Files } from './files';
+import { Files, isProvable } from './files';
+import { Frames } from './frames';
+import { Mirror } from './mirror';
 import { readMesh, readSurface } from './wire';
 
 const byId = <T extends HTMLElement>(id: string): T => document.getElementById(id) as T;
 let state: State;
 const shown: Record<Layer, boolean> = { scene: false, closing: true, proxy: false };
 /// State that the tests wait for and read.
-const told = { generation: 0, proxy: 0, revision: 0, ready: false, files: () => files.told.loaded, frames: () => view.frames };
+const told = { generation: 0, proxy: 0, revision: 0, ready: false, files: () => files.told.loaded, frames: () => view.frames, frame: () => frames.place() };
 (window as any).bpview = told;
 
-const view = new View(byId('canvas'));
+function makeView(): View {
+  try { return new View(byId('canvas')); } catch (error) {
+    complain('This browser draws no WebGL 2, which the page needs; switch it on, or open the link in another browser.', true);
+    throw error;
+  }
+}
+const view = makeView();
 
 /// Edits reach the server in the order in which they were made.
 let queue: Promise<unknown> = Promise.resolve();
@@ -39,14 +47,23 @@ const base = new LengthField('base', facts, false, (value, again) => sendLast({ 
 const target = new LengthField('target', facts, false, (value) => { brush.target = value; });
 const radius = new LengthField('radius', facts, false, (value) => { brush.radius = value; });
 const faces = new FaceField((n) => { void send('/api/edit', { op: 'faces', faces: n }); });
+let hovered: Vec3 | null = null;  // the point of the surface under the pointer
 const brush: Brush = new Brush(byId('canvas'), view, facts,
   (rule, again) => (again ? sendLast : (body: unknown) => void send('/api/edit', body))({ op: 'rule', rule, again }),
-  (at: Vec3 | null) => { byId('point').textContent = at ? at.map((x) => show(x, 5)).join('  ') : ''; });
+  (rule) => mirror.both(rule),
+  (at: Vec3 | null) => { hovered = at; byId('point').textContent = at ? at.map((x) => show(x, 5)).join('  ') : ''; });
 
 const files = new Files(byId('files'), view, (i) => void send('/api/check', { file: i }), () => { showDistances(); showPlot(); });
 const ruler = new Ruler(byId('canvas'), view, facts, byId('ruler-label'), byId('ruler'));
 
 let cut: Cut;
+let mirror: Mirror;
+const frames = new Frames(view, byId('canvas'), facts, (value, again) => (again ? sendLast : (body: unknown) => void send('/api/edit', body))({ op: 'orientation', orientation: value, again }));
+/// A frame is placed under the pointer, else under the middle of the view, else in the middle of the scene.
+function addFrame(): void {
+  const canvas = byId('canvas'), seen = hovered ? null : view.pick(canvas.clientWidth / 2, canvas.clientHeight / 2);
+  frames.add(hovered ?? (seen ? view.toScene(seen) : state.scene.middle));
+}
 
 /// The proxy that is shown: one that was made before, or 0, the last one.
 let chosen = 0;
@@ -63,9 +80,9 @@ function showPlot(): void {
   const now = chosen || state.proxy.number;
   const made = state.made.map((p): PlotPoint => ({ name: `proxy ${p.number}, ${p.answer}`, faces: p.triangles, error: p.farthest, volume: p.volume_ratio, color: '#3f9d74',
     current: shown.proxy && p.number === now, act: () => chooseProxy(p.number) }));
-  const levels = state.layers.flatMap((layer, i) => (layer.verdict?.levels ?? []).map((level, n): PlotPoint => ({
+  const levels = state.layers.flatMap((layer, i) => (layer.verdict?.levels ?? []).flatMap((level, n): PlotPoint[] => (level.answer !== 'proven' ? [] : [{
     name: layer.levels > 1 ? `${layer.name}, level ${n}` : layer.name, faces: level.triangles, error: level.farthest, volume: level.volume_ratio, color: files.color(i),
-    current: files.isShown(i, n), act: () => { shown.proxy = false; files.showOnly(i, n); showLayers(); } })));
+    current: files.isShown(i, n), act: () => { shown.proxy = false; files.showOnly(i, n); showLayers(); } }])));
   plot.tell([...made, ...levels], state.scene);
 }
 
@@ -105,6 +122,7 @@ function choose(tool: Tool): void {
   brush.tool = tool;
   byId('canvas').classList.toggle('brush', tool !== 'turn');
   ruler.active = tool === 'ruler';
+  frames.activate(tool === 'turn');
   byId('cross').hidden = tool !== 'ruler';
   if (tool !== 'ruler') ruler.clear();
   const hints: Record<Tool, string> = { ruler: 'click two points · Enter: the point under the cross', turn: 'drag: turn · right drag: move · wheel: zoom', decrease: 'drag on the surface: finer · Alt: turn',
@@ -139,7 +157,9 @@ function rulePart(mode: 'decrease' | 'increase'): void {
 }
 byId('part-finer').onclick = () => rulePart('decrease');
 byId('part-coarser').onclick = () => rulePart('increase');
-byId('prove-all').onclick = () => state.layers.forEach((layer, i) => { if (layer.kind !== 'voxels' && layer.step === 'none') void send('/api/check', { file: i }); });
+byId('prove-all').onclick = () => state.layers.forEach((layer, i) => { if (isProvable(layer)) void send('/api/check', { file: i }); });
+for (const button of document.querySelectorAll<HTMLButtonElement>('[data-cubes]'))
+  button.onclick = () => (button.dataset.cubes === 'frame' ? addFrame() : frames.choose(button.dataset.cubes === 'auto' ? 'auto' : null));
 byId('copy').onclick = async () => {
   await navigator.clipboard.writeText(state.command).catch(complain);
   byId('copy').textContent = 'Copied';
@@ -175,7 +195,7 @@ addEventListener('keydown', (event) => {
     1: () => toggle('scene'), 2: () => toggle('closing'), 3: () => toggle('proxy'), f: () => view.frame(), '[': () => size(-40), ']': () => size(40),
     '+': () => view.zoom(0.9), '=': () => view.zoom(0.9), '-': () => view.zoom(1 / 0.9),
     v: () => choose('turn'), escape: () => choose('turn'), b: () => choose('decrease'), c: () => choose('increase'), e: () => choose('erase'),
-    m: () => byId('mesh').click(), r: () => choose('ruler'), d: () => void turnDistances(!distances), l: () => turnTo(byId('look').hidden ? 'look' : 'design'),
+    m: () => byId('mesh').click(), r: () => choose('ruler'), y: () => mirror.next(), o: addFrame, d: () => void turnDistances(!distances), l: () => turnTo(byId('look').hidden ? 'look' : 'design'),
     x: () => cut.next(), ',': () => cut.move(-10), '.': () => cut.move(10), '<': () => cut.move(-1), '>': () => cut.move(1), '\\': () => cut.flip(),
   };
   if (key >= '4' && key <= '9') files.toggle(Number(key) - 4);
@@ -216,6 +236,7 @@ function tell(next: State): void {
   base.follow(state.design.base);
   faces.follow(state.faces);
   files.tell(state.layers);
+  frames.tell(state.design.orientation);
   showPlot();
   view.setBase(state.design.base_world);
   void follow();
@@ -230,6 +251,8 @@ async function begin(): Promise<void> {
   radius.set('3%');
   [brush.target, brush.radius] = ['0.5%', '3%'];
   cut = new Cut(view, byId('cut'), byId('cut-place'), [...document.querySelectorAll<HTMLButtonElement>('[data-cut]')], byId('cut-flip'));
+  mirror = new Mirror(view, facts, byId('mirror-at'), [...document.querySelectorAll<HTMLButtonElement>('[data-mirror]')]);
+  byId('cubes').hidden = state.element !== 'cube';
   files.tell(state.layers);  // the plot needs its rows
   choose('turn');
   turnTo(state.layers.length > 0 ? 'look' : 'design');

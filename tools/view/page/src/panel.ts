@@ -148,10 +148,11 @@ export function showState(state: State, remove: (i: number) => void): void {
   byId('legend-high').textContent = `${percent(state.design.base_world * 8, s)}`;
 }
 
-export function complain(error: unknown): void {
+/// Shows a message for some seconds, or until the page is left.
+export function complain(error: unknown, stays = false): void {
   const message = byId('message');
   message.textContent = error instanceof Error ? error.message : String(error);
   message.hidden = false;
   clearTimeout(Number(message.dataset.timer));
-  message.dataset.timer = String(setTimeout(() => { message.hidden = true; }, 6000));
+  if (!stays) message.dataset.timer = String(setTimeout(() => { message.hidden = true; }, 6000));
 }

@@ -30,6 +30,7 @@ export class View {
   private size = 1;
   private due = false;
   private facts!: State['scene'];
+  private tools: THREE.Object3D[] = [];  // they are drawn, and no point of them is picked
   frames = 0;
   drawn: () => void = () => {};  // called after each frame
 
@@ -46,6 +47,11 @@ export class View {
     this.dark.addEventListener('change', () => this.dress());
     this.dress();
     new ResizeObserver(() => this.resize()).observe(canvas);
+  }
+
+  addTool(...objects: THREE.Object3D[]): void {
+    this.tools.push(...objects);
+    this.scene.add(...objects);
   }
 
   /// Takes the colours that suit a light or a dark page.
@@ -225,7 +231,7 @@ export class View {
 
   /// Returns the visible point there, relative to the middle. Transparent meshes are ignored.
   pick(x: number, y: number): THREE.Vector3 | null {
-    const hidden: THREE.Object3D[] = [this.stroke, this.ruler, this.ends];
+    const hidden: THREE.Object3D[] = [this.stroke, this.ruler, this.ends, ...this.tools];
     for (const shown of [this.proxy, ...this.files]) hidden.push(shown.transparent ? shown.group : shown.edges);
     return this.picker.pick(this.camera, x, y, this.canvas.clientWidth, this.canvas.clientHeight, hidden);
   }
@@ -233,6 +239,10 @@ export class View {
   toScene(p: THREE.Vector3): Vec3 {
     const m = this.facts.middle;
     return [p.x + m[0], p.y + m[1], p.z + m[2]];
+  }
+
+  fromScene(p: Vec3): THREE.Vector3 {
+    return new THREE.Vector3(...p).sub(new THREE.Vector3(...this.facts.middle));
   }
 
   private resize(): void {

@@ -1,11 +1,11 @@
-// Reads geometry as the server sends it (tools/view/geometry/wire.h, tools/view/shown_mesh.h).
+// Reads geometry as the server sends it (tools/view/geometry/wire.h, tools/view/geometry/shown_mesh.h).
 
-export interface Mesh { positions: Float32Array; normals: Int8Array | null; corners: Uint32Array | null; edges: Uint32Array | null; distances: Float32Array | null }
+export interface Mesh { positions: Float32Array; normals: Int8Array | null; corners: Uint32Array | null; edges: Uint32Array | null; distances: Float32Array | null; faces: number }
 export interface Piece { key: string; brick: [number, number, number]; vertices: number; bytes: ArrayBuffer; corners: Uint32Array }
 
 export function readMesh(data: ArrayBuffer): Mesh {
-  const [positions, normals, triangles, edges, distances] = new Uint32Array(data, 0, 5);
-  let at = 20;
+  const [positions, normals, triangles, edges, distances, faces] = new Uint32Array(data, 0, 6);
+  let at = 24;
   const next = <T>(bytes: number, make: () => T): T => { const made = make(); at += bytes; return made; };
   return {
     positions: next(positions * 12, () => new Float32Array(data, at, positions * 3)),
@@ -13,6 +13,7 @@ export function readMesh(data: ArrayBuffer): Mesh {
     corners: next(triangles * 12, () => (triangles ? new Uint32Array(data, at, triangles * 3) : null)),
     edges: next(edges * 8, () => (edges ? new Uint32Array(data, at, edges * 2) : null)),
     distances: next(distances * 4, () => (distances ? new Float32Array(data, at, distances) : null)),
+    faces,
   };
 }
 
