@@ -6,8 +6,13 @@
 
 namespace bp::test {
 
+namespace {
+
+constexpr std::size_t kRun = 1 << 13;  // as in parallel_sort.h
+
+}  // namespace
+
 TEST_CASE("sorting on all threads gives what std::sort gives, for any length of runs", "[quick][core]") {
-  constexpr std::size_t kRun = 1 << 13;
   const std::size_t n = GENERATE(std::size_t(0), std::size_t(1), kRun - 1, kRun, kRun + 1, 2 * kRun, 5 * kRun + 3);
   CAPTURE(n);
   std::mt19937 random(7);
