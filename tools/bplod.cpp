@@ -9,6 +9,7 @@
 #include "tools/lod/explain.h"
 #include "tools/lod/lod_outputs.h"
 #include "tools/lod/occluder.h"
+#include "tools/lod/options/parse_options.h"
 #include "tools/lod/scene/complete_levels.h"
 #include "tools/lod/tile_build.h"
 #include "tools/lod/tiles/visual_tileset.h"

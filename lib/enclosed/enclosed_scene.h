@@ -6,14 +6,9 @@
 #include "lib/enclosed/enclosed_triangles.h"
 #include "lib/enclosed/enclosed_voxels.h"
 #include "lib/enclosed/near_triangles.h"
+#include "lib/enclosed/scene_part.h"
 
 namespace bp {
-
-/// The part of a scene in a closed box (scene units), and voxels that stay inside in addition.
-struct ScenePart {
-  Bounds3d box;
-  const BrickShelf* voxels = nullptr;  ///< may be null
-};
 
 /// The triangles of a scene, which stay inside exactly. is_near() asks the scene's voxels, or `near` if there are few
 /// triangles: a guess is enough, and quick.

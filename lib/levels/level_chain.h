@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "lib/levels/lod_level.h"
 #include "lib/levels/voxel_choice.h"
 #include "lib/pass/voxelize/voxelize_pass.h"
 

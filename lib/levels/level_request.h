@@ -3,7 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "lib/levels/lod_level.h"
+#include "lib/levels/lod_target.h"
+#include "lib/simplify/shape_limits.h"
 
 /// The levels of detail that are wanted, as numbers and scene units, and the target of each.
 namespace bp {

@@ -8,6 +8,7 @@
 #include "lib/core/error.h"
 #include "lib/grid/shelf_stream.h"
 #include "lib/pass/mesh/complement.h"
+#include "lib/pass/mesh/mesh_pass.h"
 
 namespace bp {
 

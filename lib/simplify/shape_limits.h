@@ -1,10 +1,13 @@
 #pragma once
 #include <cstdint>
 
+#include "lib/mesh/box_group.h"
 #include "lib/mesh/edge_limit.h"
-#include "lib/mesh/step_limits.h"
+#include "lib/mesh/half_edge_mesh.h"
 
 namespace bp {
+
+class StepLimits;
 
 /// Limits that every step of simplification and tightening keeps, in addition to enclosing.
 struct ShapeLimits {

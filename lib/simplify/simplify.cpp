@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "lib/mesh/shells.h"
+#include "lib/mesh/step_limits.h"
 #include "lib/simplify/collapse_regions.h"
 #include "lib/simplify/detail/bulk_order.h"
 #include "lib/simplify/detail/collapse_order.h"

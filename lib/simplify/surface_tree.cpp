@@ -8,6 +8,7 @@
 
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
+#include "lib/mesh/step_limits.h"
 #include "lib/simplify/collapse_regions.h"
 #include "lib/simplify/detail/bulk_order.h"
 #include "lib/simplify/flatten.h"

@@ -5,6 +5,7 @@
 
 #include "lib/core/vec3.h"
 #include "lib/exact/predicates.h"
+#include "lib/mesh/step_limits.h"
 
 namespace bp {
 

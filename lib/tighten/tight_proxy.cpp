@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/mesh/step_limits.h"
 #include "lib/simplify/collapse_regions.h"
 #include "lib/tighten/detail/spikes.h"
 #include "lib/tighten/detail/thin.h"

@@ -11,6 +11,7 @@
 #include "tools/cli/names.h"
 #include "tools/lod/lod_outputs.h"
 #include "tools/lod/occluder.h"
+#include "tools/lod/options/parse_options.h"
 #include "tools/lod/scene/complete_levels.h"
 
 namespace bp::api {

@@ -5,6 +5,7 @@
 
 #include "io/stream/brick_shelf.h"
 #include "lib/core/error.h"
+#include "lib/pass/mesh/mesh_pass.h"
 #include "tools/api/call.h"
 #include "tools/api/mesh.h"
 #include "tools/api/structs.h"

@@ -5,7 +5,7 @@
 #include "lib/core/triangle_source.h"
 #include "lib/deform/coordinates.h"
 #include "lib/grid/stream.h"
-#include "lib/pass/mesh/mesh_pass.h"
+#include "lib/pass/mesh/mesh_params.h"
 
 /// Names of choices as options, reports and provenance write them; texts for counts, as in notes.
 namespace bp {

@@ -12,6 +12,7 @@
 #include "lib/core/parallel.h"
 #include "tools/cli/names.h"
 #include "tools/lod/choices.h"
+#include "tools/lod/options/parse_options.h"
 #include "tools/run/scene_budget.h"
 
 namespace bp {

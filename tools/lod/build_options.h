@@ -10,10 +10,9 @@
 #include "tools/cli/options/levels.h"
 #include "tools/cli/options/mesh.h"
 #include "tools/cli/options/voxel.h"
-#include "tools/cli/report.h"
 #include "tools/place/place.h"
 
-/// The command line of bplod.
+/// The options of bplod.
 namespace bp {
 
 /// The purpose of the levels.
@@ -35,9 +34,6 @@ enum class HullFiles { none, obj, stl };
 
 /// Least distance of a cage from the scene, percent of the scene's diagonal: coordinates bend sharply near a cage.
 constexpr double kCageMargin = 0.5;
-
-/// Parses "A..B". Throws bad_argument.
-[[nodiscard]] JobRange parse_job_range(const std::string& text);
 
 struct BuildOptions {
   CommonOptions common;
@@ -74,16 +70,5 @@ struct BuildOptions {
   /// Returns whether the tiles are the scene's own triangles: nothing is voxelized, closed or enclosed.
   [[nodiscard]] bool shows_scene() const { return is_tileset() && proxy.visual; }
 };
-
-/// Throws bad_argument if options contradict each other.
-[[nodiscard]] BuildOptions parse_build_options(Args& args);
-
-/// Sets what the profile and the mode decide, and checks the levels. Throws bad_argument.
-void settle(BuildOptions& options);
-/// Checks the name; without one, it becomes that of the first scene. Throws bad_argument.
-void check_name(BuildOptions& options);
-
-/// Returns all options for the report, except folders and files: as they were given, or null.
-[[nodiscard]] Json options_json(const BuildOptions& options);
 
 }  // namespace bp

@@ -18,6 +18,7 @@
 #include "tools/lod/build.h"
 #include "tools/lod/choices.h"
 #include "tools/lod/kept_results.h"
+#include "tools/lod/options/parse_options.h"
 #include "tools/lod/proportions.h"
 #include "tools/lod/tile_build.h"
 #include "tools/notes/estimate.h"

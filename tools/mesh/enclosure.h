@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lib/core/triangle_source.h"
-#include "lib/pass/mesh/mesh_pass.h"
+#include "lib/pass/mesh/mesh_params.h"
 #include "tools/cli/options/mesh.h"
 
 /// The set that --enclose of bpmesh asks for, read from its files.

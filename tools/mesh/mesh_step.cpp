@@ -1,6 +1,7 @@
 #include "tools/mesh/mesh_step.h"
 
 #include "lib/geometry/signed_volume.h"
+#include "lib/pass/mesh/mesh_pass.h"
 #include "tools/mesh/enclosure.h"
 #include "tools/mesh/mesh_report.h"
 #include "tools/notes/proportion.h"

@@ -1,7 +1,7 @@
 #pragma once
 #include <optional>
 
-#include "lib/pass/mesh/mesh_pass.h"
+#include "lib/pass/mesh/mesh_params.h"
 #include "tools/cli/report.h"
 #include "tools/mesh/mesh_options.h"
 

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <string>
 
-#include "lib/pass/mesh/mesh_pass.h"
+#include "lib/pass/mesh/mesh_params.h"
 
 /// Notes on a mesh that does not have the wanted number of faces.
 namespace bp {

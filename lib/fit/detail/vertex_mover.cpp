@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lib/core/vec3.h"
+#include "lib/mesh/step_limits.h"
 
 namespace bp {
 

@@ -3,6 +3,7 @@
 
 #include "lib/enclosed/enclosed.h"
 #include "lib/mesh/face_tree.h"
+#include "lib/mesh/guard.h"
 #include "lib/mesh/shells.h"
 #include "lib/simplify/shape_limits.h"
 

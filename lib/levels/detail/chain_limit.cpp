@@ -3,6 +3,7 @@
 
 #include "lib/grid/shelf_stream.h"
 #include "lib/levels/detail/level_search.h"
+#include "lib/pass/mesh/mesh_pass.h"
 #include "lib/volume/topology.h"
 
 namespace bp {

@@ -5,6 +5,7 @@
 
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
+#include "lib/enclosed/enclosed_triangles.h"
 #include "lib/pass/mesh/mesh_measures.h"
 #include "lib/pass/mesh/outward_scene.h"
 #include "lib/pass/mesh/scene_check.h"

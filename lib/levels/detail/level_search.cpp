@@ -5,6 +5,8 @@
 #include <memory>
 #include <utility>
 
+#include "lib/pass/mesh/mesh_pass.h"
+
 namespace bp {
 
 namespace {

@@ -7,6 +7,7 @@
 #include "lib/grid/clip.h"
 #include "lib/grid/shelf_stream.h"
 #include "lib/levels/detail/voxel_distance.h"
+#include "lib/pass/mesh/mesh_pass.h"
 #include "lib/pass/mesh/surface_around.h"
 #include "lib/volume/boundary_rects.h"
 #include "lib/volume/dilate.h"

@@ -1,5 +1,6 @@
 #pragma once
-#include "lib/levels/tiles/level_tiles.h"
+#include "lib/levels/tiles/tile_task.h"
+#include "lib/pass/context.h"
 #include "lib/volume/boundary_runs.h"
 
 namespace bp {

@@ -6,6 +6,7 @@
 
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
+#include "lib/enclosed/enclosed_triangles.h"
 #include "lib/levels/detail/tile_maker.h"
 #include "lib/store/packing.h"
 #include "lib/volume/boundary_runs.h"
@@ -198,10 +199,6 @@ std::uint64_t tiles_limit(const TileLevel& level, const TileParams& params, Pass
     if (maker.begin()) most = std::max(most, maker.limit(std::min(near, most_near)));
   }
   return most;
-}
-
-std::int32_t tile_reach(double scale_world, double voxel) {
-  return 1 + std::max(std::int32_t(std::ceil(scale_world / voxel)) + 2, 4);
 }
 
 void make_tiles(std::span<const TileTask> tasks, const PassContext& context, const std::function<void(double)>& left) {

@@ -1,4 +1,5 @@
 #pragma once
+#include "lib/levels/lod_level.h"
 #include "lib/levels/tiles/cut_levels.h"
 
 /// The memory of all steps of a tileset, which are counted when one of them is refused: the number that a refusal names

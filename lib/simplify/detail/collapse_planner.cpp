@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "lib/geometry/triangle_bvh.h"
+#include "lib/mesh/step_limits.h"
 
 namespace bp {
 

@@ -4,6 +4,7 @@
 #include "lib/check/check_proxy.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
+#include "lib/mesh/step_limits.h"
 #include "lib/simplify/detail/bulk_order.h"
 #include "lib/simplify/flatten.h"
 #include "lib/simplify/simplify.h"

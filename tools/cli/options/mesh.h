@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/pass/mesh/mesh_pass.h"
+#include "lib/pass/mesh/mesh_params.h"
 #include "tools/cli/args.h"
 #include "tools/run/origin.h"
 

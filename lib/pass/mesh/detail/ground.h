@@ -3,7 +3,9 @@
 
 #include "lib/enclosed/enclosed.h"
 #include "lib/geometry/triangle_bvh.h"
-#include "lib/pass/mesh/mesh_pass.h"
+#include "lib/pass/context.h"
+#include "lib/pass/mesh/mesh_params.h"
+#include "lib/surface/surface.h"
 
 namespace bp {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include "lib/enclosed/enclosed.h"
 #include "lib/pass/mesh/detail/coarse_start.h"
-#include "lib/pass/mesh/mesh_pass.h"
+#include "lib/pass/mesh/mesh_params.h"
 #include "lib/tighten/tight_proxy.h"
 
 /// Makes one level of detail from the surface that it begins with.

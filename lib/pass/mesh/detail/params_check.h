@@ -1,5 +1,5 @@
 #pragma once
-#include "lib/pass/mesh/mesh_pass.h"
+#include "lib/pass/mesh/mesh_params.h"
 
 namespace bp {
 

@@ -1,8 +1,8 @@
-// Chooses the scale and the voxels of a level from its target.
+#include "lib/levels/lod_target.h"
+
 #include <algorithm>
 #include <cmath>
 
-#include "lib/levels/lod_level.h"
 #include "lib/volume/boundary_runs.h"
 
 namespace bp {
