@@ -100,8 +100,10 @@ int run_tileset(const bp::CheckRun& o) {
   bp::SceneOptions of_tileset = options;
   of_tileset.document = bp::part_of(bp::document_budget(o.common.memory_bytes, bp::kMeshProgram, 1), 0.5);
   const std::vector<std::string> scenes(o.files.begin(), o.files.end() - 1);
-  const bp::TilesetVerdict verdict = bp::check_tileset_file(
-      bp::read_tileset(o.files.back(), of_tileset), o.files.back(), scenes, options, o.common.memory_bytes / 2, o.part);
+  const bp::Tileset tileset = bp::read_tileset(o.files.back(), of_tileset);
+  bp::check_outputs();  // the contents and the scene are read now, which may take long
+  const bp::TilesetVerdict verdict =
+      bp::check_tileset_file(tileset, o.files.back(), scenes, options, o.common.memory_bytes / 2, o.part);
   const std::string name = bp::file_name(o.files.back());
   bp::print(o.json ? verdict.json(name) : verdict.text(name));
   if (verdict.answer() == bp::Answer::refuted && verdict.scene)
