@@ -65,7 +65,6 @@ void refuse_for_tileset(const bp::CheckRun& o) {
   for (const auto& [option, given] : {std::pair{"--inside", o.inside},
                                       {"--convex", o.convex},
                                       {"--margin", o.margin.value > 0},
-                                      {"--claimed", o.claimed},
                                       {"--origin", o.origin.has_value()}}) {
     if (given) bp::fail(bp::ErrorCode::bad_argument, "{}: is for meshes; leave it out for a tileset", option);
   }
@@ -89,6 +88,26 @@ std::string tileset_hint(const std::vector<std::string>& scenes, const std::stri
   return contents.empty() ? "" : bp::fit_hint(contents.front().path);
 }
 
+std::string with_claim(const std::string& text, bp::Contract claim, bool json) {
+  const bool is_of_tileset = claim == bp::Contract::tile;  // all contents together claim the rest
+  if (!json) return bp::claim_line(claim) + text + (is_of_tileset ? "" : bp::unclaimed_line(claim));
+  bp::Json verdict = bp::Json::parse(text);
+  verdict["contract"] = name_of(claim);
+  return verdict.dump(2) + "\n";
+}
+
+/// Answers for a file that claims nothing.
+int tell_no_claim(const bp::CheckRun& o) {
+  bp::Report report("bpcheck");
+  bp::print(
+      o.json ? bp::Json{{"holds", false}, {"answer", to_string(bp::Answer::undecided)}, {"contract", nullptr}}.dump(2) +
+                   "\n"
+             : bp::no_claim_line(o.files.back()));
+  report.counts = {{"holds", false}, {"answer", to_string(bp::Answer::undecided)}};
+  report.write(o.common);
+  return status_of(bp::Answer::undecided);
+}
+
 /// Checks a tileset: many proxies, and the tree that holds them together.
 int run_tileset(const bp::CheckRun& o) {
   refuse_for_tileset(o);
@@ -100,10 +119,21 @@ int run_tileset(const bp::CheckRun& o) {
   bp::SceneOptions of_tileset = options;
   of_tileset.document = bp::part_of(bp::document_budget(o.common.memory_bytes, bp::kMeshProgram, 1), 0.5);
   const std::vector<std::string> scenes(o.files.begin(), o.files.end() - 1);
-  const bp::TilesetVerdict verdict = bp::check_tileset_file(
-      bp::read_tileset(o.files.back(), of_tileset), o.files.back(), scenes, options, o.common.memory_bytes / 2, o.part);
+  const bp::Tileset tileset = bp::read_tileset(o.files.back(), of_tileset);
+  std::optional<bp::Contract> claim;
+  if (o.claimed) {
+    claim = bp::told_contract(tileset, o.files.back());
+    if (!claim) return tell_no_claim(o);
+    if (scenes.empty())
+      bp::fail(bp::ErrorCode::bad_argument, "{}: its contents claim that {}; name the scene before it",
+               bp::file_name(o.files.back()), claim_of(*claim));
+  }
+  bp::check_outputs();  // the contents and the scene are read now, which may take long
+  const bp::TilesetVerdict verdict =
+      bp::check_tileset_file(tileset, o.files.back(), scenes, options, o.common.memory_bytes / 2, o.part);
   const std::string name = bp::file_name(o.files.back());
-  bp::print(o.json ? verdict.json(name) : verdict.text(name));
+  const std::string text = o.json ? verdict.json(name) : verdict.text(name);
+  bp::print(claim ? with_claim(text, *claim, o.json) : text);
   if (verdict.answer() == bp::Answer::refuted && verdict.scene)
     note_hint(report, o, tileset_hint(scenes, o.files.back(), options));
   if (verdict.answer() == bp::Answer::undecided && verdict.scene_counts.rounding.any())
@@ -113,13 +143,6 @@ int run_tileset(const bp::CheckRun& o) {
                    {"tiles", verdict.tiles},   {"contents", verdict.contents},          {"findings", verdict.findings}};
   report.write(o.common);
   return status_of(verdict.answer());
-}
-
-std::string with_claim(const std::string& text, bp::Contract claim, bool json) {
-  if (!json) return bp::claim_line(claim) + text + bp::unclaimed_line(claim);
-  bp::Json verdict = bp::Json::parse(text);
-  verdict["contract"] = name_of(claim);
-  return verdict.dump(2) + "\n";
 }
 
 /// Returns whether the answers about enclosure hold, or with --inside about lying inside.
@@ -245,15 +268,7 @@ int run_mesh(const bp::CheckRun& o, const std::optional<bp::Contract>& claim = {
 /// Asks whether the file's own claim holds.
 int run_claimed(const bp::CheckRun& o) {
   const std::optional<bp::Contract> claim = bp::told_contract(o.files.back());
-  if (claim) return run_mesh(bp::asking_for(*claim, o), claim);
-  bp::Report report("bpcheck");
-  bp::print(
-      o.json ? bp::Json{{"holds", false}, {"answer", to_string(bp::Answer::undecided)}, {"contract", nullptr}}.dump(2) +
-                   "\n"
-             : bp::no_claim_line(o.files.back()));
-  report.counts = {{"holds", false}, {"answer", to_string(bp::Answer::undecided)}};
-  report.write(o.common);
-  return status_of(bp::Answer::undecided);
+  return claim ? run_mesh(bp::asking_for(*claim, o), claim) : tell_no_claim(o);
 }
 
 int run(const bp::CheckRun& o) {

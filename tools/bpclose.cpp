@@ -97,8 +97,8 @@ void run(Options o) {
   if (!o.closing.scale && o.field.empty() && !reader.header().has_field) o.closing.scale = bp::kDefaultScale;
   const bool opening = bp::opens(reader.header());
   question(o, reader.header());
-  const bp::PassProgress told = progress.for_pass();
-  bp::CloseOptions options = bp::close_options(o.common, o.keep_cavities, opening, 0, told);
+  const bp::PassProgress shown = progress.for_pass();
+  bp::CloseOptions options = bp::close_options(o.common, o.keep_cavities, opening, 0, shown);
   bp::RuledSource source(reader, options.context, o.common.memory_bytes, o.common.temp);
   const bp::ScalePlan plan = scale_plan(o, source);
   const bp::ScaleField& field = plan.field;
@@ -108,8 +108,8 @@ void run(Options o) {
   const bp::Estimate estimate = bp::estimate_close(source.header(), field);
   // A GPU leaves turned cubes to the CPU.
   bp::Backends backends = bp::make_backends(o.common, params.turned() ? 0 : estimate.core_seconds, &report);
-  if (const std::uint64_t pinned = bp::pinned_bytes(backends); pinned > 0)
-    options = bp::close_options(o.common, o.keep_cavities, opening, pinned, told);
+  options = bp::close_options(o.common, o.keep_cavities, opening, bp::pinned_bytes(backends),
+                              bp::refused_with_outputs(shown));
   bp::note_estimate(estimate, o.common, progress, report, bp::names_of(backends));
   bp::BrickWriter sink(*output, closed_header(params, step, source.header(), plan));
 

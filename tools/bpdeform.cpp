@@ -1,6 +1,7 @@
 // bpdeform: binds a scene to a cage, and moves it as the cage is moved. Manual: docs/bpdeform.1.md
 #include <set>
 
+#include "io/files/file.h"
 #include "io/files/lower.h"
 #include "io/scene/scene_format.h"
 #include "lib/core/error.h"
@@ -107,22 +108,6 @@ bp::NoteOfCage note_once(const Options& o, bp::Report& report) {
   };
 }
 
-/// Returns work(). If that is refused for memory, the limit that the message names is one at which all of it fits.
-template <class Work, class LeastLimit>
-auto naming_all(const Work& work, const LeastLimit& least) {
-  try {
-    return work();
-  } catch (const bp::Error& e) {
-    if (e.memory_bytes() == 0) throw;
-    std::uint64_t all = e.memory_bytes();
-    try {
-      all = std::max(all, least());
-    } catch (const bp::Error&) {  // of a file that is broken, too: the next run says so
-    }
-    throw bp::Error(e.code(), e.what(), e.remedies(), all);
-  }
-}
-
 void bind(const Options& o, bp::Report& report, bp::Progress& progress) {
   const auto output = bp::open_output(o.out, o.common.overwrite);
   bp::Backends backends;
@@ -138,8 +123,12 @@ void bind(const Options& o, bp::Report& report, bp::Progress& progress) {
                                 scene_options(o),
                                 make_backends,
                                 note_once(o, report)};
-  const bp::WeightTotals totals =
-      naming_all([&] { return bp::bind_scene(request, *output, progress); }, [&] { return bp::least_limit(request); });
+  const bp::WeightTotals totals = bp::naming_limit(
+      [&] {
+        bp::check_outputs();
+        return bp::bind_scene(request, *output, progress);
+      },
+      [&] { return bp::least_limit(request); });
   report.counts = {{"backends", bp::names_of(backends)}, {"vertices", totals.points}, {"outside", totals.outside}};
   if (totals.outside > 0)
     report.note(fmt::format("vertices outside the cage, which follow its nearest faces: {} of {}", totals.outside,
@@ -188,8 +177,9 @@ void apply(const Options& o, bp::Report& report, bp::Progress& progress) {
   const bp::ApplyRequest request{o.files[0], scene, o.common.memory_bytes, scene_options(o), note_once(o, report)};
   std::vector<bp::MovedCage> cages;
   bp::Applied applied;
-  const std::size_t scenes = naming_all(
+  const std::size_t scenes = bp::naming_limit(
       [&] {
+        bp::check_outputs();
         cages = bp::moved_cages(files, request.scene_options, animate ? std::optional(o.per_second) : std::nullopt);
         return apply_cages(o, request, cages, applied, report, progress);
       },

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "io/files/file.h"
 #include "io/mesh/mesh_writer.h"
 #include "io/stream/brick_shelf.h"
 #include "io/stream/brick_stream.h"
@@ -74,6 +75,8 @@ void run(bp::MeshOptions o) {
   note_stream(report, o, source.header(), format);
   const bool closed_by_scale = source.header().has_closing && source.header().scale.constant();
   const bp::ShortfallFacts facts{params.error_world, closed_by_scale, bp::volume_of(params.scene)};
+  bp::naming_limit([] { bp::check_outputs(); },
+                   [&] { return bp::mesh_limit(source, context, params, params.scene.size()); });
   bp::MeshCounts counts;
   std::vector<bp::LatticeMesh> levels = bp::mesh_stream(source, context, std::move(params), counts);
   report.bytes_in = source.totals().bytes;

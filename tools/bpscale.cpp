@@ -71,7 +71,7 @@ bp::PassContext pass_context(const Options& o, bp::Progress& progress) {
   bp::PassContext context;
   context.memory = {limit.rest_bytes() / 2, 0.5, limit};
   context.make_shelf = bp::make_shelf_factory(limit.rest_bytes() / 5 * 2, o.common.temp);
-  context.progress = progress.for_pass();
+  context.progress = bp::refused_with_outputs(progress.for_pass());
   return context;
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "io/files/file.h"
 #include "io/scene/scene_reader.h"
 #include "io/stream/brick_stream.h"
 #include "lib/core/error.h"
@@ -91,6 +92,7 @@ void run(const Options& o) {
     header.provenance.push_back(bp::make_provenance(
         "bpvox", bp::voxelize_text(o.voxels, h.frame.up, o.voxels.tell_up() || source->up()), counts.input_hash));
     header.scene = bp::scene_files(o.voxels, counts);
+    bp::check_outputs();
     return writer.emplace(*file, header);
   };
   bp::VoxelizeOptions options = bp::voxelize_options(o.voxels, o.common, budget);

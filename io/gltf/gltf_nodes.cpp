@@ -54,7 +54,14 @@ std::vector<std::uint64_t> gltf_roots(const GltfObject& root) {
 }
 
 Affine gltf_transform(const GltfObject& node, const ScenePose::Node* pose) {
-  if (node.has("matrix")) return gltf_matrix(node, "matrix");
+  if (node.has("matrix")) {
+    for (const char* key : {"translation", "rotation", "scale"})
+      if (node.has(key))
+        node.unfit(std::string("has a matrix and a ") + key + ", and programs disagree on what that means");
+    const auto m = node.numbers<16>("matrix", {});
+    if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1) node.unfit("has a matrix whose last row is not 0 0 0 1");
+    return gltf_matrix(node, "matrix");
+  }
   const ScenePose::Node rest, &moved = pose != nullptr ? *pose : rest;
   return affine_of(moved.translation.value_or(node.numbers<3>("translation", {0, 0, 0})),
                    moved.rotation.value_or(node.numbers<4>("rotation", {0, 0, 0, 1})),

@@ -66,12 +66,6 @@ UnreadParts gltf_unread(const GltfObject& root) {
   look_at_extensions(root, out.moves);
   if (!root.array("animations").empty()) out.moves.emplace_back("animations may move what is drawn");
   if (root.array("scenes").empty()) out.moves.emplace_back("it has no scene, and a viewer need not draw its nodes");
-  for (std::size_t i = 0; i < root.array("nodes").size(); ++i) {
-    const GltfObject node = root.item("nodes", i);
-    const auto m = node.numbers<16>("matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
-    if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1)
-      out.moves.push_back(node.place() + " has a matrix whose last row is not 0 0 0 1");
-  }
   for (std::size_t i = 0; i < root.array("materials").size(); ++i) look_at_material(root.item("materials", i), out);
   return out;
 }

@@ -10,12 +10,12 @@
 #include "io/scene/part_names.h"
 #include "io/scene/raw_source.h"
 
-// Wavefront OBJ: the lines "v" and "f". A free-form surface ("surf") counts as a face that cannot be read; everything
-// else is skipped. If colours or walls are asked for, "usemtl" and "mtllib" are read, too, and the three numbers after
-// a vertex' position (an extension of many programs). One pass streams faces while the vertices before them are added
-// to the pool. A face that names a later vertex makes all other vertices load at once, so that a vertex is called
-// missing only if the file does not have it. If the bounds were asked for, all vertices are known before the first
-// face, and the faces of a file with plain lines only are read on all cores.
+// Wavefront OBJ: the lines "v" and "f" ("fo"). A free-form surface, and another file that is called, count as a face
+// that cannot be read; everything else is skipped. If colours or walls are asked for, "usemtl" and "mtllib" are read,
+// too, and the three numbers after a vertex' position (an extension of many programs). One pass streams faces while the
+// vertices before them are added to the pool. A face that names a later vertex makes all other vertices load at once,
+// so that a vertex is called missing only if the file does not have it. If the bounds were asked for, all vertices are
+// known before the first face, and the faces of a file with plain lines only are read on all cores.
 
 namespace bp {
 
@@ -69,8 +69,8 @@ class ObjSource final : public PolygonSource {
     names_ = {};
   }
 
-  /// Consumes the keyword. Returns 'v', 'f', 'l', 'o' or 'g' for these words, 't' for "vt", 'n' for "vn", 's' for
-  /// "surf", 'u' for "usemtl" and 'm' for "mtllib", 0 for any other, comments included.
+  /// Consumes the keyword. Returns 'v', 'f', 'l', 'o' or 'g' for these words, 't' for "vt", 'n' for "vn", 's' for those
+  /// of adds_unread_surface(), 'u' for "usemtl" and 'm' for "mtllib", 0 for any other, comments included.
   static char keyword(TextScanner& text);
   [[nodiscard]] bool is_wanted() const { return parts_.takes_all() || fits_.object || fits_.group || fits_.material; }
   void read_vertex(TextScanner& text);
@@ -155,11 +155,12 @@ bool ObjSource::next_face(std::vector<std::uint64_t>& corners) {
 
 char ObjSource::keyword(TextScanner& text) {
   const char first = text.peek();
-  if (std::string_view("vfumogsl").find(first) == std::string_view::npos) return 0;
+  if (std::string_view("vfumogslcbr").find(first) == std::string_view::npos) return 0;
   const std::string_view word = text.word();
   if (word == "vt") return 't';
   if (word == "vn") return 'n';
-  if (first == 's') return word == "surf" ? 's' : 0;
+  if (word == "fo") return 'f';  // its name in version 2
+  if (std::string_view("scbr").find(first) != std::string_view::npos) return adds_unread_surface(word) ? 's' : 0;
   return word.size() == 1 || word == "usemtl" || word == "mtllib" ? first : 0;
 }
 

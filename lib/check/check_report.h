@@ -81,7 +81,7 @@ struct CheckReport {
   Finding nonmanifold_edges;     ///< index, other: vertices of an edge with more than two triangles
   Finding nonmanifold_vertices;  ///< index: vertex whose triangles form more than one fan, of one part if parts are
                                  ///< asked for
-  Finding self_intersections;    ///< index < other: triangles that meet beyond the corner or edge they share
+  Finding self_intersections;    ///< index < other: triangles that meet beyond what they share; 200 each at most
   /// Index: first triangle of a closed component that no other surrounds and whose signed volume is not positive.
   Finding inverted_components;
 

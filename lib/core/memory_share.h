@@ -13,6 +13,7 @@ struct MemoryLimit {
 
   /// Returns the limit at which `share` of the rest has `missing` bytes more than now. 0: not known.
   [[nodiscard]] std::uint64_t with(std::uint64_t missing, double share) const {
+    if (missing == 0) return bytes;
     return share > 0 ? for_rest(double(rest_bytes()) + double(missing) / share) : 0;
   }
   /// Returns the limit at which the rest has so many bytes. 0: not known.

@@ -93,6 +93,7 @@ struct LodChain::State {
     std::vector<char> is_made(targets.size());
     const std::size_t n = std::min(targets.size() - first, most_at_once());
     if (n > 1) {
+      scene.context().report("meshing", "levels", first, targets.size());
       const PassContext share = share_of(scene.context(), n);
       std::mutex mutex;
       std::size_t next = first, done = first;

@@ -113,6 +113,24 @@ class HiddenSearch {
   std::uint64_t most_ = 0;
 };
 
+/// Returns the header of the hidden voxels after an opening; scale 0: all of them.
+StreamHeader header_of(StreamHeader header, const HiddenScene& hidden, double scale) {
+  header.bricks = bricks_around(*hidden.voxels.voxels);
+  header.fill = FillMode::inside;
+  header.has_closing = scale > 0;
+  header.scale.base = scale;
+  return header;
+}
+
+MeshParams params_of(std::uint64_t faces, double least_part) {
+  MeshParams params;
+  params.mode = MeshMode::inside;
+  params.faces = {faces > 0 ? faces : kOccluderFaces};
+  params.enclose = Enclose::input;
+  params.least_part = least_part;
+  return params;
+}
+
 /// Makes the mesh within hidden voxels.
 class OccluderMesh {
  public:
@@ -175,33 +193,21 @@ class OccluderMesh {
     return volume6_of(best_.mesh) >= int128(hidden_.voxels.count) * kVolume6OfVoxel;
   }
 
-  [[nodiscard]] StreamHeader header_at(double scale) const {
-    StreamHeader header = header_;
-    header.bricks = bricks_around(*hidden_.voxels.voxels);
-    header.fill = FillMode::inside;
-    header.has_closing = scale > 0;
-    header.scale.base = scale;
-    return header;
-  }
-
   /// Opens the hidden voxels. Returns false if nothing is left.
   bool open_by(double scale) {
     opened_.reset();
     if (scale == 0) return true;
-    opened_ = opening(header_at(scale), *hidden_.voxels.voxels, backends_, at_scale(steps_.within(options_), scale));
+    opened_ = opening(header_of(header_, hidden_, scale), *hidden_.voxels.voxels, backends_,
+                      at_scale(steps_.within(options_), scale));
     return opened_ != nullptr;
   }
 
   /// Makes the mesh. Returns false if the opened voxels are too thin to be meshed.
   bool mesh_at(double scale, double least_part, LodLevel& level) {
-    ShelfSource shelf(header_at(scale), *hidden_.voxels.voxels, opened_.get(), ShelfSource::Keep::all);
-    MeshParams params;
-    params.mode = MeshMode::inside;
-    params.faces = {faces_ > 0 ? faces_ : kOccluderFaces};
-    params.enclose = Enclose::input;
-    params.least_part = least_part;
+    ShelfSource shelf(header_of(header_, hidden_, scale), *hidden_.voxels.voxels, opened_.get(),
+                      ShelfSource::Keep::all);
     try {
-      level.mesh = std::move(mesh_stream(shelf, options_.context, std::move(params), level.counts).front());
+      level.mesh = std::move(mesh_stream(shelf, options_.context, params_of(faces_, least_part), level.counts).front());
     } catch (const Error& e) {
       if (scale == 0 || e.code() != ErrorCode::bad_input) throw;
       return false;
@@ -251,6 +257,11 @@ bool gains_on_ground(std::uint64_t on_ground, std::uint64_t without) {
 bool may_gain_on_ground(const StreamHeader& header, std::uint64_t without) {
   const VoxelCoord size = voxel_bounds(header.frame, header.bounds).size();
   return gains_on_ground(std::uint64_t(size.x) * std::uint64_t(size.y) * std::uint64_t(size.z), without);
+}
+
+std::uint64_t occluder_limit(const StreamHeader& header, const HiddenScene& hidden, const OccluderRequest& request) {
+  ShelfSource shelf(header_of(header, hidden, 0), *hidden.voxels.voxels, nullptr, ShelfSource::Keep::all);
+  return mesh_limit(shelf, request.hidden.context, params_of(request.faces, kLeastPart), 0);
 }
 
 MadeOccluder make_occluder(const StreamHeader& header, const HiddenScene& hidden, Backends& backends,

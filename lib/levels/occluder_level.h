@@ -55,6 +55,9 @@ struct MadeOccluder {
   std::uint64_t faces_asked = 0;  ///< the number asked for or chosen
 };
 
+/// Returns a limit on memory at which make_occluder() has enough for its first mesh, which is the largest.
+[[nodiscard]] std::uint64_t occluder_limit(const StreamHeader& header, const HiddenScene& hidden,
+                                           const OccluderRequest& request);
 /// Makes the mesh inside the hidden voxels, which must not be empty. Small and narrow parts are left out if the faces
 /// hide more without them.
 [[nodiscard]] MadeOccluder make_occluder(const StreamHeader& header, const HiddenScene& hidden, Backends& backends,

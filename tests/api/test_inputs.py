@@ -113,12 +113,37 @@ class Inputs(unittest.TestCase):
                            (dict(rules="{"), "rules"), (dict(rules={"base": "1%"}, scale="1%"), "scale and rules exclude each other"),
                            (dict(threads=-1), "threads"), (dict(device="tpu"), "none of auto, cpu"), (dict(temp="/no/such"), "no such directory"),
                            (dict(volume=-1), "volume"), (dict(error="-1"), "-1"), (dict(voxel="3vx"), "not measured in voxels"),
-                           (dict(resolution=2**40), "2\\^31|16384|voxels")):
+                           (dict(resolution=2**40), "no number from 0 to 2147483647")):
             with self.subTest(how=how):
                 self.refused(bp.Error, words, bp.proxy, v, t, **how)
         self.refused(TypeError, "is no length", bp.proxy, v, t, scale=[1])
-        self.refused(TypeError, "unexpected keyword", bp.proxy, v, t, scael=1)
+        self.refused(TypeError, r"proxy\(\) got an unexpected keyword argument 'scael'; did you mean 'scale'", bp.proxy, v, t, scael=1)
+        self.refused(TypeError, r"levels\(\) got .* 'thread'; did you mean 'threads'", bp.levels, v, t, thread=1)
+        self.refused(TypeError, r"info\(\) got .* 'xyz'; it has threads, memory", bp.Scene(v, t).info, xyz=1)
+        self.refused(TypeError, r"Options\(\) got .* 'memmory'; did you mean 'memory'", bp.Options, memmory=1)
         self.refused(bp.ResourceError, "memory", bp.proxy, v, t, memory=1000)
+        self.refused(bp.ResourceError, "--memory|memory 1 MiB", bp.proxy, v, t, memory="1M")
+
+    def test_texts_are_read_as_the_tools_read_them_or_refused_with_what_to_write(self):
+        v, t = self.vertices, self.triangles
+        for name, text, words in (("memory", "64X", "no size; .*'4G'"), ("memory", "", "no size"), ("memory", -1, "no number"),
+                                  ("memory", [1], "no whole number"), ("faces", "many", "no number of triangles; write faces=400"),
+                                  ("faces", "400,x", "'x' is no number of triangles"), ("faces", "", "no number of triangles"),
+                                  ("faces", 1.5, "no number of triangles"), ("faces", float("nan"), "no number of triangles"),
+                                  ("faces", [[1]], "no number of triangles"), ("threads", "2", "threads: '2' is no whole number; write it without quotes"),
+                                  ("threads", 1.5, "no whole number"), ("resolution", "64", "resolution: '64' is no whole number"),
+                                  ("volume", "big", "volume: 'big' is no number"), ("device", 0, "device: 0 is no text"),
+                                  ("progress", 3, "progress: 3 is no function")):
+            with self.subTest(name=name, text=text):
+                self.refused(bp.ArgumentError, words, bp.proxy, v, t, **{name: text})
+        self.refused(bp.ArgumentError, "hulls: '8' is no whole number", bp.hulls, self.wanted, "8")
+        self.refused(bp.ArgumentError, "levels: 'two' is no whole number", bp.levels, v, t, levels="two")
+        self.assertEqual([bp.Options(memory=text).memory for text in ("64", "2K", "64M", "1.5GiB", "4GB", 7.0)],
+                         [64, 2048, 64 << 20, 3 << 29, 4 << 30, 7])
+        self.assertTrue(same(bp.proxy(v, t, **{**QUICK, "faces": "200", "memory": "2G"}), self.wanted))
+        levels = bp.proxy(v, t, **{**QUICK, "faces": "200,60"})
+        self.assertEqual(len(levels), 2)
+        self.assertTrue(all(same(a, b) for a, b in zip(levels, bp.proxy(v, t, **{**QUICK, "faces": [200, 60]}))))
 
     def test_a_gpu_is_used_or_its_lack_is_told(self):
         for call in (lambda: bp.proxy(self.vertices, self.triangles, device="cuda", **QUICK),

@@ -54,7 +54,7 @@ set(rules
   "tools/cli:lib/* io/files io/scene"
   "tools/run:lib/* io/files io/scene io/mesh gpu tools/cli"
   "tools/cli/options:lib/* tools/cli tools/run"
-  "tools/notes:lib/* io/scene tools/cli"
+  "tools/notes:lib/* io/files io/scene tools/cli"
   "tools/pipe:lib/* io/* tools/cli tools/cli/options tools/run tools/notes"
   "tools/api:lib/* io/* tools/cli tools/cli/options tools/run tools/notes tools/mesh tools/pipe tools/lod"
   "tools/place:lib/* io/* tools/cli"

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "io/tiles/tileset_level.h"
 #include "lib/core/error.h"
 #include "tools/check/hints.h"
 #include "tools/cli/length.h"
@@ -27,6 +28,12 @@ Length told_margin(const std::string& file) {
 
 std::optional<Contract> told_contract(const std::string& file) {
   return contract_named(extras_of(file).contract);
+}
+
+std::optional<Contract> told_contract(const Tileset& tileset, const std::string& file) {
+  const auto contents = tileset_level(tileset, file, 0).contents;
+  const std::optional<Contract> claim = contents.empty() ? std::nullopt : told_contract(contents.front().path);
+  return claim == Contract::tile || claim == Contract::leaf ? std::optional(Contract::tile) : std::nullopt;
 }
 
 CheckRun asking_for(Contract contract, CheckRun run) {

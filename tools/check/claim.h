@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "io/mesh/contract.h"
+#include "lib/tileset/tileset.h"
 #include "tools/check/check_run.h"
 
 /// The claim that a proxy's file makes about itself, turned into a question for bpcheck (docs/contracts.md).
@@ -11,6 +12,9 @@ namespace bp {
 
 /// Returns the contract that the file names. Empty: it names none, or one that this version does not know.
 [[nodiscard]] std::optional<Contract> told_contract(const std::string& file);
+
+/// Returns the contract that the contents of a tileset name: that of tiles, or none.
+[[nodiscard]] std::optional<Contract> told_contract(const Tileset& tileset, const std::string& file);
 
 /// Returns the command line with the question that proves the claim. If the claim says nothing about the scene, the
 /// scenes are left out. Throws bad_argument if the claim needs a scene and none is named, if the file tells no margin,

@@ -99,7 +99,7 @@ std::string enclosure_hint(const std::string& scene, const std::string& proxy, b
   if (extras.tile)
     return fmt::format("{} is the content of a tile, and lies elsewhere than its scene: check its tileset.json", proxy);
   const std::string mode = mode_of(extras);
-  if (mode == "fit") return fit_hint(proxy);
+  if (mode == "fit" || mode == "visual") return fit_hint(proxy);
   if (mode == "inside" && !inside)
     return fmt::format("{} was made with --mode inside, to lie within its scene: prove that with --inside", proxy);
   if (mode == "bounding" && inside)
@@ -164,7 +164,10 @@ std::string rounded_hint(const std::string& scene) {
 }
 
 std::string fit_hint(const std::string& content) {
-  if (mode_of(extras_of(content)) != "fit") return "";
+  const std::string mode = mode_of(extras_of(content));
+  if (mode == "visual")
+    return content + " was made with --mode visual, to be looked at, and does not claim to enclose its scene";
+  if (mode != "fit") return "";
   return fmt::format(
       "{} was made with --mode fit, which draws it close to the scene and need not enclose it: check it alone, or make "
       "it without",

@@ -105,7 +105,7 @@ std::string advised(const Error& error, const std::string& tool) {
     before = text_of(remedy);
     text += words;
     if (remedy == Remedy::more_memory && error.memory_bytes() > 0)
-      text += fmt::format(" to at least {} MiB", (error.memory_bytes() >> 20) + 1);
+      text += fmt::format(" to at least {} MiB", (error.memory_bytes() + (1 << 20) - 1) >> 20);
     first = false;
   }
   return text;

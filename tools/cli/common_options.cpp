@@ -161,11 +161,13 @@ void CommonOptions::prepare(SmallMemory small) {
 void CommonOptions::refuse_memory(std::uint64_t least, SmallMemory small) {
   constexpr std::uint64_t kNoUnit = 1024;
   const std::uint64_t asked = std::exchange(memory_bytes, least);
-  const std::string advice = asked < kNoUnit ? fmt::format("did you mean {}G?", asked) : "raise it";
+  if (asked < kNoUnit)
+    fail(ErrorCode::out_of_resource, "--memory {}: at least {}M is needed with these --threads; did you mean {}G?",
+         size_text(asked), least >> 20, asked);
   const auto why = std::make_shared<const Error>(
-      ErrorCode::out_of_resource, fmt::format("--memory {}: at least {}M is needed with these --threads; {}",
-                                              size_text(asked), least >> 20, advice));
-  if (asked < kNoUnit || small == SmallMemory::refused) throw Error(*why);
+      ErrorCode::out_of_resource, fmt::format("--memory {} is too little with these --threads", size_text(asked)),
+      Remedies{Remedy::more_memory}, least);
+  if (small == SmallMemory::refused) throw Error(*why);
   refuse_outputs(why);
 }
 

@@ -6,6 +6,9 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <utility>
+
+#include "io/files/file.h"
 
 namespace bp {
 
@@ -134,6 +137,13 @@ PassProgress Progress::for_pass(const std::string& before) {
                                               std::uint64_t total) mutable {
     if (last != pass) begin(before + (last = pass), total, unit);
     set(done, total);
+  };
+}
+
+PassProgress refused_with_outputs(PassProgress show) {
+  return [show = std::move(show)](const char* pass, const char* unit, std::uint64_t done, std::uint64_t total) {
+    check_outputs();
+    if (show) show(pass, unit, done, total);
   };
 }
 

@@ -53,4 +53,8 @@ class Progress {
   bool drawn_ = false;
 };
 
+/// Returns a progress that first throws the refusal of outputs, if one waits (check_outputs()): for passes that report
+/// when their memory has been counted, and before the work.
+[[nodiscard]] PassProgress refused_with_outputs(PassProgress show);
+
 }  // namespace bp

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "io/files/file.h"
 #include "lib/check/counted.h"
 #include "lib/core/error.h"
 #include "lib/levels/footprints.h"
@@ -187,6 +188,7 @@ BuiltOccluder make(Build& build) {
          "another --scale, or smaller voxels",
          built.hidden.scale_world, header.frame.voxel, leak_clause(build, built.scene.voxels));
   build.report.begin("mesh");
+  naming_limit([] { check_outputs(); }, [&] { return occluder_limit(header, built.hidden, request); });
   built.made = make_occluder(header, built.hidden, build.backends, request);
   return built;
 }

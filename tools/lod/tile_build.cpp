@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "io/files/file.h"
 #include "io/mesh/lod_writer.h"
 #include "io/store/result_store.h"
 #include "io/store/scratch.h"
@@ -279,6 +280,7 @@ PyramidOptions pyramid_options(const Shop& shop, std::uint64_t held, double shar
 
 /// Everything that comes before the levels in one mesh.
 void make_tiles_and_leaves(const Shop& shop, TilePyramid& pyramid, const TriangleBvh* scene, MadeTileset& made) {
+  if (!made.plan.cut.empty() || shop.options().leaves) check_outputs();  // levels in one mesh ask for themselves
   if (made.plan.cut.empty()) {
     const StreamHeader& header = made.scene.voxels.header;
     return add_leaves(shop, {cells_spanned(shop.cells(), header.bricks).first}, header.frame, made);

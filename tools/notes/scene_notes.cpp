@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <span>
 
+#include "io/files/file.h"
 #include "io/scene/part_names.h"
 #include "lib/core/error.h"
 #include "lib/pass/voxelize/stray_part.h"
@@ -81,13 +84,32 @@ std::string leak_note(const VoxelizeCounts& counts, const StreamHeader& header) 
       filled, around);
 }
 
+/// Returns the note about a scene that is a tileset of this suite with a place on the globe. Such a file begins with
+/// its asset, which tells the place.
+std::string placed_note(const std::vector<std::string>& files) {
+  constexpr std::size_t kAsset = std::size_t(1) << 16;
+  for (const std::string& path : files) {
+    std::error_code none;
+    if (!path.ends_with(".json") || !std::filesystem::is_regular_file(path, none)) continue;
+    std::string head(kAsset, '\0');
+    head.resize(InputFile(path).read_at(0, std::as_writable_bytes(std::span(head))));
+    const std::size_t place = head.find("\"placement\"");
+    if (place < head.find("\"root\""))
+      return fmt::format(
+          "{}: stands on the globe, and is read in its own coordinates: its place is not kept, and bplod --place or "
+          "--crs tells it again",
+          path);
+  }
+  return "";
+}
+
 }  // namespace
 
 std::vector<std::string> scene_notes(const VoxelizeCounts& counts, const StreamHeader& header,
                                      const SceneAgain& scene) {
   std::vector<std::string> notes;
-  for (std::string text :
-       {reading_note(counts.scene, header.frame.voxel), stray_note(counts, header, scene), leak_note(counts, header)}) {
+  for (std::string text : {reading_note(counts.scene, header.frame.voxel), stray_note(counts, header, scene),
+                           leak_note(counts, header), placed_note(scene.files)}) {
     if (!text.empty()) notes.push_back(std::move(text));
   }
   return notes;

@@ -7,7 +7,7 @@
 #include "lib/pass/voxelize/voxelize_pass.h"
 
 /// Notes on a scene that was voxelized, a sentence each: what was left out, a small part that makes the grid large, a
-/// flood that found no inside.
+/// flood that found no inside, a place on the globe that is lost.
 namespace bp {
 
 /// How to read a scene again, for the names of its parts.

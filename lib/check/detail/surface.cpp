@@ -13,6 +13,9 @@ namespace bp {
 namespace {
 
 constexpr std::int64_t kGrain = 256;  // triangles per work item
+// Meetings that are counted for one triangle. Where a hundred thousand triangles lie at one place, all pairs meet: that
+// is too many to count, and the first ones tell it.
+constexpr std::uint64_t kMostMet = 200;
 
 std::vector<std::uint32_t> with_area(const WeldedMesh& mesh) {
   std::vector<std::uint32_t> list;
@@ -97,11 +100,14 @@ Finding Surface::self_intersections(std::size_t max_examples, bool within_parts)
     for (std::int64_t i = begin; i < end; ++i) {
       const TriangleBvh::Item& a = bvh_.item(std::size_t(i));
       const auto& corners_a = mesh_.triangles[triangle_[a.id]];
+      std::uint64_t met = 0;
       bvh_.visit(bounds_of(a.corners), [&](const TriangleBvh::Item& b) {
         if (b.id > a.id && (!within_parts || mesh_.component[triangle_[a.id]] == mesh_.component[triangle_[b.id]]) &&
-            triangles_meet_beyond_shared(mesh_.points.data(), corners_a, mesh_.triangles[triangle_[b.id]]))
+            triangles_meet_beyond_shared(mesh_.points.data(), corners_a, mesh_.triangles[triangle_[b.id]])) {
           add_sorted(here, {mesh_.number[triangle_[a.id]], mesh_.number[triangle_[b.id]], a.corners[0]}, max_examples);
-        return false;
+          ++met;
+        }
+        return met == kMostMet;
       });
     }
   });

@@ -91,6 +91,7 @@ class StreamCloser {
   }
 
   CloseCounts operator()() {
+    options_.context.report("closing", "tiles", 0, 0);
     more_ = source_.read(brick_);
     pipeline<TileCoord>(
         boxes_->count() + 2, [&](TileCoord& tile) { return next_tile(tile); },

@@ -92,6 +92,7 @@ class ShapeMeasurer {
     const int at_work = lay_tiles();
     const std::vector<TileCoord> tiles = tiles_in_reach();
     std::size_t next = 0, done = 0;
+    options_.context.report("measuring", "tiles", 0, tiles.size());
     pipeline<TileCoord>(
         at_work,
         [&](TileCoord& tile) {

@@ -62,3 +62,13 @@ said 'bpcheck --inside slit.obj in.0.ply --json | grep -A4 "\"hidden\": {"'
 awk '/^v/ { printf "v %.17g %.17g %.17g\n", 1e6 + $2 / 1000, 1e6 + $3 / 1000, 5e5 + $4 / 1000; next } { print }' ball.obj > tiny.obj
 bplod tiny.obj --profile 3dtiles --resolution 66 --tile 64 --leaves scene -q -o tiles > list
 last 'bpcheck tiny.obj tiles/tileset.json'
+# Lines of OBJ that other programs read as faces, or from elsewhere; a node whose place programs disagree on.
+cp "$BP_ROOT"/tests/data/bugs/fo_call.obj "$BP_ROOT"/tests/data/bugs/matrix_and_trs.gltf .
+write_cube around.obj 3
+sed -i '/^v/ s/ 0/ -1/g' around.obj
+sed '/^fo/d' fo_call.obj > call.obj
+sed '/^call/d; /^bsp/d' fo_call.obj > fo.obj
+last 'bpcheck call.obj around.obj'
+last 'bpcheck fo.obj around.obj'
+try bpcheck matrix_and_trs.gltf around.obj
+rm fo.obj call.obj fo_call.obj matrix_and_trs.gltf around.obj

@@ -17,7 +17,9 @@ bpinfo house | grep '^place'
 try made map.obj --up z --place 4.36,52.01,43 --origin 593000,5763000,0 -q -o point
 try bpcheck map.obj point | tail -1
 try made map.obj --up z --place 4.36,52.01,43 -o far 2>&1 | grep 'falls'
-# As a scene it is where its scene is.
+# As a scene it is where its scene is, and a note says that its place is lost. Its contents claim something.
+try bpcheck --claimed house.obj house
+try bpcheck --claimed house
 bpvox house --voxel 1 --up y -o again.bpv && bpinfo again.bpv | grep '^scene '
 
 if said 'made map.obj --crs EPSG:32631 -o map' > system && ! grep -q 'no PROJ' system; then

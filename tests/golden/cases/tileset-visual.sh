@@ -18,6 +18,8 @@ grep -aoh '"uri":"[^"]*"' first/cubes_tiles/*.glb | sort | uniq -c
 grep -o '"geometricError": [^,]*' first/tileset.json | sort | uniq -c
 bpvox first --resolution 64 -o first.bpv && bpinfo first.bpv | grep -e triangles -e bounds
 bpcheck part0.obj part1.obj ball.obj first > list || echo "= $?"
+try bpcheck --claimed part0.obj part1.obj ball.obj first
+bpcheck --claimed --json first || echo "= $?"
 # A changed image is another file, and only tiles that show it are made again.
 chequer blue
 bplod "${visual[@]}" -o first --overwrite --cache cache --report painted.json > list

@@ -114,6 +114,18 @@ TEST_CASE("boxes that overlap, touch with a face, an edge in a face or a vertex 
   CHECK(check(join(a, tip)).self_intersections.count > 0);
 }
 
+TEST_CASE("triangles at one place meet each other, and not all pairs are counted", "[quick][check]") {
+  constexpr std::uint32_t kCopies = 4000;
+  IndexedMesh mesh;
+  for (std::uint32_t i = 0; i < kCopies; ++i) {
+    for (const Vec3d& p : {Vec3d{double(i) * 1e-9, 0, 0}, Vec3d{1, 0, 0}, Vec3d{0, 1, 0}}) mesh.vertices.push_back(p);
+    mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  const std::uint64_t count = check(mesh).self_intersections.count;
+  CHECK(count >= kCopies);
+  CHECK(count <= 200 * kCopies);  // half of the square would be 8 million
+}
+
 TEST_CASE("a fold flat onto its neighbour is an intersection of neighbours", "[quick][check]") {
   // A tetrahedron pressed flat: closed, oriented, manifold, but each pair of faces overlaps.
   IndexedMesh m;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "io/files/file.h"
 #include "lib/core/error.h"
 #include "lib/levels/lod_chain.h"
 #include "lib/levels/margin.h"
@@ -100,6 +101,11 @@ void make_levels(Build& build, MadeChain& chain) {
   LevelRequest request = request_for(o, chain.scene.size.triangles, diagonal, header.frame.voxel);
   std::optional<SceneLevels> own;
   if (o.proxy.visual) {
+    naming_limit([] { check_outputs(); },
+                 [&] {
+                   return std::max(levels_limit(build, chain.scene, chain.room),
+                                   SceneLevels::limit(build, chain.scene, targets_of(request)));
+                 });
     own.emplace(build, chain.scene, targets_of(request));
     request.faces = own->open();
     request.levels = request.faces.size();

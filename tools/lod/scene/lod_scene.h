@@ -63,6 +63,10 @@ struct TilesetSteps {
   std::function<std::uint64_t(const LodOptions&)> limit;
 };
 
+/// Returns a limit on memory at which the levels fit, with the steps of `tileset`.
+[[nodiscard]] std::uint64_t levels_limit(const Build& build, const LodScene& scene, const CageRoom& room = {},
+                                         const TilesetSteps& tileset = {});
+
 /// Returns the options of LodChain. Reads the scene once more if levels enclose its triangles or follow them.
 [[nodiscard]] LodOptions lod_options(const Build& build, const LodScene& scene, const CageRoom& room = {},
                                      const TilesetSteps& tileset = {});

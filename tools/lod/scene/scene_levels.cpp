@@ -49,16 +49,22 @@ std::uint64_t bytes_of_images(const LodScene& scene) {
   return scene.textures != nullptr ? 2 * scene.textures->written_bytes() : 0;
 }
 
-/// Checks the memory of the work with its results, and that of the images' files.
-void require_memory(const Build& build, const LodScene& scene, const std::vector<LodTarget>& targets) {
+/// Returns the bytes of the work with its results.
+std::uint64_t bytes_of_work(const LodScene& scene, const std::vector<LodTarget>& targets) {
   constexpr std::uint64_t kResultBytesPerTriangle = 300;  // a vertex for each corner, here and in the file
-  const auto require = [](const std::string& what, std::uint64_t needed, const MemoryShare& memory, Remedies others) {
-    if (needed > memory.bytes) throw NeedsMemory(what, needed, memory.bytes, memory.limit_for(needed), others);
-  };
   const std::uint64_t triangles = scene.size.triangles;
   std::uint64_t work = triangles * (kLeafBytesPerTriangle + kCollapseBytesPerTriangle);
   for (const LodTarget& target : targets) work += kResultBytesPerTriangle * std::min(target.faces, triangles);
-  require(fmt::format("levels from {} triangles of the scene", triangles), work, build.context().memory, {});
+  return work;
+}
+
+/// Checks the memory of the work with its results, and that of the images' files.
+void require_memory(const Build& build, const LodScene& scene, const std::vector<LodTarget>& targets) {
+  const auto require = [](const std::string& what, std::uint64_t needed, const MemoryShare& memory, Remedies others) {
+    if (needed > memory.bytes) throw NeedsMemory(what, needed, memory.bytes, memory.limit_for(needed), others);
+  };
+  require(fmt::format("levels from {} triangles of the scene", scene.size.triangles), bytes_of_work(scene, targets),
+          build.context().memory, {});
   require("writing the images of the scene", bytes_of_images(scene), memory_for_images(build), {Remedy::no_textures});
 }
 
@@ -112,6 +118,12 @@ void SceneLevels::offer(Level& level, SceneLeaf&& leaf, const LeafImages& images
   if (level.leaf != nullptr && level.difference <= difference) return;
   level.leaf = std::make_shared<const SceneLeaf>(std::move(leaf));
   level.difference = difference;
+}
+
+std::uint64_t SceneLevels::limit(const Build& build, const LodScene& scene, const std::vector<LodTarget>& targets) {
+  return scene.size.triangles > kMostEnclosedTriangles
+             ? 0
+             : build.context().memory.limit_for(bytes_of_work(scene, targets));
 }
 
 std::uint64_t SceneLevels::images_limit(const Build& build, const LodScene& scene) {

@@ -19,6 +19,9 @@ class SceneLevels {
   /// more. A scene of more than kMostEnclosedTriangles has none, and a note says so. Throws NeedsMemory.
   SceneLevels(Build& build, const LodScene& scene, const std::vector<LodTarget>& targets);
 
+  /// Returns the limit on memory at which levels of the scene's triangles can be made, without images. 0: none are.
+  [[nodiscard]] static std::uint64_t limit(const Build& build, const LodScene& scene,
+                                           const std::vector<LodTarget>& targets);
   /// Returns the limit on memory at which the images of the scene can be written into levels.
   [[nodiscard]] static std::uint64_t images_limit(const Build& build, const LodScene& scene);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/files/file.h"
 #include "io/mesh/leaf_writer.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
@@ -114,6 +115,7 @@ std::string VisualTiles::name_of(const Job& job) const {
 
 void VisualTiles::make() {
   require_memory();
+  check_outputs();
   for (std::size_t depth = depths(); depth-- > 0;) {
     std::vector<std::size_t> jobs;
     for (std::size_t i = 0; i < jobs_.size(); ++i) {

@@ -9,6 +9,7 @@ from typing_extensions import Unpack
 
 _Path = str | os.PathLike[str]
 _Length = float | str
+_Faces = int | str | Sequence[int] | None
 _Progress = Callable[[str, int, int], object] | Literal[True]
 _Up = Literal["unknown", "y", "z", "x", "-x", "-y", "-z"]
 _Fill = Literal["flood", "winding", "none", "inside"]
@@ -33,7 +34,7 @@ _Mesh = tuple[ArrayLike, ArrayLike] | _Vertices | _Points
 
 class _Run(TypedDict, total=False):
     threads: int
-    memory: int
+    memory: int | str
     temp: _Path | None
     device: str | None
     progress: _Progress | None
@@ -46,8 +47,8 @@ class ResourceError(Error, MemoryError): ...
 class CancelledError(Error): ...
 
 class Options:
-    def __init__(self, threads: int = 0, memory: int = 0, temp: _Path | None = None, device: str | None = None,
-                 progress: _Progress | None = None) -> None: ...
+    def __init__(self, threads: int = 0, memory: int | str = 0, temp: _Path | None = None, device: str | None = None,
+                 progress: _Progress | None = None, **unknown: object) -> None: ...
 
 class Scene:
     def __init__(self, scene: _Path | list[_Path] | _Mesh | ArrayLike, triangles: ArrayLike | None = None, *, up: _Up | None = None,
@@ -71,7 +72,7 @@ class Grid:
     voxels: dict[str, int]
     def close(self, scale: _Length | None = None, *, rules: str | dict[str, Any] | None = None, element: _Element = "cube",
               keep_cavities: bool = False, **run: Unpack[_Run]) -> Grid: ...
-    def mesh(self, faces: int | Sequence[int] | None = None, **how: Any) -> Any: ...
+    def mesh(self, faces: _Faces = None, **how: Any) -> Any: ...
     def dense(self, layer: _Layer | None = None, min: ArrayLike | None = None, max: ArrayLike | None = None) -> NDArray[np.bool_]: ...
     def brick_coords(self, layer: _Layer = "solid") -> NDArray[np.int32]: ...
     def brick(self, coord: ArrayLike, layer: _Layer = "solid") -> NDArray[np.uint64]: ...
@@ -116,9 +117,9 @@ def voxelize(scene: _Scene, triangles: ArrayLike | None = None, *, voxel: _Lengt
              fill: _Fill = "flood", up: _Up | None = None, **run: Unpack[_Run]) -> Grid: ...
 def close(grid: Grid, scale: _Length | None = None, **how: Any) -> Grid: ...
 def load_grid(path: _Path, **run: Unpack[_Run]) -> Grid: ...
-def mesh(grid: Grid, faces: int | Sequence[int] | None = None, *, error: _Length | None = None, volume: float | None = None,
+def mesh(grid: Grid, faces: _Faces = None, *, error: _Length | None = None, volume: float | None = None,
          mode: _Mode = "auto", enclose: _Enclose = "auto", quads: bool = False, **run: Unpack[_Run]) -> Any: ...
-def proxy(scene: _Scene, triangles: ArrayLike | None = None, faces: int | Sequence[int] | None = 1000, scale: _Length | None = None, *,
+def proxy(scene: _Scene, triangles: ArrayLike | None = None, faces: _Faces = 1000, scale: _Length | None = None, *,
           voxel: _Length | None = None, resolution: int | None = None, fill: _Fill = "flood", up: _Up | None = None,
           rules: str | dict[str, Any] | None = None, element: _Element = "cube", keep_cavities: bool = False, error: _Length | None = None,
           volume: float | None = None, mode: _Mode = "auto", enclose: _Enclose = "auto", quads: bool = False,
@@ -127,7 +128,7 @@ def load(path: _Path, **run: Unpack[_Run]) -> list[Mesh]: ...
 def hulls(mesh: Mesh, hulls: int = 0, *, faces: int = 0, corners: int = 0, **run: Unpack[_Run]) -> list[Mesh]: ...
 def check(proxy: _Path | _Mesh | Mesh, scene: _Scene | None = None, *, inside: bool = False, convex: bool = False,
           margin: _Length | None = None, distances: bool = True, **run: Unpack[_Run]) -> Verdict: ...
-def levels(scene: _Scene, triangles: ArrayLike | None = None, faces: int | Sequence[int] | None = None, *,
+def levels(scene: _Scene, triangles: ArrayLike | None = None, faces: _Faces = None, *,
            error: _Length | Sequence[_Length] | None = None, levels: int | None = None, scale: _Length | None = None,
            mode: Literal["auto", "bounding", "fit"] = "bounding", enclose: _Enclose = "auto", voxel: _Length | None = None,
            resolution: int | None = None, fill: Literal["flood", "winding", "none"] = "flood", up: _Up | None = None,

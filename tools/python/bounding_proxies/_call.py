@@ -1,8 +1,10 @@
 """Long calls of the library: Ctrl-C ends them, progress is told on the caller's thread, and the GIL is free meanwhile."""
+import difflib
+import inspect
 import threading
 from ctypes import byref, c_void_p
 
-from ._library import ERRORS, FailedError, Handle, Note, Progress, Run, lib
+from ._library import ERRORS, ArgumentError, FailedError, Handle, Note, Progress, Run, lib, size, whole
 
 POLL_SECONDS = 0.05
 
@@ -11,16 +13,34 @@ class Options:
     """How calls run. Every function that takes long takes these, by name.
 
     threads   at most so many; 0: one for each core
-    memory    bytes to keep below; 0: a quarter of the machine's. What does not fit waits in `temp`
+    memory    bytes to keep below, or a text such as "4G"; 0: a quarter of the machine's. What does not fit waits in `temp`
     temp      folder for what waits; None: $TMPDIR, else /tmp
     device    "auto", "cpu", "cuda" or "cuda:0,1"
     progress  called now and then as progress(name_of_work, done, total), on the caller's thread. total is 0 if it is not known. True
               ends the call with CancelledError. progress=True shows a bar of tqdm where that is installed
     """
 
-    def __init__(self, threads=0, memory=0, temp=None, device=None, progress=None):
-        self.threads, self.memory, self.temp, self.device = threads, memory, temp, device
+    def __init__(self, threads=0, memory=0, temp=None, device=None, progress=None, **unknown):
+        for name in unknown:
+            _refuse_keyword(name, inspect.currentframe().f_back.f_code)
+        if device is not None and not isinstance(device, str):
+            raise ArgumentError(f"device: {device!r} is no text such as 'cpu' or 'cuda:0'")
+        if progress is not None and progress is not True and not callable(progress):
+            raise ArgumentError(f"progress: {progress!r} is no function; give one, or True for a bar of tqdm")
+        self.threads, self.memory, self.temp, self.device = whole(threads, "threads"), size(memory, "memory"), temp, device
         self.progress = _bar() if progress is True else progress
+
+
+def _refuse_keyword(name, code):
+    """Raises a TypeError, as Python does for functions without `run`. `code`: of the function that was called."""
+    options = [n for n in inspect.signature(Options).parameters if n != "unknown"]
+    if code.co_name == "<module>" or "run" not in code.co_varnames:  # Options itself
+        function, known = "Options", options
+    else:
+        function, known = code.co_name, [n for n in code.co_varnames[:code.co_argcount + code.co_kwonlyargcount] if n != "self"] + options
+    near = difflib.get_close_matches(name, known, 1)
+    hint = f"did you mean {near[0]!r}?" if near else "it has " + ", ".join(known)
+    raise TypeError(f"{function}() got an unexpected keyword argument {name!r}; {hint}")
 
 
 def _bar():

@@ -6,7 +6,7 @@ from ctypes import byref, c_size_t
 import numpy as np
 
 from ._call import Options, call
-from ._library import CloseOptions, GridInfo, VoxelizeOptions, check, choice, length, lib, read_struct
+from ._library import CloseOptions, GridInfo, VoxelizeOptions, check, choice, length, lib, read_struct, whole
 from ._scene import UPS, scene_of
 
 FILLS = ("flood", "winding", "none", "inside")
@@ -18,7 +18,7 @@ BRICK = 64
 def voxelize_options(voxel=None, resolution=None, fill="flood", up=None):
     options = VoxelizeOptions.made()
     options.voxel = length(voxel, "voxel")
-    options.resolution = resolution or 0
+    options.resolution = whole(resolution or 0, "resolution")
     options.fill = choice(fill, FILLS, "fill")
     options.up = choice(up or "unknown", UPS, "up")
     return options

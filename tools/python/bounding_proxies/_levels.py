@@ -6,7 +6,7 @@ import numpy as np
 
 from ._call import Options, call
 from ._grid import voxelize_options
-from ._library import ArgumentError, Length, LevelsOptions, OccluderOptions, check, choice, length, lib
+from ._library import Length, LevelsOptions, OccluderOptions, check, choice, length, lib, whole
 from ._mesh import ENCLOSE, Mesh, face_count, face_counts, meshes_of
 from ._scene import scene_of
 
@@ -38,9 +38,7 @@ def levels(scene, triangles=None, faces=None, *, error=None, levels=None, scale=
         lengths = [length(e, "error") for e in errors]
         options.errors, options.error_count = (Length * len(lengths))(*lengths), len(lengths)
     if levels is not None:
-        if int(levels) != levels or not 0 < levels < 2**32:
-            raise ArgumentError(f"levels: {levels!r} is no number of levels")
-        options.levels = int(levels)
+        options.levels = whole(levels, "levels", least=1)
     options.scale = length(scale, "scale")
     number = choice(mode, MODES, "mode")
     options.mode, options.enclose = number, choice(enclose, ENCLOSE, "enclose")

@@ -1,6 +1,9 @@
 """libbp.so by ctypes: its structs as bp/bp.h has them, its functions, and its errors as exceptions."""
 import ctypes
+import math
+import operator
 import os
+import re
 from ctypes import POINTER, Structure, byref, c_char_p, c_double, c_int, c_int32, c_int64, c_size_t, c_uint32, c_uint64, c_void_p, sizeof
 from pathlib import Path
 
@@ -250,6 +253,35 @@ def length(value, name):
     except (TypeError, ValueError):
         raise TypeError(f"{name}: {value!r} is no length; give a number in scene units, or a text such as '2%'") from None
     return out
+
+
+def factor(value, name):
+    """Returns a number as a float."""
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise ArgumentError(f"{name}: {value!r} is no number; write it without quotes, as {name}=1.5") from None
+
+
+def whole(value, name, least=0, below=2**31):
+    """Returns a whole number, from `least` on and smaller than `below`."""
+    try:
+        number = operator.index(value) if not isinstance(value, float) or not value.is_integer() else int(value)
+    except TypeError:
+        raise ArgumentError(f"{name}: {value!r} is no whole number; write it without quotes, as {name}={max(least, 8)}") from None
+    if not least <= number < below:
+        raise ArgumentError(f"{name}: {value!r} is no number from {least} to {below - 1}")
+    return number
+
+
+def size(value, name):
+    """Returns a number of bytes, of a number or of a text as the tools take it: "64M", "4GiB"."""
+    if not isinstance(value, str):
+        return whole(value, name, below=2**62)
+    match = re.fullmatch(r"([0-9]*\.?[0-9]+)([KMGT]?)(?:i?B)?", value)
+    if not match:
+        raise ArgumentError(f"{name}: {value!r} is no size; write a number of bytes, or a text such as '512M' or '4G'")
+    return whole(math.floor(float(match[1]) * 1024 ** " KMGT".index(match[2] or " ")), name, below=2**62)
 
 
 def choice(value, names, name):

@@ -6,7 +6,7 @@ import numpy as np
 
 from ._call import Options, call
 from ._grid import close_options, voxelize_options
-from ._library import ArgumentError, HullsOptions, MeshInfo, MeshOptions, MeshView, check, choice, length, lib, read_struct
+from ._library import ArgumentError, HullsOptions, MeshInfo, MeshOptions, MeshView, check, choice, factor, length, lib, read_struct, whole
 from ._scene import scene_of
 
 MODES = ("auto", "bounding", "fit", "inside")
@@ -60,14 +60,27 @@ class Mesh:
 
 
 def face_count(count):
-    if int(count) != count or not 0 < count < 2**63:
-        raise ArgumentError(f"faces: {count!r} is no number of triangles")
-    return int(count)
+    try:
+        number = int(count)
+        is_count = (isinstance(count, str) or number == count) and 0 < number < 2**63
+    except (TypeError, ValueError, OverflowError):
+        is_count = False
+    if not is_count:
+        raise ArgumentError(f"faces: {count!r} is no number of triangles; write faces=400, or faces=[400, 100] for several levels")
+    return number
+
+
+def face_list(faces):
+    """Returns the numbers of several levels, of a list or of a text as the tools take it ("400,100"); None: there is one level."""
+    if isinstance(faces, str):
+        faces = faces.split(",") if "," in faces else faces
+    return None if faces is None or np.ndim(faces) == 0 else list(faces)
 
 
 def face_counts(faces):
     """Returns numbers of triangles as an array of ctypes, and how many there are."""
-    counts = [face_count(count) for count in ([faces] if np.ndim(faces) == 0 else faces)]
+    several = face_list(faces)
+    counts = [face_count(count) for count in ([faces] if several is None else several)]
     return (c_uint64 * len(counts))(*counts), len(counts)
 
 
@@ -80,7 +93,7 @@ def mesh_options(faces=None, error=None, volume=None, mode="auto", enclose="auto
     if faces is not None:
         options.faces, options.levels = face_counts(faces)
     options.error = length(error, "error")
-    options.volume = 0 if volume is None else float(volume)
+    options.volume = 0 if volume is None else factor(volume, "volume")
     options.mode = choice(mode, MODES, "mode")
     options.enclose = choice(enclose, ENCLOSE, "enclose")
     options.quads = bool(quads)
@@ -88,13 +101,13 @@ def mesh_options(faces=None, error=None, volume=None, mode="auto", enclose="auto
 
 
 def _one_or_all(faces, meshes):
-    return meshes[0] if faces is None or np.ndim(faces) == 0 else meshes
+    return meshes[0] if face_list(faces) is None else meshes
 
 
 def mesh(grid, faces=None, *, error=None, volume=None, mode="auto", enclose="auto", quads=False, **run):
     """Meshes the closing of a grid, or its solid layer, and simplifies it, after [CB17] section 3.4.
 
-    faces    most triangles; a list of falling numbers makes as many levels, each of which strictly encloses the one before
+    faces    most triangles; a list of falling numbers, or a text such as "400,100", makes as many levels, each of which strictly encloses the one before
     error    largest distance to what is enclosed: a number in scene units, or "0.5%", or "2vx"
     volume   largest volume, as a multiple of the voxels' volume
     mode     "bounding": strictly around; "fit": near the surface; "inside"; "auto": bounding, or inside for grids of fill "inside"
@@ -142,5 +155,5 @@ def hulls(mesh, hulls=0, *, faces=0, corners=0, **run):
     if not isinstance(mesh, Mesh):
         raise TypeError(f"{type(mesh).__name__} is no Mesh; hulls() takes what mesh() or proxy() returned")
     options = HullsOptions.made()
-    options.hulls, options.faces, options.corners = hulls, faces, corners
+    options.hulls, options.faces, options.corners = whole(hulls, "hulls"), whole(faces, "faces", below=2**63), whole(corners, "corners")
     return meshes_of(*call(Options(**run), "bp_hulls", lambda r: (mesh._handle.address, mesh._index, byref(options), r), "bp_mesh_free"))

@@ -22,9 +22,9 @@ bool is_blank(char c) {
   return c == ' ' || c == '\t';
 }
 
-/// Returns whether the line begins with this keyword.
-bool has_keyword(std::string_view line, std::string_view word) {
-  return line.starts_with(word) && (line.size() == word.size() || static_cast<unsigned char>(line[word.size()]) <= ' ');
+std::string_view first_word(std::string_view line) {
+  const auto is_end = [](char c) { return static_cast<unsigned char>(c) <= ' '; };
+  return line.substr(0, std::size_t(std::find_if(line.begin(), line.end(), is_end) - line.begin()));
 }
 
 /// Returns what a line is, and moves its begin to the first number. `line`: without its end.
@@ -33,9 +33,9 @@ Line begin_line(std::string_view& line) {
   while (!line.empty() && is_blank(line.front())) line.remove_prefix(1);
   if (line.empty()) return Line::other;
   if (static_cast<unsigned char>(line.front()) < ' ') return Line::odd;  // some of these characters count as blanks
-  if (has_keyword(line, "surf") || has_keyword(line, "l")) return Line::odd_face;
-  if (line.front() != 'v' && line.front() != 'f') return Line::other;
-  if (line.size() > 1 && static_cast<unsigned char>(line[1]) > ' ') return Line::other;  // a longer word, such as "vn"
+  const std::string_view word = first_word(line);
+  if (word == "l" || word == "fo" || adds_unread_surface(word)) return Line::odd_face;
+  if (word != "v" && word != "f") return Line::other;
   const bool is_vertex = line.front() == 'v';
   line.remove_prefix(1);
   if (!line.empty() && !is_blank(line.front())) return Line::odd;

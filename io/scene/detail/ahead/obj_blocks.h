@@ -1,5 +1,8 @@
 #pragma once
+#include <algorithm>
+#include <array>
 #include <functional>
+#include <string_view>
 #include <vector>
 
 #include "io/scene/detail/vertex_pool.h"
@@ -7,6 +10,13 @@
 #include "io/scene/scene_file.h"
 
 namespace bp {
+
+/// Returns whether a line with this keyword adds surfaces that are not read: a free-form surface, a patch of version 2,
+/// or another file.
+[[nodiscard]] inline bool adds_unread_surface(std::string_view keyword) {
+  constexpr std::array<std::string_view, 7> kKeywords{"surf", "call", "bsp", "bzp", "cdc", "cdp", "res"};
+  return std::find(kKeywords.begin(), kKeywords.end(), keyword) != kKeywords.end();
+}
 
 /// An OBJ file whose lines are as nearly all programs write them, in blocks of text that all cores read at once.
 class ObjBlocks {

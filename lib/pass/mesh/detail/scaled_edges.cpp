@@ -5,7 +5,9 @@
 #include <cmath>
 #include <memory>
 #include <mutex>
+#include <tuple>
 #include <unordered_map>
+#include <vector>
 
 #include "lib/core/vec3.h"
 #include "lib/grid/scale_field.h"
@@ -18,19 +20,24 @@ namespace {
 /// line. Both evaluate S at the same points of the line; here some points are skipped since a bound decides.
 class ScaleLines {
  public:
-  ScaleLines(const ScaleField& field, double voxel) : field_(field), voxel_(voxel), largest_(field.base) {
-    for (const ScaleRule& rule : field.rules) largest_ = std::max(largest_, rule.scale);
-  }
+  ScaleLines(const ScaleField& field, double voxel, ScaledEdgeWork* work) : field_(field), voxel_(voxel), work_(work) {}
 
   /// Returns whether S is at least `scale` along the whole line. Lines are halved down to the edge of a voxel.
   [[nodiscard]] bool reach(const Vec3d& a, const Vec3d& b, double scale) {
-    if (scale > largest_) return false;
     if (field_.rules.size() < kFewRules) return field_.reaches_along(a, b, scale, voxel_);
-    return evaluate_at(a) >= scale && evaluate_at(b) >= scale && reach_between(a, b, scale);
+    return reach_between(a, b, scale);
   }
 
  private:
-  using Part = std::shared_ptr<const ScalePart>;
+  struct Point {
+    Vec3d at;
+    double s;  // S there
+  };
+  /// A part of the field in a ball.
+  struct Near : ScalePart {
+    double slope;  // S changes by at most so much per unit of length in the ball; infinite near brush strokes
+  };
+  using Part = std::shared_ptr<const Near>;
   /// A cube of space. Its edge is 2^level voxels.
   struct Cell {
     int level = 0;
@@ -50,47 +57,57 @@ class ScaleLines {
     std::unordered_map<Cell, Part, CellHash> parts;
   };
   static constexpr std::size_t kFewRules = 8, kShards = 32, kMostCells = 1024;  // cells kept in a shard, at most
-  // Lines of at most so many voxels are followed within one part: finding a part takes as long as evaluating some
-  // rules.
-  static constexpr std::size_t kFewInPart = 4;
-  static constexpr double kFewRulesVox = 8, kManyRulesVox = 2;
-  static constexpr int kCoarse = 6;  // cells of this level or above evaluate all rules
-  // Radius of the part in edges: it holds a line as long as an edge whose middle lies in the cell.
-  static constexpr double kReach = 1.4;
+  static constexpr double kShortVox = 8;  // lines of at most so many voxels are followed within one part
+  static constexpr int kCoarse = 6;       // cells of this level or above evaluate all rules
+  // Radius of the part in edges: it holds a line as long as two edges whose middle lies in the cell.
+  static constexpr double kReach = 1.87;
 
-  [[nodiscard]] double evaluate_at(const Vec3d& p) { return evaluate(field_, *part_of(cell_of(p, voxel_)), p); }
+  /// Returns whether S cannot fall below the scale between two points that reach it: so steep it is nowhere.
+  static bool is_too_near_to_fall(const Point& a, const Point& b, double line, double slope, double scale) {
+    constexpr double kRounding = 1e-9;  // relative, as that of ranges
+    return a.s + b.s - slope * line >= 2 * scale + kRounding * (a.s + b.s + slope * line);
+  }
 
-  /// The ends of the line are known to reach the scale.
   bool reach_between(const Vec3d& a, const Vec3d& b, double scale) {
     const Vec3d middle = 0.5 * (a + b);
     const double line = length(a - b);
     const Part part = part_of(cell_of(middle, line));
     if (part->range.least >= scale) return true;
     if (part->range.most < scale) return false;
-    const double few = part->rules.size() <= kFewInPart ? kFewRulesVox : kManyRulesVox;
-    if (line <= few * voxel_) return reach_within(*part, a, b, scale);
-    if (evaluate(field_, *part, middle) < scale) return false;
-    return reach_between(a, middle, scale) && reach_between(middle, b, scale);
+    if (line > kShortVox * voxel_)
+      return value_at(*part, middle) >= scale && reach_between(a, middle, scale) && reach_between(middle, b, scale);
+    const Point from{a, value_at(*part, a)};
+    if (from.s < scale) return false;
+    const Point to{b, value_at(*part, b)};
+    return to.s >= scale && reach_within(*part, from, to, scale);
   }
 
-  /// Returns what reach_between() does, for a line in the ball of the part: no other parts are needed.
-  bool reach_within(const ScalePart& part, const Vec3d& a, const Vec3d& b, double scale) const {
-    const Vec3d middle = 0.5 * (a + b);
-    if (evaluate(field_, part, middle) < scale) return false;
-    if (length(a - b) <= voxel_) return true;
-    return reach_within(part, a, middle, scale) && reach_within(part, middle, b, scale);
+  /// Returns whether S reaches the scale between two points that do, in the ball of the part.
+  bool reach_within(const Near& part, const Point& a, const Point& b, double scale) const {
+    const double line = length(a.at - b.at);
+    if (is_too_near_to_fall(a, b, line, part.slope, scale)) return true;
+    Point between{0.5 * (a.at + b.at), 0};
+    between.s = value_at(part, between.at);
+    if (between.s < scale) return false;
+    return line <= voxel_ || (reach_within(part, a, between, scale) && reach_within(part, between, b, scale));
+  }
+
+  [[nodiscard]] double value_at(const Near& part, const Vec3d& p) const {
+    if (work_ != nullptr) ++work_->points;
+    return evaluate(field_, part, p);
   }
 
   [[nodiscard]] double edge_of(int level) const { return std::ldexp(voxel_, level); }
 
   [[nodiscard]] Cell cell_of(const Vec3d& p, double line) const {
     Cell cell;
-    while (edge_of(cell.level) < line) ++cell.level;
+    while (2 * edge_of(cell.level) < line) ++cell.level;
     for (std::size_t i = 0; i < 3; ++i) cell.at[i] = std::int64_t(std::floor(p[i] / edge_of(cell.level)));
     return cell;
   }
 
   Part part_of(const Cell& cell) {
+    if (work_ != nullptr) ++work_->parts;
     Shard& shard = shards_[CellHash()(cell) / 64 % kShards];
     {
       const std::lock_guard lock(shard.mutex);
@@ -114,24 +131,79 @@ class ScaleLines {
       for (std::int64_t& x : outer.at) x = x >> 1;
       around = part_of(outer);
     }
-    return std::make_shared<const ScalePart>(part_near(field_, centre, kReach * edge, around.get()));
+    Near near{part_near(field_, centre, kReach * edge, around.get()), field_.slope};
+    for (const std::uint32_t i : near.rules) near.slope = std::max(near.slope, slope_of(field_.rules[i]));
+    return std::make_shared<const Near>(std::move(near));
+  }
+
+  /// Returns the slope of a rule that may be steeper than the field's.
+  static double slope_of(const ScaleRule& rule) {
+    if (rule.shape == ScaleShape::view) return rule.per_distance;
+    return rule.support == ScaleRule::kNoSupport ? 0 : HUGE_VAL;
   }
 
   const ScaleField& field_;
   const double voxel_;
-  double largest_;  // the largest scale of the field
+  ScaledEdgeWork* const work_;
   std::array<Shard, kShards> shards_;
+};
+
+/// Answers for edges, and keeps the answers for the last ones: an edge is asked for when a step is planned, and again
+/// when it is done.
+class ScaledEdges {
+ public:
+  ScaledEdges(const ScaleField& field, const GridFrame& frame, double factor, ScaledEdgeWork* work)
+      : lines_(field, frame.voxel, work), frame_(frame), factor_(factor), largest_(field.base), kept_(kKept) {
+    for (const ScaleRule& rule : field.rules) largest_ = std::max(largest_, rule.scale);
+  }
+
+  [[nodiscard]] bool allows(const LatticeCoord& a, const LatticeCoord& b) {
+    const double edge = length(to_double(b - a));
+    if (edge <= 2 * kLatticePerVoxel) return true;
+    const double scale = edge / kLatticePerVoxel * frame_.voxel / factor_;
+    if (scale > largest_) return false;
+    const bool is_turned = std::tie(b.x, b.y, b.z) < std::tie(a.x, a.y, a.z);
+    const Edge ends = is_turned ? Edge{b, a} : Edge{a, b};
+    const std::size_t place = hash_of(ends) % kKept;
+    std::mutex& mutex = mutexes_[place % mutexes_.size()];
+    {
+      const std::lock_guard lock(mutex);
+      if (kept_[place].ends == ends) return kept_[place].allowed;
+    }
+    const bool allowed = lines_.reach(frame_.world(a), frame_.world(b), scale);
+    const std::lock_guard lock(mutex);
+    kept_[place] = {ends, allowed};
+    return allowed;
+  }
+
+ private:
+  using Edge = std::array<LatticeCoord, 2>;
+  struct Answer {
+    Edge ends{};
+    bool allowed = true;
+  };
+  static constexpr std::size_t kKept = std::size_t(1) << 15;  // 1.8 MB
+
+  static std::size_t hash_of(const Edge& edge) {
+    std::uint64_t h = 0;
+    for (const LatticeCoord& p : edge)
+      for (const std::int64_t x : {p.x, p.y, p.z}) h = (h ^ std::uint64_t(x)) * 0x9E3779B97F4A7C15ULL;
+    return std::size_t(h ^ h >> 29);
+  }
+
+  ScaleLines lines_;
+  const GridFrame& frame_;
+  const double factor_;
+  double largest_;  // the largest scale of the field
+  std::vector<Answer> kept_;
+  std::array<std::mutex, 64> mutexes_;
 };
 
 }  // namespace
 
-EdgeLimit scaled_edges(const ScaleField& scale, const GridFrame& frame, double factor) {
-  const auto lines = std::make_shared<ScaleLines>(scale, frame.voxel);
-  return [lines, &frame, factor](const LatticeCoord& a, const LatticeCoord& b) {
-    const double edge = length(to_double(b - a));
-    if (edge <= 2 * kLatticePerVoxel) return true;
-    return lines->reach(frame.world(a), frame.world(b), edge / kLatticePerVoxel * frame.voxel / factor);
-  };
+EdgeLimit scaled_edges(const ScaleField& scale, const GridFrame& frame, double factor, ScaledEdgeWork* work) {
+  const auto edges = std::make_shared<ScaledEdges>(scale, frame, factor, work);
+  return [edges](const LatticeCoord& a, const LatticeCoord& b) { return edges->allows(a, b); };
 }
 
 }  // namespace bp

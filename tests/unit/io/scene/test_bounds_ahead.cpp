@@ -144,6 +144,8 @@ TEST_CASE("odd faces of an OBJ are read, or refused, as if nobody had asked for 
                                      "f 1 2 3 1 2\n",
                                      "surf 0 1\n",
                                      "surface\n",
+                                     "call other.obj\n",
+                                     "bzp 1 2 3 1\n",
                                      "l 1 2\n",
                                      "f 0 1 2\n",
                                      "f -99999999 1 2\n",

@@ -258,6 +258,13 @@ TEST_CASE("broken glTF is refused with the place that is wrong", "[quick][io]") 
   CHECK_THAT(broken("/asset/version", "1.0"), Contains("version 1.0"));
   CHECK_THAT(broken("/meshes", 5), Contains("not an array"));
   CHECK_THAT(broken("/nodes/0", 5), Contains("not an object"));
+  CHECK_THAT(broken("/nodes/0/matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 10, 0, 0, 2}), Contains("last row"));
+  for (const char* key : {"translation", "rotation", "scale"}) {
+    Document both = d;
+    both.json["nodes"][0]["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    both.json["nodes"][0][key] = {0, 0, 0, 1};
+    CHECK_THAT(glb_complaint(both), Contains(std::string("nodes[0] has a matrix and a ") + key));
+  }
   Document without = d;
   without.json["accessors"][0].erase("bufferView");
   CHECK_THAT(glb_complaint(without), Contains("no data"));

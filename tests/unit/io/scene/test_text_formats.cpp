@@ -58,6 +58,14 @@ TEST_CASE("OBJ faces without three existing corners are counted, not read", "[qu
   CHECK(counts.instances == 1);
 }
 
+TEST_CASE("OBJ faces by their old name are read, and surfaces of other lines are counted", "[quick][io]") {
+  const TempDir dir;
+  const SceneCounts counts =
+      counts_of(dir.file("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 9 9 0\nf 1 2 3\nfo 1 2 4\ncall b.obj\nbsp 1 2 3 4\n"));
+  CHECK(counts.triangles == 2);
+  CHECK(counts.bad_faces == 2);
+}
+
 TEST_CASE("a broken OBJ line is named", "[quick][io]") {
   const TempDir dir;
   CHECK_THAT(complaint_of(dir.file("a.obj", "v 0 0 0\nv 1 0\n")), Contains("a.obj: line 2: a vertex needs three"));

@@ -35,6 +35,44 @@ TEST_CASE("an edge is as long as the scale allows all along it, for few rules an
   CHECK(allowed > kEdges / 100);
 }
 
+TEST_CASE("an edge among many boxes of a scale costs a few points of the field, and nothing when it is asked again",
+          "[quick][mesh]") {
+  ScaleField field;
+  field.base = 0.1;
+  for (int i = 0; i < 30; ++i) {
+    for (int k = 0; k < 30; ++k) {
+      ScaleRule& rule = field.rules.emplace_back();
+      rule.shape = ScaleShape::box;
+      rule.points = {{0.4 * i, 0, 0.4 * k}, {0.4 * i + 0.4, 0.2, 0.4 * k + 0.4}};
+      rule.scale = 0.2;
+    }
+  }
+  GridFrame frame;
+  frame.voxel = 0.2;
+  ScaledEdgeWork work;
+  const EdgeLimit limit = scaled_edges(field, frame, 4, &work);
+  Random random(1);
+  constexpr int kEdges = 2000;
+  int allowed = 0;
+  for (int round = 0; round < 2; ++round) {
+    random = Random(1);
+    const std::uint64_t before = work.points;
+    for (int i = 0; i < kEdges; ++i) {
+      const auto on_plane = [&](double x, double z, double reach) {
+        const Vec3d p = random_point(random, reach);
+        return LatticeCoord{std::int64_t(x + p[0]), kLatticePerVoxel / 2, std::int64_t(z + p[2])};
+      };
+      const LatticeCoord a = on_plane(30.0 * kLatticePerVoxel, 30.0 * kLatticePerVoxel, 25.0 * kLatticePerVoxel);
+      allowed += limit(a, on_plane(double(a.x), double(a.z), 2.5 * kLatticePerVoxel)) ? 1 : 0;
+    }
+    if (round > 0) CHECK(work.points - before < kEdges / 10);
+  }
+  CHECK(allowed > kEdges);
+  CHECK(work.points < 5 * kEdges);  // 8 at each edge if all were asked that a voxel is halved to
+  CHECK(work.parts < 3 * kEdges);
+  INFO(work.points << " points, " << work.parts << " parts");
+}
+
 TEST_CASE("the part of a field near a place evaluates as all of it, also found within a larger part", "[quick][mesh]") {
   const auto seed = GENERATE(range(0u, 8u));
   const ScaleField field = random_field(seed);

@@ -30,7 +30,7 @@ TEST_CASE("the advice on an error names the options that would help", "[quick][t
   CHECK(
       advised(
           NeedsMemory("closing a tile", 7 * mib, 3 * mib, 20 * mib, {Remedy::larger_voxels, Remedy::fewer_faces})) ==
-      "closing a tile takes 8 MiB, and the limit on memory leaves 3 MiB for it; raise --memory to at least 21 MiB, use "
+      "closing a tile takes 8 MiB, and the limit on memory leaves 3 MiB for it; raise --memory to at least 20 MiB, use "
       "larger voxels, or fewer faces");
 }
 
@@ -81,7 +81,7 @@ TEST_CASE("an error told again in another place keeps all but its message", "[qu
     fail_as(first, "x.glb: {}", first.what());
   } catch (const Error& e) {
     CHECK(e.code() == first.code());
-    CHECK(advised(e) == "x.glb: it takes 8 MiB; raise --memory to at least 21 MiB");
+    CHECK(advised(e) == "x.glb: it takes 8 MiB; raise --memory to at least 20 MiB");
   }
 }
 
