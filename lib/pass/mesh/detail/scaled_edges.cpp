@@ -22,7 +22,8 @@ class ScaleLines {
     for (const ScaleRule& rule : field.rules) largest_ = std::max(largest_, rule.scale);
   }
 
-  /// Returns whether S is at least `scale` along the whole line. Lines are halved down to the edge of a voxel.
+  /// Returns whether S is at least `scale` along the line. S is evaluated at points at most a voxel apart, where no
+  /// bound decides.
   [[nodiscard]] bool reach(const Vec3d& a, const Vec3d& b, double scale) {
     if (scale > largest_) return false;
     if (field_.rules.size() < kFewRules) return field_.reaches_along(a, b, scale, voxel_);
