@@ -64,7 +64,8 @@ class CudaBackend final : public Backend {
                       std::vector<Crossing>& out) override {
     stream_.select();
     if (tile.empty()) return;
-    // A triangle crosses each column once at most, so crossings of a batch of this size are counted in 32 bits.
+    // Kernels count crossings in 32 bits. A triangle crosses each column at most once, so a batch of kCountedCrossings
+    // / columns triangles cannot overflow the count.
     const std::uint64_t columns = std::uint64_t(tile.size().x) * std::uint64_t(tile.size().y);
     const std::size_t most = std::size_t(std::clamp<std::uint64_t>(kCountedCrossings / columns, 1, kTriangleBatch));
     if (columns > kCountedCrossings) fail(ErrorCode::bad_argument, "a tile of {} columns is too wide", columns);
@@ -157,8 +158,9 @@ class CudaBackend final : public Backend {
     find_in_batch(triangles.subspan(half), tile, out);
   }
 
-  /// Finds the crossings of all triangles at once, and again with room for all if there are more than expected. If
-  /// several triangles have too many, it returns false and has done nothing.
+  /// Finds all crossings in one run. If there are more than kCrossingBatch, it runs again with room for all of them.
+  /// Returns false, with `out` unchanged, if several triangles have more than kMostCrossings; the caller then halves
+  /// the batch.
   bool find_at_once(std::span<const FixedTriangle> triangles, const VoxelBox& tile, std::vector<Crossing>& out) {
     staging_.upload(triangles_.grow(triangles.size()), triangles.data(), triangles.size_bytes());
     std::uint32_t capacity = kCrossingBatch, found = 0;

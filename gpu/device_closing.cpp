@@ -181,7 +181,8 @@ const std::uint32_t* DeviceClosing::dilate(const TileLayout& layout, const TileF
   return dilated_.data();
 }
 
-/// Makes tables of windows for radii from `least` to `most`. The arrays of the contour and of E are free until later.
+/// Makes the tables of windows for radii from `least` to `most`. Uses the arrays contour_ and closed_ as memory, since
+/// the closing fills them only later.
 WindowTables DeviceClosing::windows(const GridShape& shape, int least, int most, cudaStream_t stream) {
   const int last = octave_of(most), first = std::max(1, octave_of(least));
   WindowTables tables{};

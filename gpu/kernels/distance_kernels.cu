@@ -161,8 +161,8 @@ __device__ void z_unit(const TransformArgs& a, const DecideArgs& decide, const u
   if (set != 0) decide.out[at] |= set;
 }
 
-/// The pass along z, and the decision. A warp takes 16 slices of two neighbouring rows at a time; the queue hands out
-/// half z units.
+/// The pass along z, which also decides each voxel. A warp computes 16 slices of two neighbouring rows at a time. An
+/// item of the queue is 8 of the 16 rows of a z unit.
 template <class P, bool kBoundAtVoxel>
 __global__ void __launch_bounds__(kPassThreads, sizeof(P) == 4 ? 3 : 2)
     z_pass_kernel(const __grid_constant__ TransformArgs a, const __grid_constant__ DecideArgs decide) {

@@ -7,7 +7,7 @@
 #include "gpu/kernels/cuda_check.h"
 #include "gpu/kernels/tuning.h"
 
-/// Kernel launches and the few device idioms that all kernels share. Device code only.
+/// Kernel launches, and the few device idioms that all kernels share. Only .cu files and their headers include it.
 namespace bp {
 
 constexpr int kWarp = 32;

@@ -31,7 +31,6 @@ Affine gltf_matrix(const GltfObject& object, const char* key) {
   return a;
 }
 
-// Returns the roots of the default scene, else of the first. In a document without scenes: every node that is no child.
 std::vector<std::uint64_t> gltf_roots(const GltfObject& root) {
   std::vector<std::uint64_t> roots;
   if (root.array("scenes").empty()) {

@@ -16,7 +16,8 @@ namespace bp {
 /// Returns the turn from a glTF whose axis `up` (x, y or z) is up to the axes of a tile, where z is up, as viewers turn
 /// contents. Exact.
 [[nodiscard]] Affine gltf_in_tile(UpAxis up);
-/// Returns the root nodes of the default scene, else of the first; without scenes every node that is no child.
+/// Returns the root nodes of the default scene, or of the first scene if no default is named. In a document without
+/// scenes, every node that is no child is a root.
 [[nodiscard]] std::vector<std::uint64_t> gltf_roots(const GltfObject& root);
 /// Reads 16 numbers, by columns; the identity if they are missing.
 [[nodiscard]] Affine gltf_matrix(const GltfObject& object, const char* key);

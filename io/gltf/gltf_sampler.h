@@ -8,17 +8,18 @@
 /// Numbers of samplers (glTF 2.0, section 5.26).
 namespace bp {
 
-/// Returns the wrapping of a number; repeat for an unknown one.
+/// Returns the wrapping that glTF's number names; repeat for an unknown number.
 [[nodiscard]] inline TextureWrap wrap_of_gltf(std::uint64_t number) {
   return number == 33071 ? TextureWrap::clamp : number == 33648 ? TextureWrap::mirror : TextureWrap::repeat;
 }
 
-/// Returns the number of a filter; 0 for an unknown one.
+/// Returns `number` if glTF defines it as a filter, else 0, which stands for no filter.
 [[nodiscard]] inline std::uint16_t filter_of_gltf(std::uint64_t number) {
   return number == 9728 || number == 9729 || (number >= 9984 && number <= 9987) ? std::uint16_t(number) : 0;
 }
 
-/// Returns a sampler. It filters near and far where `filters` does not tell.
+/// Returns the JSON of a sampler. Where `filters` names none, the sampler gets linear filters, with mipmaps for images
+/// that are drawn smaller.
 [[nodiscard]] inline GltfOutJson gltf_sampler(const std::array<TextureWrap, 2>& wrap, const TextureFilters& filters) {
   const auto number = [](TextureWrap w) {
     return w == TextureWrap::clamp ? 33071 : w == TextureWrap::mirror ? 33648 : 10497;

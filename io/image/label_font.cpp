@@ -21,7 +21,8 @@ using FacePtr = std::unique_ptr<FT_FaceRec_, FaceCloser>;
 
 constexpr char32_t kReplacement = 0xFFFD;
 
-/// Takes the first character off `text`; kReplacement for a byte that begins none.
+/// Removes the first UTF-8 character from `text` and returns it. If the first byte begins no valid character, it
+/// removes that byte and returns kReplacement.
 char32_t next_character(std::string_view& text) {
   const auto first = static_cast<unsigned char>(text[0]);
   const std::size_t length = first < 0x80   ? 1

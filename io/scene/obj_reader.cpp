@@ -282,7 +282,7 @@ void ObjSource::note_part(const std::vector<std::uint64_t>& corners) {
   }
 }
 
-// Reads corners: "v", "v/vt", "v//vn", "v/vt/vn"; later numbers may be missing.
+// Reads corners: "v", "v/vt", "v//vn" or "v/vt/vn". Only the vertex's number is required.
 void ObjSource::read_corners(std::vector<std::uint64_t>& corners) {
   corners.clear();
   corner_places_.clear();

@@ -200,7 +200,7 @@ void BrickReader::State::check_magic(std::span<const std::byte> head) {
   }
 }
 
-/// Reads the header (section 4). The version comes first: a later version may have changed everything after it.
+/// Reads the header (section 4). The version is checked first: a later version may have changed everything after it.
 void BrickReader::State::read_header() {
   std::array<std::byte, kFrameHeadBytes + kStreamMagic.size() + 2> start;
   const std::size_t got = file.read(start);

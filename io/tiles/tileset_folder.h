@@ -28,8 +28,8 @@ class TilesetFolder {
   TilesetFolder(const TilesetFolder&) = delete;
   TilesetFolder& operator=(const TilesetFolder&) = delete;
 
-  /// Writes a file. `name` may hold one folder: "level/tile.glb". Throws bad_argument if OUT has another file of that
-  /// name that may not be replaced. Thread-safe.
+  /// Writes a file. `name` may hold one folder: "level/tile.glb". Throws bad_argument if OUT already has a different
+  /// file of this name that may not be replaced. Thread-safe.
   void write(const std::string& name, const std::string& bytes);
   /// Moves the files into place, and removes tiles of the previous tileset that are not among them. If a name was taken
   /// meanwhile, new files do not stay.

@@ -27,7 +27,7 @@ class RestingFile final : public SceneFile {
   [[nodiscard]] std::string name() const override { return path_; }
   [[nodiscard]] std::string path() const override { return path_; }
 
-  /// Closes the file; from now on it is opened for each reading.
+  /// Closes the file. From now on, each reading opens it again.
   void rest() {
     const std::lock_guard lock(mutex_);
     file_.reset();

@@ -61,11 +61,11 @@ struct CoverReport {
   std::uint64_t flat = 0;  ///< parts that rounding flattens and the leaf does not have
 };
 
-/// Checks a tileset; tiles[0] is the root. Returns no findings if all holds; for a part of the check, the findings
-/// about its tiles (of other tiles only whether they have a content counts). In addition, each content must hold as a
-/// mesh (check_proxy). Contents are read once, in the order of their numbers, as many at a time as fit memory_bytes
-/// (one at least); for each such share of them the scene is read once, from its start, and once before. Parallel; the
-/// result depends neither on threads nor on memory. Passes on exceptions of the contents and the scene.
+/// Checks a tileset; tiles[0] is the root. Returns no findings if all holds. With `part`, it returns the findings about
+/// the tiles of that part; about other tiles it asks only whether they have a content. Each content except those of
+/// leaves must also be a closed, oriented, embedded 2-manifold. Contents are loaded once, in the order of the tiles, in
+/// shares that fit memory_bytes, at least one content each. The scene is read once at first, and once for each share.
+/// Parallel; the result depends neither on threads nor on memory. Passes on exceptions of the contents and the scene.
 [[nodiscard]] CoverReport check_cover(const std::vector<CoverTile>& tiles, const CoverContents& content_of,
                                       TriangleSource& scene, std::uint64_t memory_bytes = std::uint64_t(1) << 30,
                                       TilePart part = {});

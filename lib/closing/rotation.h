@@ -39,8 +39,9 @@ struct CubeBounds {
   /// Returns the radius of the cube inside, times 16: every voxel within floor(that / 16) along each axis is in the
   /// turned cube.
   [[nodiscard]] std::int32_t inner(Scale s) const { return std::int32_t((std::int64_t(s) << kRotationBits) / row_sum); }
-  /// Returns the radius of the cube around, times 16. The sums of the columns are those of the inverse, except for the
-  /// rounding of the rows. 1/512 and one voxel allow for that.
+  /// Returns the radius of an upright cube around the turned cube, times 16, rounded up. The least one follows from the
+  /// row sums of the inverse rotation. These would be the column sums here, if the rows were exact. A factor of 513/512
+  /// and one more voxel make up for the rounding of the rows.
   [[nodiscard]] BP_HD std::int32_t outer(Scale s) const {
     if (!turned) return s;
     return std::int32_t((std::int64_t(s) * column_sum / 512 * 513 >> kRotationBits) + 1) + kScaleOne;

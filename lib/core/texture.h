@@ -100,7 +100,8 @@ struct TriangleTexture {
 class TextureSet {
  public:
   virtual ~TextureSet() = default;
-  /// Thread-safe while no scene is read. `i` is one of TriangleTexture::material.
+  /// Returns a material; `i` is a TriangleTexture::material. Several threads may call it, but not while a scene is
+  /// being read.
   [[nodiscard]] virtual const TextureMaterial& material(std::uint32_t i) const = 0;
   /// Returns the number of images in the part of the scene that was read so far.
   [[nodiscard]] virtual std::uint32_t image_count() const = 0;

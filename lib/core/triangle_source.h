@@ -144,8 +144,8 @@ class TriangleSource {
 
   [[nodiscard]] virtual const SceneCounts& counts() const = 0;  ///< since the last rewind
   [[nodiscard]] virtual std::string name() const = 0;           ///< for messages: file names
-  /// Returns a box that is likely to be that of all triangles, if the scene tells it before it is read. May read a part
-  /// of the scene.
+  /// Returns the box of all triangles, if the scene tells it before the triangles are read. The box may be wrong, so
+  /// callers must compare it with the triangles. The call may read a part of the scene.
   [[nodiscard]] virtual std::optional<Bounds3d> bounds() { return {}; }
   /// Returns the axis that points up, if the scene tells it, as our proxies do. Known from the first read() on.
   [[nodiscard]] virtual std::optional<UpAxis> up() const { return {}; }

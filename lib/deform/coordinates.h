@@ -53,7 +53,7 @@ class CageCoordinates {
 
   [[nodiscard]] const Cage& cage() const { return cage_; }
   [[nodiscard]] CoordinateKind kind() const { return kind_; }
-  /// Returns the cage for formulas; valid as long as this object.
+  /// Returns the cage as the formulas take it. The view points into this object.
   [[nodiscard]] detail::CageView view() const;
   [[nodiscard]] std::size_t columns() const;
   /// Returns a number of points whose rows stay in the processor's cache.

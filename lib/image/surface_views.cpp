@@ -69,7 +69,8 @@ std::optional<std::array<double, 3>> shares_at(const SeenTriangle& t, int x, int
   return std::array{u, v, 1 - u - v};
 }
 
-/// Returns the least and the largest x of a triangle on a line.
+/// Returns the least and the largest x at which the triangle meets the horizontal line at y; {inf, -inf} if it does not
+/// meet it.
 std::array<double, 2> span_of(const SeenTriangle& t, double y) {
   std::array<double, 2> span{HUGE_VAL, -HUGE_VAL};
   for (std::size_t k = 0; k < 3; ++k) {

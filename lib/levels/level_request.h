@@ -20,8 +20,8 @@ constexpr std::uint64_t kLeastFaces = kFacesOfBox;  ///< the least faces of a le
 /// engines; of a cage, since people edit it.
 constexpr std::uint64_t kMostDefaultFaces = 10000, kMostCollisionFaces = 5000, kMostCageFaces = 1000;
 
-/// The user's wishes. At most one of faces, shares and errors is given: as a list, or as the finest level's number,
-/// from which the others follow.
+/// The levels that the user asked for. At most one of faces, shares and errors is given. It has a number for each
+/// level, or one number for the finest level; those of the other levels follow from it.
 struct LevelRequest {
   std::optional<std::uint64_t> levels;    ///< number of levels; empty: the length of the list, or 4
   std::vector<std::uint64_t> faces;       ///< finest first

@@ -5,10 +5,10 @@
 #include "lib/device/backend.h"
 #include "lib/levels/lod_level.h"
 
-/// Makes a chain of levels of detail from one solid, for bplod. The scene is voxelized once. Each level is closed at
-/// its own scale, and meshed to its target; coarser levels use conservative reductions of the voxels
-/// (lib/volume/reduce.h). A bounding level strictly encloses the scene, but not necessarily the level before. A fit
-/// encloses nothing.
+/// Makes a chain of levels of detail from one solid, for bplod. The scene is voxelized once. A level is a closing at a
+/// scale of its own, a simplified mesh, or the scene's hull, prism or box, whichever is best (make()). Closings at
+/// larger scales use conservative reductions of the voxels (lib/volume/reduce.h). A bounding level strictly encloses
+/// the scene, but not necessarily the level before. A fit encloses nothing.
 namespace bp {
 
 class LodChain {

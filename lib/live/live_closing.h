@@ -85,7 +85,8 @@ class LiveClosing {
   Status status_;
   std::map<BrickCoord, Piece> pieces_;
 
-  // The rest is used by the working thread.
+  // The members below need no lock: only the working thread uses them, apart from stop_, which is atomic, thread_, and
+  // closing_ while no request is at work.
   std::atomic<bool> stop_{false};                ///< gives up the work that is going on
   std::unique_ptr<BrickShelf> closing_;          ///< closing that the surface shows
   std::map<BrickCoord, ScaleLattice> lattices_;  ///< scales that the pieces show

@@ -5,7 +5,7 @@
 
 #include "lib/mesh/lattice_mesh.h"
 
-/// A mesh as viewers draw it: with one normal for each vertex.
+/// A mesh for viewers, in which each vertex has one normal. A vertex at a crease is split into several.
 namespace bp {
 
 /// Two faces that meet at a larger angle have a visible edge between them.

@@ -5,7 +5,8 @@
 /// Parts of a closed surface that are changed at the same time, each in a cell of its own. A vertex of a region is free
 /// if it lies strictly inside the cell with all of its faces. Every other face that reaches into the cell stays as it
 /// is, and new faces are tested against it. New vertices lie strictly inside, so changes in one cell meet nothing of
-/// the changes in others (docs/bounding.md, "Regions"). Faces along cells' sides have their turn with other cells.
+/// the changes in others (docs/bounding.md, "Regions"). Faces along the sides of cells are changed in another turn,
+/// whose cells lie elsewhere.
 namespace bp {
 
 constexpr std::uint64_t kFacesPerRegion = 2048;  ///< the default

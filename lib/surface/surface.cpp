@@ -38,7 +38,8 @@ class PieceBuilder {
     return std::exchange(piece_, {});
   }
 
-  /// Returns the number of the vertex at a corner from (0, 0, 0) to (64, 64, 64); adds it if it is new.
+  /// Returns the number of the vertex at a corner of the brick's voxels, counted from the brick's first corner: (0, 0,
+  /// 0) to (64, 64, 64). Adds the vertex if it is new.
   std::uint32_t vertex(VoxelCoord c) {
     const auto slot = std::size_t((c.z * kCorners + c.y) * kCorners + c.x);
     if (index_[slot] == kNone) {

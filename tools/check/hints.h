@@ -16,8 +16,8 @@ namespace bp {
 [[nodiscard]] MeshExtras extras_of(const std::string& path);
 
 /// Returns the point that --origin subtracted from the vertices of `proxy`, as its file says. It must be added back
-/// before the proxy is compared with `scenes`. Empty: nothing was subtracted, there is no scene, or a scene says the
-/// same of itself.
+/// before the proxy is compared with `scenes`. Returns nothing if nothing was subtracted, if there is no scene, or if a
+/// scene's file names the same point.
 [[nodiscard]] std::optional<Vec3d> told_origin(const std::vector<std::string>& scenes, const std::string& proxy);
 
 /// Returns a hint for a proxy that fails: its file says that it was made from other triangles than those of `scenes`.

@@ -31,7 +31,8 @@ namespace bp {
 /// show.
 [[nodiscard]] std::string voxel_note(const BuildOptions& options, const SceneSize& scene);
 
-/// Returns a note if levels do not enclose the triangles of a scene although they could, and nobody asked for that.
+/// Returns a note if levels enclose the scene's voxels only because the scene has too many triangles or comes from a
+/// pipe. Empty if the user chose what is enclosed.
 [[nodiscard]] std::string enclose_note(const BuildOptions& options, std::uint64_t triangles);
 
 /// Returns notes on what the options mean for this scene: a scale that is a large share of it, and the three notes

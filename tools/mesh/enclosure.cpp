@@ -87,7 +87,7 @@ void read_files(const std::vector<std::string>& files, const EnclosureInput& in,
   out.scene = std::move(all);
 }
 
-/// Why the scene's triangles cannot be used, and what to do.
+/// Tells why the scene's triangles cannot be used, and what the user can do about it.
 struct Obstacle {
   std::string why, remedy;
 };

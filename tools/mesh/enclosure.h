@@ -34,11 +34,13 @@ struct Enclosure {
   std::string note;
 };
 
-/// Chooses the enclosed set, and reads the scene's triangles where they are needed. `automatic` chooses the scene's
-/// triangles if the stream names its files, the files hold exactly the triangles that the stream was made from, and
-/// these are no more than kMostEnclosedTriangles; else the scene's voxels. The choice depends only on the stream, on
-/// these files and on the options. Throws out_of_resource if the triangles do not fit in memory, bad_input if `scene`
-/// or files are not what the stream was made from.
+/// Chooses the enclosed set, and reads the scene's triangles if they are it. For a bounding proxy, `automatic` chooses
+/// the scene's triangles if they are known and the same as those of the stream: `scene` is given, or the stream names
+/// its files and these hold them. There may be at most kMostEnclosedTriangles of them. Else it chooses the scene's
+/// voxels. A fit takes the closing instead of the voxels; it takes no triangles if it has an error or follows a closing
+/// by cubes. A proxy inside the scene always takes the closing. The choice does not depend on the memory. Throws
+/// out_of_resource if the triangles do not fit in memory, bad_input if `scene` or files are not what the stream was
+/// made from.
 [[nodiscard]] Enclosure make_enclosure(const EncloseOption& option, const EnclosureInput& input);
 
 }  // namespace bp

@@ -29,7 +29,7 @@ struct MeshedStream {
   std::string checksum;  ///< checksum of the stream
   const std::string& enclosed;
 };
-/// Adds this step to the provenance of each level.
+/// Appends an entry about this meshing step to the provenance of each level.
 void tell_steps(std::vector<LatticeMesh>& levels, const MeshOptions& options, const MeshedStream& from);
 
 /// Returns how a proxy of this mode is written.

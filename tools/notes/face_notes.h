@@ -23,7 +23,8 @@ struct FaceAdvice {
 [[nodiscard]] std::string least_volume_note(std::uint64_t faces, std::uint64_t asked, const FaceAdvice& advice = {});
 
 /// Returns why merging ended by itself, and what to do. Merging keeps parts (shells) and handles; the note names them
-/// if there are several. The effect of a larger scale on an opening is the opposite of its effect on a closing.
+/// if there are several. With --mode inside the advice is another: there a larger scale takes narrow parts away, while
+/// in a closing it joins parts.
 [[nodiscard]] std::string merged_note(std::uint64_t faces, std::uint64_t shells, std::uint64_t handles,
                                       const FaceAdvice& advice);
 

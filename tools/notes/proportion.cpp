@@ -9,7 +9,8 @@ namespace bp {
 
 namespace {
 
-/// Returns a number with three digits or more, without an exponent where people would write none.
+/// Returns a number with three significant digits; from 1000 to 10^15 it is rounded to a whole number, without an
+/// exponent.
 std::string number(double x) {
   return x >= 1000 && x < 1e15 ? fmt::format("{:.0f}", x) : fmt::format("{:.3g}", x);
 }

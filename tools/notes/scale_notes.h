@@ -8,7 +8,8 @@
 /// Notes on scales that are allowed, but hardly meant.
 namespace bp {
 
-/// Returns the name and place of a rule: "head: at 0,1,2", "box 0,0,0 to 1,1,1", "view 0,0,9 and 3 more".
+/// Returns a text that tells a rule from others: its name if it has one, then its kind and first point: "head: at
+/// 0,1,2", "box 0,0,0 to 1,1,1", "view 0,0,9 and 3 more".
 [[nodiscard]] std::string rule_text(const ScaleRule& rule);
 
 /// Returns notes on a scale that closes nothing, on rules that the closing cannot reach, and, if measured, on rules by

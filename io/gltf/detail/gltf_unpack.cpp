@@ -31,7 +31,8 @@ MeshoptView meshopt_view(const GltfObject& packed) {
   return view;
 }
 
-/// Returns the unpacked size of a view, saturated: impossible numbers are refused later.
+/// Returns the unpacked size of a view in bytes, at most 2^62. Impossible sizes do not overflow here; they are refused
+/// later.
 std::uint64_t unpacked_bytes(const MeshoptView& view) {
   return std::uint64_t(std::min(0x1p62, double(view.count) * double(view.stride)));
 }

@@ -4,9 +4,9 @@
 
 namespace bp {
 
-/// Returns the kind of a file, and a program that makes a mesh of it, for formats that hold people's scenes and are not
-/// read here: "is a point cloud (LAS), which is not read; ...". Told by the end of its name, or by its first bytes;
-/// empty: not known.
+/// Returns what a file is and which program can make a mesh of it: "is a point cloud (LAS), which is not read; ...". It
+/// knows the formats of scenes that this suite does not read, by the end of the name or by the first bytes. Returns an
+/// empty text for other formats.
 [[nodiscard]] std::string foreign_format(const std::string& path, const std::string& first_bytes = "");
 
 /// Returns the last part of that text, also for formats that are read in part (IFC): "convert it: ...".

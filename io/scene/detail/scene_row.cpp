@@ -86,8 +86,8 @@ class SceneRow final : public TriangleSource {
     }
     return false;
   }
-  /// Refuses an empty file: the other files do not make up for a failed export. If only some parts are asked for, a
-  /// file may have none.
+  /// Refuses a file that has no triangle with an area: it is probably a failed export, even if other files have
+  /// triangles. If only some parts or the walls are asked for, a file may have none of them.
   void check_not_empty(const TriangleSource& scene) const {
     if (!options_.parts.empty() || options_.walls_only || scene.counts().has_area()) return;
     const SceneCounts& c = scene.counts();

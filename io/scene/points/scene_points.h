@@ -43,9 +43,9 @@ class ScenePoints {
   [[nodiscard]] virtual std::string left_behind() const { return {}; }
 };
 
-/// Opens an OBJ, PLY, glTF or GLB, by the extension of its name. Memory: a batch, and the JSON of glTF. Scratch of
-/// options.temp_dir: the size of glTF's buffer. A .gltf is written with its buffer in it. Throws bad_input if the file
-/// is of another format, broken, or has content that cannot be kept.
+/// Opens an OBJ, PLY, glTF or GLB file; the extension of its name decides. Takes memory for a batch and for glTF's
+/// JSON. glTF's buffer lies in a scratch file in options.temp_dir. A .gltf is written with its buffer inside. Throws
+/// bad_input if the file is of another format, broken, or has content that cannot be kept.
 [[nodiscard]] std::unique_ptr<ScenePoints> open_points(const std::string& path, const SceneOptions& options);
 
 /// The use of the vertices.

@@ -19,8 +19,8 @@ bool is_hash(const std::string& text) {
   return text.size() == kHashDigits && text.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 
-/// Returns whether a name can be kept: stdin cannot be read again, and control characters in a message would reach the
-/// terminal.
+/// Returns whether the stream can record a file's name. An empty name and "-" (stdin) name no file that can be read
+/// again, and control characters would reach the terminal with a message.
 bool is_file_name(const std::string& name) {
   constexpr unsigned char kFirstPrintable = 0x20, kDelete = 0x7f;
   return !name.empty() && name != "-" &&

@@ -62,7 +62,8 @@ bool holds(const WeldedMesh& mesh, const Part& part, const TriangleD& t) {
   });
 }
 
-/// Returns whether a corner of the triangle lies in no part. Exact.
+/// Returns whether a corner of the triangle lies strictly inside no part. The answer is exact, so `true` refutes that
+/// the parts hold the triangle.
 bool has_bare_corner(const WeldedMesh& mesh, const std::vector<Part>& parts, const ConvexCover& cover,
                      const TriangleD& t) {
   return std::any_of(t.begin(), t.end(), [&](const Vec3d& p) {

@@ -111,7 +111,8 @@ bool are_parted(const TriangleD& a, const TriangleD& b, const Vec3d& p, double d
 Answer keeps_gap(const TriangleD& a, const TriangleD& b, double margin) {
   const Nearest nearest = nearest_of(a, b);
   const Vec3d& p = nearest.on_a;
-  // A point near a corner is as exact as the coordinates themselves.
+  // The nearest points are rounded as the coordinates are, however small the triangles are. So the error has a second
+  // part, which is relative to the largest coordinate.
   double far = 0;
   for (std::size_t i = 0; i < 3; ++i) far = std::max({far, std::abs(p[i]), std::abs(nearest.on_b[i])});
   const double rounding = kRounding * (size_around(p, a, b) + nearest.distance) + 0x1p-48 * far;

@@ -15,7 +15,8 @@ namespace bp {
 
 class LeafProof {
  public:
-  /// Keeps a reference to the leaf's triangles. `flat`: a larger error excuses no part that is missing in the leaf.
+  /// Keeps a reference to the leaf's triangles. `flat`: the largest error that counts when a part is excused as flat
+  /// (Cover::flat), scene units. A leaf with a larger error cannot have more parts excused.
   LeafProof(const TriangleBvh& shown, const Bounds3d& cell, double flat)
       : shown_(shown), cell_(cell), flat_(flat), on_scene_(shown.size()) {}
 

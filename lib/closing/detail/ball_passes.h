@@ -20,7 +20,8 @@ void nearest(std::uint64_t middle, std::int32_t left, std::int32_t right, std::i
 void lower(const std::int16_t* squares, std::int16_t c, std::int16_t* row);
 void lower(const std::int32_t* squares, std::int32_t c, std::int32_t* row);
 
-/// The y pass of one slice: a row y0 + i with need[i] != 0 gets 64 values at out + i * step.
+/// The y pass of one slice. For each row y0 + i with need[i] != 0 it writes 64 values to out + i * step; other rows are
+/// skipped.
 struct RowPass {
   const std::int32_t* row_y;  ///< of the rows that hold seeds, ascending
   std::int32_t count, y0, radius;

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::int32_t kPad = 16;  // lanes before and after each row, always `far`
 
-/// to[i] = min(to[i], far, 1 + min of from[i - 1 .. i + 1]).
+/// Sets to[i] to the least of to[i], far, and 1 + the least of from[i - 1 .. i + 1].
 template <class T>
 BP_INLINE void step_row(const T* from, T* to, std::int32_t n, T far) {
   for (std::int32_t i = 0; i < n; ++i) {

@@ -39,7 +39,8 @@ BP_CLONES void join_rows(const Word* from, std::size_t n, Word* to) {
   }
 }
 
-/// One word of each of kAcross rows, as a vector of GCC and Clang: compilers do not always make vectors of loops.
+/// The types hold kAcross words, one for each row, as vectors of GCC and Clang: a plain loop is not always compiled to
+/// vector instructions. kVector is their size in bytes.
 constexpr std::size_t kVector = sizeof(Word) * kAcross;
 typedef Word Words __attribute__((vector_size(kVector)));
 typedef Word WordsInMemory __attribute__((vector_size(kVector), aligned(sizeof(Word)), may_alias));

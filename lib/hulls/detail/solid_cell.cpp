@@ -39,8 +39,8 @@ void add_corners(const std::array<Around, 3>& around, std::vector<LatticeCoord>&
   }
 }
 
-/// The line parallel to an axis through p. It lies half a unit above (u, v) in the two others, an infinitesimal farther
-/// along u, and an infinitesimal of that along v.
+/// A line parallel to an axis, at (u + 1/2, v + 1/2) in the two other axes. It is moved by an infinitesimal along u,
+/// and by a far smaller one along v, so that it meets no vertex and no edge.
 struct Line {
   int axis;
   std::int64_t u, v;

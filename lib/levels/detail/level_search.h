@@ -9,8 +9,8 @@
 
 namespace bp {
 
-/// Returns whether a level of the target may be simplified from a finer mesh: it is a bounding level, and only a number
-/// of faces is asked for.
+/// Returns whether a level of the target may be simplified from a finer mesh. That holds for bounding levels that are
+/// no cage and ask for a number of faces alone, 32 or more.
 [[nodiscard]] bool may_follow(const LevelScene& scene, const LodTarget& target);
 /// Returns whether the level may be simplified from this start: it has 50 faces for each part and hole of the start.
 [[nodiscard]] bool follows_from(const LevelScene& scene, const LodTarget& target, const LevelStart& start);

@@ -63,7 +63,8 @@ void clip(const TriangleD& t, const Bounds3d& box, std::vector<Polygon>& out) {
   }
 }
 
-/// Finds the largest distance to a mesh of the parts that are not inside it.
+/// Finds how far the scene reaches out of a mesh: the largest distance to the mesh among those parts of the scene that
+/// are not inside it.
 class Beyond {
  public:
   Beyond(const TriangleBvh& mesh, double at_least) : mesh_(mesh), largest_(at_least) {}

@@ -17,7 +17,8 @@ class TileMaker {
         cell_(level_.cells.box(coord)),
         grown_(cell_.grown(1)) {}
 
-  /// Returns the key of everything that the tile depends on.
+  /// Returns the key of the tile in the store of results. It covers everything that the tile depends on, so equal keys
+  /// mean equal tiles.
   [[nodiscard]] ResultKey key() const;
   /// Cuts out the cell's voxels. Returns false for a cell in a cavity that the closing filled: it holds no voxel of the
   /// scene, and nobody can see a face in it.

@@ -75,8 +75,8 @@ class SurfaceMap {
  public:
   void add(std::span<const SurfaceRun> runs);
   [[nodiscard]] const SurfaceRun& all() const { return all_; }
-  /// Returns for each job, by its number, about how many faces of voxels its share of the surface takes. The area of a
-  /// run is spread evenly over its box.
+  /// Estimates the work of each job, by its number: how many voxel faces its part of the surface has. A run's area
+  /// counts as spread evenly over the run's box.
   [[nodiscard]] std::vector<double> work(const TilesetPlan& plan, Cells cells) const;
 
  private:

@@ -42,7 +42,7 @@ class Baker {
   }
 
  private:
-  /// The corners that share a colour.
+  /// A set of corners of faces that get one common colour, as sums over these corners.
   struct Group {
     double mass = 0, diagonal = 0;
     Rgb mean{}, right{}, low{65535, 65535, 65535}, high{};

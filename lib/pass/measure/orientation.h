@@ -23,7 +23,7 @@ class OrientationMaker {
 
   /// Adds a triangle of the scene. Cubes stand on it, with a weight by its area.
   void add(const TriangleD& triangle);
-  /// Adds a frame at a place: axes at right angles, of unit length. Cubes there are turned like it.
+  /// Adds a frame at a place: three unit axes at right angles. Cubes near the place are turned as the frame is.
   void add(const Vec3d& at, const std::array<Vec3d, 3>& axes);
 
   /// Returns a field that is smooth between what was added, and nearly constant where possible: rotations within 2

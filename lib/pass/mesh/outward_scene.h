@@ -8,11 +8,11 @@
 /// Makes a bounding proxy without voxels: the scene's own surface, moved outwards by one or two steps of the lattice.
 namespace bp {
 
-/// Returns the surface of `scene` in `frame`, with each vertex moved to a lattice point beyond the planes of the faces
-/// around it. The result is an embedded closed mesh with the scene's triangles strictly inside, wherever they lie
-/// within `rounding` of their places, which is decided exactly. It is connected as the scene is, with two exceptions:
-/// the few places where the scene folds over itself get a tent (detail/mend_around.h), and shells within others are
-/// left out. It has at most as many faces as the scene.
+/// Returns the surface of `scene` in `frame`, with its vertices moved outwards, to lattice points beyond the planes of
+/// the faces around them. A vertex for which no such point exists stays. The result is a closed, embedded mesh that
+/// strictly contains every triangle of the scene, even if its points are off by `rounding`; this is decided exactly. It
+/// is connected as the scene is, with two exceptions: the few places where the scene folds over itself get a tent
+/// (detail/mend_around.h), and shells within others are left out. It has at most as many faces as the scene.
 ///
 /// Returns nothing if the scene is not such a surface: each edge must belong to two triangles, in opposite directions,
 /// and hardly any triangles may touch or cross, as those of walls, overlapping parts and very thin gaps do. Parallel;

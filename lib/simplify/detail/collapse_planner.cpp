@@ -62,7 +62,8 @@ std::optional<CollapsePlanner::Candidate> CollapsePlanner::solve(HalfEdgeId h, i
   return place_growing(q, prior);
 }
 
-/// Tries the free minimum, then the ends of the edge and its middle.
+/// Tries these places in turn, and returns the first that is acceptable: the free minimum, one end of the edge, its
+/// middle, its other end.
 std::optional<CollapsePlanner::Candidate> CollapsePlanner::place_free(const Quadric& q, const Vec3d& prior,
                                                                       int first_attempt) {
   const std::array<Vec3d, kFreePlaces> places{minimum(q, prior), Vec3d{}, prior, 2.0 * prior};

@@ -59,7 +59,8 @@ void take_away_earlier(const BuildOptions& o, const std::vector<std::string>& wr
   }
 }
 
-/// Writes the hulls and the models that name them. Returns the row of the MuJoCo model for the list.
+/// Writes the hulls, and the MuJoCo and URDF models that name their files. Returns the MuJoCo model's row for the list
+/// of written files.
 WrittenFile write_hull_files(const BuildOptions& o, const ConvexParts& parts, const Vec3d& origin, OutputFolder& out) {
   const MeshFormat format = o.hull_files == HullFiles::obj ? MeshFormat::obj : MeshFormat::stl;
   std::vector<std::string> files;

@@ -13,7 +13,7 @@ namespace bp {
 /// Counts the limit on memory at which all steps of a tileset fit, its leaves included.
 class TilesetMemory {
  public:
-  /// The things that a tileset is made from.
+  /// The inputs of a tileset.
   struct Parts {
     const Build& build;
     const LodScene& scene;

@@ -156,8 +156,8 @@ std::vector<std::string> VisualTiles::notes() const {
   return all;
 }
 
-/// Returns about how many triangles a tile will have: those that meet its box, or as many as it may have. It has more
-/// if much of it stays on the faces of its box.
+/// Estimates the triangles of a tile. A tile without tiles below has those that meet its box. Another one has the sum
+/// of those below, at most `most_`; it may exceed that if much of it lies on the faces of its box.
 std::uint64_t VisualTiles::planned(const Job& job) const {
   if (job.below.empty()) return job.box.triangles;
   std::uint64_t sum = 0;

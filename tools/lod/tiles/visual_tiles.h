@@ -47,7 +47,7 @@ class VisualTiles {
     std::size_t depth = 0;
     std::vector<std::size_t> below{};  ///< numbers of the jobs of its octants
     ResultKey key{};                   ///< of its result; set if results are kept
-    // make() sets the rest. No triangles: there is no such tile.
+    // make() sets the members below. After that, a job with 0 triangles has no tile.
     Scratch::Handle tile = 0;     ///< the SceneTile, until the tile above is made
     Scratch::Handle content = 0;  ///< the file
     std::uint64_t triangles = 0, bytes = 0;

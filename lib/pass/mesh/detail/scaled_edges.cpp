@@ -22,7 +22,8 @@ class ScaleLines {
  public:
   ScaleLines(const ScaleField& field, double voxel, ScaledEdgeWork* work) : field_(field), voxel_(voxel), work_(work) {}
 
-  /// Returns whether S is at least `scale` along the whole line. Lines are halved down to the edge of a voxel.
+  /// Returns whether S is at least `scale` along the line. S is evaluated at points at most a voxel apart, where no
+  /// bound decides.
   [[nodiscard]] bool reach(const Vec3d& a, const Vec3d& b, double scale) {
     if (field_.rules.size() < kFewRules) return field_.reaches_along(a, b, scale, voxel_);
     return reach_between(a, b, scale);

@@ -21,7 +21,7 @@ class ChunkedSurface {
 
   /// First pass: takes the triangles in their order, with ChunkCutter::places().
   void measure(std::span<const TriangleD> triangles, std::span<const std::uint32_t> places);
-  /// All triangles lie in whole chunks.
+  /// Returns whether the first `triangles` triangles of the scene all lie in complete chunks.
   [[nodiscard]] bool ended(std::uint64_t triangles) const { return triangles <= ended_; }
   /// Returns true if all of these triangles, counted from the first, lie in chunks that some build has voxelized. Such
   /// triangles need not stay in memory, though the voxels that are found may turn out to be of another frame.

@@ -14,8 +14,9 @@
 
 namespace bp {
 
-/// The two passes over the triangles of a scene: the first for its bounds, the second for the triangles. Triangles stay
-/// in memory in between as long as they fit; else the scene is read a second time, and must give the same triangles.
+/// The two passes over the triangles of a scene: the first for its bounds, the second for the triangles. If the
+/// triangles fit in memory, they stay there in between. If not, the scene is read a second time; it is an error if it
+/// gives other triangles then.
 class ScenePasses {
  public:
   using Portion = ChunkedSurface::Portion;
