@@ -5,7 +5,7 @@
 #include <functional>
 #include <numeric>
 
-#include "lib/core/parallel_sort.h"
+#include "lib/geometry/parallel_sort.h"
 
 namespace bp {
 

@@ -19,7 +19,8 @@ struct WeldedTriangles {
 
 constexpr std::uint32_t kNoTwin = ~std::uint32_t(0);
 /// Returns for each half-edge 3 f + k, from corner k of triangle f to the next one, the other half of its edge: kNoTwin
-/// unless the edge belongs to exactly two triangles, in opposite directions, or if both ends are one place. O(n log n), parallel.
+/// unless the edge belongs to exactly two triangles, in opposite directions, or if both ends are one place. O(n log n),
+/// parallel.
 [[nodiscard]] std::vector<std::uint32_t> twins_of(std::span<const std::array<std::uint32_t, 3>> triangles);
 
 }  // namespace bp

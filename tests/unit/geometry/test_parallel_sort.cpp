@@ -1,7 +1,7 @@
 #include <random>
 #include <utility>
 
-#include "lib/core/parallel_sort.h"
+#include "lib/geometry/parallel_sort.h"
 #include "tests/catch.h"
 
 namespace bp::test {
