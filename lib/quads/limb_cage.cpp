@@ -1,6 +1,5 @@
 #include "lib/quads/limb_cage.h"
 
-#include "lib/quads/limbs.h"
 #include "lib/quads/quad_cage.h"
 #include "lib/quads/thin_quads.h"
 
@@ -19,21 +18,21 @@ constexpr FineCage kFineCages[] = {{2, Thinning::strips}, {1, Thinning::singles}
 }  // namespace
 
 LatticeMesh cage_with_limbs(const BrickShelf& voxels, const GridFrame& frame, const Enclosed& enclosed,
-                            std::uint64_t faces, const std::optional<MirrorPlane>& plane, CageLimbs& limbs) {
+                            std::uint64_t faces, const std::optional<MirrorPlane>& plane, const Limbs& model,
+                            std::vector<LatticeCoord>& joined) {
   const CellQuads boxes = cell_quads(voxels, frame, faces, plane);
   if (boxes.mesh.triangles.empty()) return {};
   LatticeMesh best = shrunk_cage(boxes, enclosed, plane);
-  const Limbs model(voxels);
-  limbs = {model.count(), model.joined(best)};
+  joined = model.joined(best);
   for (const FineCage& fine : kFineCages) {
-    if (limbs.joined.empty()) break;
+    if (joined.empty()) break;
     const CellQuads thin = thinned(cube_quads(voxels, frame, fine.units, plane), enclosed, faces, plane, fine.thinning);
     if (thin.mesh.triangles.empty()) continue;
     LatticeMesh cage = shrunk_cage(thin, enclosed, plane);
-    std::vector<LatticeCoord> joined = model.joined(cage);
-    if (joined.size() >= limbs.joined.size()) continue;
+    std::vector<LatticeCoord> still_joined = model.joined(cage);
+    if (still_joined.size() >= joined.size()) continue;
     best = std::move(cage);
-    limbs.joined = std::move(joined);
+    joined = std::move(still_joined);
   }
   return best;
 }

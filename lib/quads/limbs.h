@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "lib/grid/stream.h"
@@ -7,11 +8,16 @@
 
 /// Counts the limbs of a model, and those that stay apart in a cage.
 ///
-/// Everything is measured on cubes, 128 along the longest side. The root is the cube that lies deepest inside. Ways
-/// lead through cubes inside. The cubes whose way from the root is longer than t fall into parts. A limb is a part that
-/// grows by at least 3 % of the diagonal, and a tenth of its way, from its tip (its cube farthest from the root) until
-/// it meets the part of a farther tip, while t shrinks. Its length is the way from its tip to where it meets another
-/// limb. A limb is apart in a cage if, in the cage, the part within half its length of its tip holds no other tip.
+/// Everything is measured on cubes, 128 along the longest side. The root of a connected part of the model is the cube
+/// that lies deepest in it. Ways lead from the roots through cubes inside. The cubes whose way is longer than t fall
+/// into parts. The tip of such a part is its cube with the longest way. Its length is the way from the tip to t. Its
+/// section is its cubes next to t. A limb is a part with a neck: at some t, before it meets the part of a farther tip,
+/// its section is narrower than the part is long, and narrower than t. It is at least 3 % of the diagonal long there.
+/// So corners of boxes are no limbs: they are wider than long unless they are sharper than 53 degrees.
+///
+/// The length of a limb is the way from its tip to where it meets another limb. In a cage, a connected part has the
+/// deepest of the roots in it. A limb is apart if, in the cage, the part within half its length of its tip holds no
+/// other tip.
 namespace bp {
 
 class Limbs {
@@ -25,6 +31,8 @@ class Limbs {
   [[nodiscard]] std::size_t count() const;
   /// Returns the tips of the limbs that are not apart in a cage around the voxels, lattice units.
   [[nodiscard]] std::vector<LatticeCoord> joined(const LatticeMesh& cage) const;
+  /// Returns bytes that decide all results.
+  [[nodiscard]] std::string key() const;
 
  private:
   struct State;

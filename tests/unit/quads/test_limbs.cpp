@@ -38,8 +38,7 @@ TEST_CASE("limbs are counted, and those that webs join", "[quick][quads]") {
   MemoryShelf shelf;
   fill_shelf(shelf, kCombBox, [](VoxelCoord p) { return comb(p, 0); });
   const Limbs limbs(shelf);
-  CHECK(limbs.count() >= 5);  // the ends of the beam may count, too
-  CHECK(limbs.count() <= 9);
+  CHECK(limbs.count() == 5);
   CHECK(limbs.joined(cubes_around(0).mesh).empty());
   CHECK(limbs.joined(cubes_around(12).mesh).empty());  // webs at the roots of limbs leave them apart
   const std::vector<LatticeCoord> joined = limbs.joined(cubes_around(52).mesh);
@@ -47,15 +46,66 @@ TEST_CASE("limbs are counted, and those that webs join", "[quick][quads]") {
   for (const LatticeCoord& p : joined) CHECK(p.z < 20 * kLatticePerVoxel);
 }
 
-TEST_CASE("a ball has no limbs that could be joined", "[quick][quads]") {
+TEST_CASE("each part of a model has its limbs", "[quick][quads]") {
   MemoryShelf shelf;
-  const VoxelBox box{{0, 0, 0}, {60, 60, 60}};
-  fill_shelf(shelf, box, [](VoxelCoord p) {
-    const std::int32_t x = 2 * p.x - 59, y = 2 * p.y - 59, z = 2 * p.z - 59;
-    return x * x + y * y + z * z < 59 * 59;
-  });
+  const auto two = [](VoxelCoord p, std::int32_t web) {
+    return (p.z < 70 && comb(p, 0)) || (p.z >= 80 && comb({p.x, p.y, 149 - p.z}, 0)) ||
+           (p.z >= 2 && p.z < 148 && p.x >= 8 && p.x < 8 + web && p.y >= 3 && p.y < 9);
+  };
+  const VoxelBox box{{0, 0, 0}, {100, 12, 150}};
+  fill_shelf(shelf, box, [&](VoxelCoord p) { return two(p, 0); });
   const Limbs limbs(shelf);
-  CHECK(limbs.joined(cube_quads(shelf, {}, 4, std::nullopt).mesh).empty());
+  CHECK(limbs.count() == 10);
+  CHECK(limbs.joined(cube_quads(shelf, {}, 1, std::nullopt).mesh).empty());
+  // Two backs that are joined leave all legs apart. A web over all legs does not.
+  for (const std::int32_t web : {6, 86}) {
+    MemoryShelf other;
+    fill_shelf(other, box, [&](VoxelCoord p) { return two(p, web); });
+    CHECK(limbs.joined(cube_quads(other, {}, 1, std::nullopt).mesh).size() == (web == 6 ? 0 : 10));
+  }
+}
+
+TEST_CASE("a limb is longer than its section is wide", "[quick][quads]") {
+  const auto count = [](VoxelCoord size, const auto& inside) {
+    MemoryShelf shelf;
+    fill_shelf(shelf, {{0, 0, 0}, size}, inside);
+    return Limbs(shelf).count();
+  };
+  const auto within = [](VoxelCoord p, const VoxelBox& box) { return box.contains(p); };
+  SECTION("balls, boxes, plates and sheds have none") {
+    CHECK(count({60, 60, 60}, [](VoxelCoord p) {
+            const std::int32_t x = 2 * p.x - 59, y = 2 * p.y - 59, z = 2 * p.z - 59;
+            return x * x + y * y + z * z < 59 * 59;
+          }) == 0);
+    CHECK(count({60, 60, 60}, [](VoxelCoord) { return true; }) == 0);
+    CHECK(count({90, 50, 30}, [](VoxelCoord) { return true; }) == 0);
+    CHECK(count({100, 80, 4}, [](VoxelCoord) { return true; }) == 0);
+    CHECK(count({80, 80, 80}, [](VoxelCoord p) {  // a plate on edge, turned by 45 degrees
+            return std::abs(p.x + p.y - 79) + std::abs(p.x - p.y) < 78 && p.z < 10;
+          }) == 0);
+    CHECK(count({90, 60, 80}, [](VoxelCoord p) { return p.z < 40 || std::abs(2 * p.y - 59) < 2 * (80 - p.z); }) == 0);
+  }
+  SECTION("a peg on a cube is one, and a knob is none") {
+    const auto peg = [&](std::int32_t top) {
+      return count({60, 60, top}, [&](VoxelCoord p) { return p.z < 60 || within(p, {{24, 24, 60}, {33, 33, top}}); });
+    };
+    CHECK(peg(84) == 1);
+    CHECK(peg(67) == 0);
+  }
+  SECTION("a table has its legs, long or short") {
+    for (const std::int32_t leg : {18, 50}) {
+      CAPTURE(leg);
+      CHECK(count({100, 60, leg + 6},
+                  [&](VoxelCoord p) { return p.z >= leg || ((p.x < 7 || p.x >= 93) && (p.y < 7 || p.y >= 53)); }) == 4);
+    }
+  }
+  SECTION("a figure has a head, arms and legs") {
+    CHECK(count({70, 14, 110}, [&](VoxelCoord p) {
+            return within(p, {{25, 2, 45}, {45, 12, 85}}) || within(p, {{32, 4, 85}, {38, 10, 90}}) ||
+                   within(p, {{30, 2, 90}, {40, 12, 110}}) || within(p, {{0, 4, 74}, {70, 10, 82}}) ||
+                   within(p, {{25, 3, 0}, {33, 11, 45}}) || within(p, {{37, 3, 0}, {45, 11, 45}});
+          }) == 5);
+  }
 }
 
 TEST_CASE("a cage keeps limbs apart that boxes join, and holds the voxels", "[quads]") {
@@ -63,11 +113,10 @@ TEST_CASE("a cage keeps limbs apart that boxes join, and holds the voxels", "[qu
   fill_shelf(shelf, kCombBox, slanted);
   const Limbs limbs(shelf);
   const EnclosedVoxels enclosed(shelf);
-  CageLimbs result;
-  const LatticeMesh cage = cage_with_limbs(shelf, {}, enclosed, 700, std::nullopt, result);
+  std::vector<LatticeCoord> joined;
+  const LatticeMesh cage = cage_with_limbs(shelf, {}, enclosed, 700, std::nullopt, limbs, joined);
   CHECK(cage.triangles.size() <= 700);
-  CHECK(result.count == limbs.count());
-  CHECK(result.joined.size() == limbs.joined(cage).size());
-  CHECK(result.joined.size() < limbs.joined(cell_quads(shelf, {}, 700, std::nullopt).mesh).size());
+  CHECK(joined.size() == limbs.joined(cage).size());
+  CHECK(joined.size() < limbs.joined(cell_quads(shelf, {}, 700, std::nullopt).mesh).size());
   check_proxy(cage, kCombBox, slanted);
 }

@@ -18,6 +18,7 @@
 #include "lib/levels/margin.h"
 #include "lib/levels/symmetry.h"
 #include "lib/pass/mesh/scene_check.h"
+#include "lib/quads/limbs.h"
 #include "lib/volume/boundary_runs.h"
 #include "tools/lod/choices.h"
 #include "tools/lod/proportions.h"
@@ -222,6 +223,7 @@ CageRoom make_room(Build& build, LodScene& scene) {
       room.plane = middle_plane(scene.voxels.header, int(o.symmetry));
   }
   if (room.plane) add_image(scene.voxels, *room.plane, build.make_shelf);
+  room.limbs = std::make_shared<Limbs>(*scene.voxels.solid);
   if (room.margin_world > 0) add_margin(scene.voxels, room.margin_world, build.context());
   return room;
 }
@@ -250,7 +252,7 @@ LodOptions lod_options(const Build& build, const LodScene& scene, const CageRoom
     lod.is_within = true;
   }
   lod.field = scene.field;
-  if (o.is_cage()) lod.cage = CageParams{room.plane};
+  if (o.is_cage()) lod.cage = CageParams{room.plane, room.limbs};
   return lod;
 }
 
