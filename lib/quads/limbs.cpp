@@ -9,7 +9,9 @@
 #include <map>
 #include <set>
 #include <span>
+#include <utility>
 
+#include "lib/grid/brick_voxels.h"
 #include "lib/mesh/box_group.h"
 #include "lib/quads/detail/units.h"
 
@@ -268,6 +270,33 @@ void mark_inside(const LatticeMesh& mesh, const LatticeCoord& corner, double edg
   }
 }
 
+/// Makes the hollows solid that the grown voxels close off from the outside. The gaps that they fill stay empty.
+void fill_within(const BrickShelf& grown, Units& units) {
+  const VoxelBox box = bounds_of_voxels(grown);
+  VoxelBox around =
+      hull(units.box, {units.unit(box.min), units.unit(box.max - VoxelCoord{1, 1, 1}) + VoxelCoord{1, 1, 1}});
+  const std::int32_t margin = std::max(units.box.min.x - around.min.x, around.max.x - units.box.max.x);
+  Grid wall(around);
+  for_each_voxel(grown, [&](const VoxelCoord& p) { wall.at(units.unit(p)) = 1; });
+  Grid filled = wall;
+  fill(filled);
+  std::vector<VoxelCoord> layer, next;
+  for_each(units.box, [&](const VoxelCoord& p) {
+    if (filled.at(p) && !wall.at(p)) layer.push_back(p);
+  });
+  for (std::int32_t i = 0; i <= margin; ++i) {
+    next.clear();
+    for (const VoxelCoord& p : layer) {
+      if (std::exchange(units.solid.at(p), 1) == 1) continue;
+      for_each_neighbour(p, [&](const VoxelCoord& q, int, bool) {
+        if (units.box.contains(q) && !units.solid.at(q)) next.push_back(q);
+      });
+    }
+    std::swap(layer, next);
+  }
+  fill(units.solid);
+}
+
 }  // namespace
 
 struct Limbs::State {
@@ -297,9 +326,9 @@ std::vector<Cell> numbers_of(const std::vector<VoxelCoord>& places, const Cubes&
 
 }  // namespace
 
-Limbs::Limbs(const BrickShelf& voxels) {
-  Units units = units_of(voxels, std::nullopt);
-  fill(units.solid);
+Limbs::Limbs(const BrickShelf& model, const BrickShelf& grown) {
+  Units units = units_of(model, std::nullopt);
+  fill_within(grown, units);
   state_ = std::make_unique<State>(units);
   State& s = *state_;
   const std::vector<Cell> roots = first_of_parts(by_depth(s.cubes), s.cubes);

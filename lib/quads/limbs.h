@@ -22,8 +22,9 @@ namespace bp {
 
 class Limbs {
  public:
-  /// Finds the limbs of all voxels. Cost: some ten milliseconds.
-  explicit Limbs(const BrickShelf& voxels);
+  /// Finds the limbs of a model. `grown`: its voxels with a margin around them, or the same voxels. What the margin
+  /// closes off from the outside is inside of the model, too. Cost: some ten milliseconds.
+  Limbs(const BrickShelf& model, const BrickShelf& grown);
   ~Limbs();
   Limbs(const Limbs&) = delete;
   Limbs& operator=(const Limbs&) = delete;

@@ -208,7 +208,7 @@ class LevelMaker {
     return {finish(header_.frame, faces, [&](const SimplifyParams&, LevelCounts& counts) {
       counts.simplify.stop = StopReason::faces;
       std::shared_ptr<const Limbs> model = params_.cage->limbs;
-      if (model == nullptr) model = std::make_shared<Limbs>(*shelves.meshed);
+      if (model == nullptr) model = std::make_shared<Limbs>(*shelves.meshed, *shelves.meshed);
       std::vector<LatticeCoord> joined;
       LatticeMesh mesh =
           cage_with_limbs(*shelves.meshed, header_.frame, *ground_.enclosed, faces, plane, *model, joined);

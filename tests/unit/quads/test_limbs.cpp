@@ -37,7 +37,7 @@ CellQuads cubes_around(std::int32_t web) {
 TEST_CASE("limbs are counted, and those that webs join", "[quick][quads]") {
   MemoryShelf shelf;
   fill_shelf(shelf, kCombBox, [](VoxelCoord p) { return comb(p, 0); });
-  const Limbs limbs(shelf);
+  const Limbs limbs(shelf, shelf);
   CHECK(limbs.count() == 5);
   CHECK(limbs.joined(cubes_around(0).mesh).empty());
   CHECK(limbs.joined(cubes_around(12).mesh).empty());  // webs at the roots of limbs leave them apart
@@ -54,7 +54,7 @@ TEST_CASE("each part of a model has its limbs", "[quick][quads]") {
   };
   const VoxelBox box{{0, 0, 0}, {100, 12, 150}};
   fill_shelf(shelf, box, [&](VoxelCoord p) { return two(p, 0); });
-  const Limbs limbs(shelf);
+  const Limbs limbs(shelf, shelf);
   CHECK(limbs.count() == 10);
   CHECK(limbs.joined(cube_quads(shelf, {}, 1, std::nullopt).mesh).empty());
   // Two backs that are joined leave all legs apart. A web over all legs does not.
@@ -69,7 +69,7 @@ TEST_CASE("a limb is longer than its section is wide", "[quick][quads]") {
   const auto count = [](VoxelCoord size, const auto& inside) {
     MemoryShelf shelf;
     fill_shelf(shelf, {{0, 0, 0}, size}, inside);
-    return Limbs(shelf).count();
+    return Limbs(shelf, shelf).count();
   };
   const auto within = [](VoxelCoord p, const VoxelBox& box) { return box.contains(p); };
   SECTION("balls, boxes, plates and sheds have none") {
@@ -108,10 +108,28 @@ TEST_CASE("a limb is longer than its section is wide", "[quick][quads]") {
   }
 }
 
+TEST_CASE("a margin closes holes of a model, and leaves its gaps", "[quick][quads]") {
+  const auto shell = [](VoxelCoord p) {  // hollow, with a hole; its limbs are 2 voxels apart
+    const VoxelBox body{{2, 2, 2}, {62, 42, 42}}, first{{20, 18, 42}, {26, 24, 90}}, second{{28, 18, 42}, {34, 24, 90}};
+    const bool hole = p.x == 2 && p.y >= 20 && p.y < 22;
+    return (body.contains(p) && !body.grown(-1).contains(p) && !hole) || first.contains(p) || second.contains(p);
+  };
+  const VoxelBox box{{0, 0, 0}, {64, 44, 92}};
+  MemoryShelf model, grown;
+  fill_shelf(model, box, shell);
+  fill_shelf(grown, box, [&](VoxelCoord p) {
+    bool near = false;
+    for_each(VoxelBox{p, p + VoxelCoord{1, 1, 1}}.grown(1), [&](VoxelCoord q) { near = near || shell(q); });
+    return near;
+  });
+  CHECK(Limbs(model, grown).count() == 2);
+  CHECK(Limbs(grown, grown).count() == 1);
+}
+
 TEST_CASE("a cage keeps limbs apart that boxes join, and holds the voxels", "[quads]") {
   MemoryShelf shelf;
   fill_shelf(shelf, kCombBox, slanted);
-  const Limbs limbs(shelf);
+  const Limbs limbs(shelf, shelf);
   const EnclosedVoxels enclosed(shelf);
   std::vector<LatticeCoord> joined;
   const LatticeMesh cage = cage_with_limbs(shelf, {}, enclosed, 700, std::nullopt, limbs, joined);

@@ -223,8 +223,9 @@ CageRoom make_room(Build& build, LodScene& scene) {
       room.plane = middle_plane(scene.voxels.header, int(o.symmetry));
   }
   if (room.plane) add_image(scene.voxels, *room.plane, build.make_shelf);
-  room.limbs = std::make_shared<Limbs>(*scene.voxels.solid);
-  if (room.margin_world > 0) add_margin(scene.voxels, room.margin_world, build.context());
+  std::unique_ptr<BrickShelf> model;
+  if (room.margin_world > 0) model = add_margin(scene.voxels, room.margin_world, build.context());
+  room.limbs = std::make_shared<Limbs>(model ? *model : *scene.voxels.solid, *scene.voxels.solid);
   return room;
 }
 
