@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "lib/mesh/lattice_geometry.h"
 #include "lib/quads/detail/enclosed_by_pairs.h"
@@ -28,9 +29,6 @@ constexpr double kPerRound = 0.25;  // share of the strips that a round tries be
 constexpr std::array<double, 6> kOutwards{0,    0.1, 0.2,
                                           0.35, 0.5, 0.75};  // times the mean edge: places of merged vertices
 constexpr std::array<double, 3> kAlong{0.5, 0, 1};
-/// A cage is given up when taking back failed steps has cost so many quads, each step all of the cage's: spiders and
-/// elephants need up to 1.4 million, and a soup of loose triangles would take minutes.
-constexpr std::uint64_t kMostTakenBack = std::uint64_t(1) << 22;
 
 std::vector<Quad> quads_of(const LatticeMesh& mesh) {
   std::vector<Quad> quads;
@@ -50,10 +48,9 @@ double area_of(const std::vector<Quad>& quads, const std::vector<Vec3d>& p) {
 class Thinner {
  public:
   Thinner(const CellQuads& cage, std::vector<Vec3d> tight, const Enclosed& enclosed,
-          const std::optional<MirrorPlane>& plane, std::uint64_t& taken_back)
+          const std::optional<MirrorPlane>& plane)
       : cage_(cage),
         plane_(plane),
-        taken_back_(taken_back),
         tight_(std::move(tight)),
         quads_(quads_of(cage.mesh)),
         alive_(quads_.size(), 1),
@@ -70,7 +67,7 @@ class Thinner {
   /// Removes strips until `goal` quads are left, or as many as are possible. `last`: the number for the whole cage.
   CellQuads run(std::size_t goal, std::size_t last, int most_worse) {
     std::size_t before = left_ + 1;
-    while (left_ > goal && left_ < before && taken_back_ <= kMostTakenBack) {
+    while (left_ > goal && left_ < before) {
       before = left_;
       round(goal, last, most_worse);
     }
@@ -94,10 +91,10 @@ class Thinner {
     }
     std::stable_sort(strips.begin(), strips.end(), [](const Strip& a, const Strip& b) { return a.price < b.price; });
     touched_.assign(mesh_.vertex_capacity(), 0);
+    editor_->refresh();
     const auto most = std::size_t(kPerRound * double(strips.size())) + 1;
     std::size_t removed = 0;
     for (std::size_t i = 0; i < strips.size() && left_ > goal && (i < most || removed == 0); ++i) {
-      if (taken_back_ > kMostTakenBack) return;
       removed += remove(strips[i]);
     }
   }
@@ -119,13 +116,13 @@ class Thinner {
       if (!alive_[q] || std::any_of(quads_[q].begin(), quads_[q].end(), [&](VertexId v) { return touched_[v] != 0; }))
         return false;
     }
-    const HalfEdgeMesh mesh = mesh_;
     into_.clear();
+    renamed_.clear();
+    editor_->begin_undo();
     for (const std::uint32_t q : gone) kept_.part(2 * q, 2 * q + 1);
     bool done = strip.rungs.size() > 1 || (turn(strip.quads[0], strip.rungs[0][0]) &&
                                            (!plane_ || turn(image(strip.quads[0]), cage_.mate[strip.rungs[0][0]])));
     for (std::size_t i = 0; done && i < strip.rungs.size(); ++i) done = merge_rung(strip.rungs[i]);
-    const std::vector<Quad> quads = quads_;
     for (const std::uint32_t q : gone) alive_[q] = 0;
     done = done && rename(gone);
     if (done) {
@@ -138,14 +135,12 @@ class Thinner {
       }
       return true;
     }
-    taken_back_ += quads_.size();
-    mesh_ = mesh;
-    quads_ = quads;
+    editor_->undo();
+    for (const auto& [q, quad] : renamed_) quads_[q] = quad;
     for (const std::uint32_t q : gone) {
       alive_[q] = 1;
       kept_.join(2 * q, 2 * q + 1);
     }
-    editor_.emplace(mesh_, kept_, ShapeLimits{});
     return false;
   }
 
@@ -160,17 +155,25 @@ class Thinner {
 
   /// Puts the merged vertices into the quads. Returns false if a vertex would have too few of them.
   bool rename(const std::vector<std::uint32_t>& gone) {
-    std::vector<VertexId> name(mesh_.vertex_capacity());
-    for (VertexId v = 0; v < name.size(); ++v) name[v] = v;
-    for (const auto& [from, to] : into_) name[from] = to;
-    std::vector<int> count(name.size(), 0);
-    for (std::size_t q = 0; q < quads_.size(); ++q) {
-      if (!alive_[q]) continue;
-      for (VertexId& v : quads_[q]) v = name[v], ++count[v];
+    for (const auto& [from, to] : into_) {
+      mesh_.for_each_outgoing(to, [&](HalfEdgeId h) {
+        const std::uint32_t q = HalfEdgeMesh::face(h) / 2;
+        const auto corner = std::find(quads_[q].begin(), quads_[q].end(), from);
+        if (corner == quads_[q].end()) return;
+        renamed_.push_back({q, quads_[q]});
+        *corner = to;
+      });
     }
     return std::all_of(gone.begin(), gone.end(), [&](std::uint32_t q) {
-      return std::all_of(quads_[q].begin(), quads_[q].end(), [&](VertexId v) { return count[name[v]] >= 3; });
+      return std::all_of(quads_[q].begin(), quads_[q].end(),
+                         [&](VertexId v) { return !mesh_.vertex_alive(v) || quads_around(v) >= 3; });
     });
+  }
+
+  [[nodiscard]] std::size_t quads_around(VertexId v) const {
+    std::set<std::uint32_t> quads;
+    mesh_.for_each_outgoing(v, [&](HalfEdgeId h) { quads.insert(HalfEdgeMesh::face(h) / 2); });
+    return quads.size();
   }
 
   bool merge_rung(const std::array<VertexId, 2>& rung) {
@@ -260,16 +263,17 @@ class Thinner {
 
   const CellQuads& cage_;
   const std::optional<MirrorPlane>& plane_;
-  std::uint64_t& taken_back_;  // quads of cages that failed steps were taken back in
-  std::vector<Vec3d> tight_;   // by vertex: where it lies when the cage is shrunk
+  std::vector<Vec3d> tight_;  // by vertex: where it lies when the cage is shrunk
   std::vector<Quad> quads_;
   std::vector<char> alive_;
   std::size_t left_;
   HalfEdgeMesh mesh_;
   EnclosedByPairs kept_;
   std::optional<ProxyEditor> editor_;
-  std::vector<std::array<VertexId, 2>> into_;  // of the strip that is being removed: what merged into what
-  std::vector<char> touched_;                  // by vertex: merged in this round
+  // Of the strip that is being removed:
+  std::vector<std::array<VertexId, 2>> into_;            // what merged into what
+  std::vector<std::pair<std::uint32_t, Quad>> renamed_;  // quads as they were
+  std::vector<char> touched_;                            // by vertex: merged in this round
 };
 
 /// Shrinks the cage, and returns its vertices; then swells it, which leaves room for merging vertices.
@@ -296,12 +300,10 @@ CellQuads thinned(CellQuads cage, const Enclosed& enclosed, std::uint64_t faces,
   const auto& worse = thinning == Thinning::strips ? kWorseAfterStrips : kWorseOfSingles;
   const std::size_t last = faces / 2;
   std::vector<Vec3d> tight = relax(cage, enclosed, plane);
-  std::uint64_t taken_back = 0;
   for (std::size_t step = 0; cage.mesh.quads.size() > last;) {
     const std::size_t before = cage.mesh.quads.size();
     const auto goal = std::max(last, std::size_t((step == 0 ? kPerStage : kPerSingles) * double(before)));
-    cage = Thinner(cage, std::move(tight), enclosed, plane, taken_back).run(goal, last, worse[step]);
-    if (taken_back > kMostTakenBack) return {};
+    cage = Thinner(cage, std::move(tight), enclosed, plane).run(goal, last, worse[step]);
     if (double(cage.mesh.quads.size()) <= kLeastProgress * double(before))
       step = 0;
     else if (++step == worse.size())
