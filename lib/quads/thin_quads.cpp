@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "lib/mesh/lattice_geometry.h"
@@ -56,7 +57,8 @@ class Thinner {
         alive_(quads_.size(), 1),
         left_(quads_.size()),
         mesh_(cage.mesh),
-        kept_(mesh_, enclosed) {
+        kept_(mesh_, enclosed),
+        changed_(mesh_.vertex_capacity(), 0) {
     kept_.give_contacts(false);
     kept_.allow_flips(true);
     kept_.set_least_quality(0);
@@ -95,8 +97,18 @@ class Thinner {
     const auto most = std::size_t(kPerRound * double(strips.size())) + 1;
     std::size_t removed = 0;
     for (std::size_t i = 0; i < strips.size() && left_ > goal && (i < most || removed == 0); ++i) {
+      if (has_failed(strips[i])) continue;
       removed += remove(strips[i]);
     }
+  }
+
+  /// Returns whether the strip could not be removed, and nothing has changed at its vertices since then.
+  [[nodiscard]] bool has_failed(const Strip& strip) const {
+    const auto failed = failed_.find(strip.quads);
+    return failed != failed_.end() && std::all_of(strip.quads.begin(), strip.quads.end(), [&](std::uint32_t q) {
+             return std::all_of(quads_[q].begin(), quads_[q].end(),
+                                [&](VertexId v) { return changed_[v] <= failed->second; });
+           });
   }
 
   [[nodiscard]] std::uint32_t image(std::uint32_t quad) const {
@@ -127,6 +139,11 @@ class Thinner {
     done = done && rename(gone);
     if (done) {
       left_ -= gone.size();
+      ++changes_;
+      for (const auto& [from, to] : into_) {
+        changed_[to] = changes_;
+        mesh_.for_each_outgoing(to, [&](HalfEdgeId h) { changed_[mesh_.to(h)] = changes_; });
+      }
       for (const std::uint32_t q : gone) {
         for (const VertexId v : quads_[q]) touched_[v] = 1;
       }
@@ -136,6 +153,7 @@ class Thinner {
       return true;
     }
     editor_->undo();
+    failed_[strip.quads] = changes_;
     for (const auto& [q, quad] : renamed_) quads_[q] = quad;
     for (const std::uint32_t q : gone) {
       alive_[q] = 1;
@@ -271,9 +289,12 @@ class Thinner {
   EnclosedByPairs kept_;
   std::optional<ProxyEditor> editor_;
   // Of the strip that is being removed:
-  std::vector<std::array<VertexId, 2>> into_;            // what merged into what
-  std::vector<std::pair<std::uint32_t, Quad>> renamed_;  // quads as they were
-  std::vector<char> touched_;                            // by vertex: merged in this round
+  std::vector<std::array<VertexId, 2>> into_;                 // what merged into what
+  std::vector<std::pair<std::uint32_t, Quad>> renamed_;       // quads as they were
+  std::map<std::vector<std::uint32_t>, std::size_t> failed_;  // by quads of a strip: changes_ when it failed
+  std::size_t changes_ = 0;                                   // strips that were removed
+  std::vector<std::size_t> changed_;  // by vertex: changes_ at its last change, or a neighbour's
+  std::vector<char> touched_;         // by vertex: merged in this round
 };
 
 /// Shrinks the cage, and returns its vertices; then swells it, which leaves room for merging vertices.
