@@ -19,20 +19,21 @@ constexpr FineCage kFineCages[] = {{2, Thinning::strips}, {1, Thinning::singles}
 
 LatticeMesh cage_with_limbs(const BrickShelf& voxels, const GridFrame& frame, const Enclosed& enclosed,
                             std::uint64_t faces, const std::optional<MirrorPlane>& plane, const Limbs& model,
-                            std::vector<LatticeCoord>& joined) {
-  const CellQuads boxes = cell_quads(voxels, frame, faces, plane);
-  if (boxes.mesh.triangles.empty()) return {};
-  LatticeMesh best = shrunk_cage(boxes, enclosed, plane);
-  joined = model.joined(best);
-  for (const FineCage& fine : kFineCages) {
-    if (joined.empty()) break;
-    const CellQuads thin = thinned(cube_quads(voxels, frame, fine.units, plane), enclosed, faces, plane, fine.thinning);
-    if (thin.mesh.triangles.empty()) continue;
-    LatticeMesh cage = shrunk_cage(thin, enclosed, plane);
-    std::vector<LatticeCoord> still_joined = model.joined(cage);
-    if (still_joined.size() >= joined.size()) continue;
+                            CageFit& fit) {
+  LatticeMesh best;
+  const auto propose = [&](const CellQuads& quads) {
+    if (quads.mesh.triangles.empty()) return;
+    LatticeMesh cage = shrunk_cage(quads, enclosed, plane);
+    CageFit fit_of_cage = model.fit(cage);
+    if (!best.triangles.empty() && !fit_of_cage.is_better_than(fit)) return;
     best = std::move(cage);
-    joined = std::move(still_joined);
+    fit = std::move(fit_of_cage);
+  };
+  propose(cell_quads(voxels, frame, faces, plane));
+  if (best.triangles.empty()) return {};
+  for (const FineCage& fine : kFineCages) {
+    if (fit.joined.empty()) break;
+    propose(thinned(cube_quads(voxels, frame, fine.units, plane), enclosed, faces, plane, fine.thinning));
   }
   return best;
 }

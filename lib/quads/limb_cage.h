@@ -7,11 +7,11 @@
 namespace bp {
 
 /// Returns a cage of at most `faces` triangles around `enclosed`, whose voxels are `voxels`. First it is made of few
-/// boxes (cell_quads.h). If limbs grow together in it, it is made of many small cubes, which are thinned out
-/// (thin_quads.h), in two ways. The cage with the most limbs apart is returned; of equal ones, the first. The result is
-/// empty if there are too few faces for any. Deterministic.
+/// boxes (cell_quads.h). If limbs of `model` grow together in it, it is made of many small cubes, which are thinned out
+/// (thin_quads.h), in two ways. The cage that fits best is returned (CageFit), and `fit` is set; of equal ones, the
+/// first. The result is empty if there are too few faces for any. Deterministic.
 [[nodiscard]] LatticeMesh cage_with_limbs(const BrickShelf& voxels, const GridFrame& frame, const Enclosed& enclosed,
                                           std::uint64_t faces, const std::optional<MirrorPlane>& plane,
-                                          const Limbs& model, std::vector<LatticeCoord>& joined);
+                                          const Limbs& model, CageFit& fit);
 
 }  // namespace bp

@@ -356,10 +356,8 @@ std::string Limbs::key() const {
   return key + fmt::format(" {}", s.edge);  // limbs follow from the cubes
 }
 
-std::vector<LatticeCoord> Limbs::joined(const LatticeMesh& cage) const {
+CageFit Limbs::fit(const LatticeMesh& cage) const {
   const State& s = *state_;
-  std::vector<LatticeCoord> places;
-  if (s.tips.size() < 2) return places;
   LatticeCoord corner;
   for (int i = 0; i < 3; ++i) corner[i] = std::int64_t(s.origin[i]) * kLatticePerVoxel;
   const std::int64_t edge = std::int64_t(s.edge) * kLatticePerVoxel;
@@ -373,16 +371,25 @@ std::vector<LatticeCoord> Limbs::joined(const LatticeMesh& cage) const {
   for_each(s.cubes.box,
            [&](const VoxelCoord& p) { around.solid[around.number(p)] = s.cubes.solid[s.cubes.number(p)]; });
   mark_inside(cage, corner, double(edge), around);
+  std::vector<Cell> model;
+  CageFit fit;
+  for (Cell c = 0; c < around.solid.size(); ++c) {
+    fit.cubes += std::size_t(around.solid[c]);
+    if (s.cubes.box.contains(around.place(c)) && s.cubes.solid[s.cubes.number(around.place(c))] != 0)
+      model.push_back(c);
+  }
+  fit.reach = std::int32_t(ways_from(model, around).by_length.size()) - 1;
+  if (s.tips.size() < 2) return fit;
   const Ways ways = ways_from(first_of_parts(numbers_of(s.roots, around), around), around);
   const std::vector<Cell> tips = numbers_of(s.tips, around);
   const std::vector<std::int32_t> met = meetings_of(tips, ways, around);
   for (std::size_t i = 0; i < tips.size(); ++i) {
     if (2 * (ways.length[tips[i]] - met[i]) > s.length[i]) continue;
     const VoxelCoord& p = s.tips[i];
-    places.push_back(corner +
-                     LatticeCoord{(2 * p.x + 1) * edge / 2, (2 * p.y + 1) * edge / 2, (2 * p.z + 1) * edge / 2});
+    fit.joined.push_back(corner +
+                         LatticeCoord{(2 * p.x + 1) * edge / 2, (2 * p.y + 1) * edge / 2, (2 * p.z + 1) * edge / 2});
   }
-  return places;
+  return fit;
 }
 
 }  // namespace bp

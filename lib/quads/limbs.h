@@ -1,6 +1,7 @@
 #pragma once
 #include <memory>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "lib/grid/stream.h"
@@ -20,6 +21,18 @@
 /// other tip.
 namespace bp {
 
+/// How well a cage fits a model.
+struct CageFit {
+  std::vector<LatticeCoord> joined;  ///< tips of the limbs that are not apart, lattice units
+  std::int32_t reach = 0;            ///< the longest of the shortest ways in the cage to the model, thirds of a cube
+  std::size_t cubes = 0;             ///< in the cage
+
+  /// Fewer joined limbs are better, then a shorter reach, then a smaller volume.
+  [[nodiscard]] bool is_better_than(const CageFit& other) const {
+    return std::tuple(joined.size(), reach, cubes) < std::tuple(other.joined.size(), other.reach, other.cubes);
+  }
+};
+
 class Limbs {
  public:
   /// Finds the limbs of a model. `grown`: its voxels with a margin around them, or the same voxels. What the margin
@@ -30,8 +43,8 @@ class Limbs {
   Limbs& operator=(const Limbs&) = delete;
 
   [[nodiscard]] std::size_t count() const;
-  /// Returns the tips of the limbs that are not apart in a cage around the voxels, lattice units.
-  [[nodiscard]] std::vector<LatticeCoord> joined(const LatticeMesh& cage) const;
+  /// Measures a cage around the voxels.
+  [[nodiscard]] CageFit fit(const LatticeMesh& cage) const;
   /// Returns bytes that decide all results.
   [[nodiscard]] std::string key() const;
 

@@ -209,14 +209,13 @@ class LevelMaker {
       counts.simplify.stop = StopReason::faces;
       std::shared_ptr<const Limbs> model = params_.cage->limbs;
       if (model == nullptr) model = std::make_shared<Limbs>(*shelves.meshed, *shelves.meshed);
-      std::vector<LatticeCoord> joined;
-      LatticeMesh mesh =
-          cage_with_limbs(*shelves.meshed, header_.frame, *ground_.enclosed, faces, plane, *model, joined);
+      CageFit fit;
+      LatticeMesh mesh = cage_with_limbs(*shelves.meshed, header_.frame, *ground_.enclosed, faces, plane, *model, fit);
       if (mesh.triangles.empty())
         fail(ErrorCode::bad_argument, "{} faces: a cage of quads has at least 12 triangles, and a symmetric one 20",
              faces);
       counts.limbs.count = model->count();
-      for (const LatticeCoord& tip : joined) counts.limbs.joined.push_back(header_.frame.world(tip));
+      for (const LatticeCoord& tip : fit.joined) counts.limbs.joined.push_back(header_.frame.world(tip));
       return mesh;
     })};
   }

@@ -46,7 +46,7 @@ bool shuts(const OpeningSides& sides, std::int32_t scale_vox, const VoxelBox& ne
 
 std::int32_t least_shutting_scale(const OpeningSides& sides, std::int32_t least) {
   constexpr std::int32_t kSteps = 8;
-  for (std::int32_t scale = least; scale <= 2 * least; scale += least / kSteps + 1) {
+  for (std::int32_t scale = least; scale <= 3 * least; scale += least / kSteps + 1) {
     const VoxelBox around = VoxelBox{sides.place, sides.place + VoxelCoord{1, 1, 1}}.grown(trial_reach(scale));
     const VoxelBox near = intersect(around, sides.solid.box());
     if (near.volume() > kMostTried) return 0;

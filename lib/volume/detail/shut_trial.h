@@ -17,9 +17,9 @@ constexpr std::int32_t trial_reach(std::int32_t scale_vox) {
   return 2 * scale_vox + 8;
 }
 
-/// Tries closings with cubes, the first just above `least` voxels, the last just above twice as many. Returns the first
-/// scale, in whole voxels, after which no way over faces of empty voxels within trial_reach() of the opening leads from
-/// the room to the outside. Returns 0 if none does, or if the surroundings are larger than kMostTried.
+/// Tries closings with cubes, the first just above `least` voxels, the last just above three times as many. Returns the
+/// first scale, in whole voxels, after which no way over faces of empty voxels within trial_reach() of the opening
+/// leads from the room to the outside. Returns 0 if none does, or if the surroundings are larger than kMostTried.
 [[nodiscard]] std::int32_t least_shutting_scale(const OpeningSides& sides, std::int32_t least);
 constexpr std::int64_t kMostTried = std::int64_t(1) << 22;  // voxels
 

@@ -39,9 +39,9 @@ TEST_CASE("limbs are counted, and those that webs join", "[quick][quads]") {
   fill_shelf(shelf, kCombBox, [](VoxelCoord p) { return comb(p, 0); });
   const Limbs limbs(shelf, shelf);
   CHECK(limbs.count() == 5);
-  CHECK(limbs.joined(cubes_around(0).mesh).empty());
-  CHECK(limbs.joined(cubes_around(12).mesh).empty());  // webs at the roots of limbs leave them apart
-  const std::vector<LatticeCoord> joined = limbs.joined(cubes_around(52).mesh);
+  CHECK(limbs.fit(cubes_around(0).mesh).joined.empty());
+  CHECK(limbs.fit(cubes_around(12).mesh).joined.empty());  // webs at the roots of limbs leave them apart
+  const std::vector<LatticeCoord> joined = limbs.fit(cubes_around(52).mesh).joined;
   CHECK(joined.size() >= 5);
   for (const LatticeCoord& p : joined) CHECK(p.z < 20 * kLatticePerVoxel);
 }
@@ -56,12 +56,12 @@ TEST_CASE("each part of a model has its limbs", "[quick][quads]") {
   fill_shelf(shelf, box, [&](VoxelCoord p) { return two(p, 0); });
   const Limbs limbs(shelf, shelf);
   CHECK(limbs.count() == 10);
-  CHECK(limbs.joined(cube_quads(shelf, {}, 1, std::nullopt).mesh).empty());
+  CHECK(limbs.fit(cube_quads(shelf, {}, 1, std::nullopt).mesh).joined.empty());
   // Two backs that are joined leave all legs apart. A web over all legs does not.
   for (const std::int32_t web : {6, 86}) {
     MemoryShelf other;
     fill_shelf(other, box, [&](VoxelCoord p) { return two(p, web); });
-    CHECK(limbs.joined(cube_quads(other, {}, 1, std::nullopt).mesh).size() == (web == 6 ? 0 : 10));
+    CHECK(limbs.fit(cube_quads(other, {}, 1, std::nullopt).mesh).joined.size() == (web == 6 ? 0 : 10));
   }
 }
 
@@ -131,10 +131,26 @@ TEST_CASE("a cage keeps limbs apart that boxes join, and holds the voxels", "[qu
   fill_shelf(shelf, kCombBox, slanted);
   const Limbs limbs(shelf, shelf);
   const EnclosedVoxels enclosed(shelf);
-  std::vector<LatticeCoord> joined;
-  const LatticeMesh cage = cage_with_limbs(shelf, {}, enclosed, 700, std::nullopt, limbs, joined);
+  CageFit fit;
+  const LatticeMesh cage = cage_with_limbs(shelf, {}, enclosed, 700, std::nullopt, limbs, fit);
   CHECK(cage.triangles.size() <= 700);
-  CHECK(joined.size() == limbs.joined(cage).size());
-  CHECK(joined.size() < limbs.joined(cell_quads(shelf, {}, 700, std::nullopt).mesh).size());
+  CHECK(fit.joined.size() == limbs.fit(cage).joined.size());
+  CHECK(fit.joined.size() < limbs.fit(cell_quads(shelf, {}, 700, std::nullopt).mesh).joined.size());
   check_proxy(cage, kCombBox, slanted);
+}
+
+TEST_CASE("of cages with as many limbs apart, the one that reaches less far fits better", "[quick][quads]") {
+  MemoryShelf shelf;
+  fill_shelf(shelf, kCombBox, [](VoxelCoord p) { return comb(p, 0); });
+  const Limbs limbs(shelf, shelf);
+  const LatticeMesh near = cubes_around(0).mesh;
+  LatticeMesh spike = near;  // one corner of the beam is drawn out
+  const auto far = std::max_element(spike.vertices.begin(), spike.vertices.end(),
+                                    [](const auto& a, const auto& b) { return a.x + a.y + a.z < b.x + b.y + b.z; });
+  for (int i = 0; i < 3; ++i) (*far)[i] += 40 * kLatticePerVoxel;
+  CHECK(limbs.fit(near).reach <= 6);
+  CHECK(limbs.fit(spike).reach >= 60);
+  CHECK(limbs.fit(near).is_better_than(limbs.fit(spike)));
+  CHECK_FALSE(limbs.fit(spike).is_better_than(limbs.fit(near)));
+  CHECK(limbs.fit(near).is_better_than(limbs.fit(cubes_around(52).mesh)));
 }
