@@ -35,8 +35,8 @@ struct CageFit {
 
 class Limbs {
  public:
-  /// Finds the limbs of a model. `grown`: its voxels with a margin around them, or the same voxels. What the margin
-  /// closes off from the outside is inside of the model, too. Cost: some ten milliseconds.
+  /// Finds the limbs of a model. `grown`: its voxels with a margin around them, or the same voxels. Hollows that the
+  /// margin closes off from the outside are inside of the model, too. Cost: some ten milliseconds.
   Limbs(const BrickShelf& model, const BrickShelf& grown);
   ~Limbs();
   Limbs(const Limbs&) = delete;

@@ -288,7 +288,7 @@ class Thinner {
   HalfEdgeMesh mesh_;
   EnclosedByPairs kept_;
   std::optional<ProxyEditor> editor_;
-  // Of the strip that is being removed:
+  // The next two belong to the strip that is being removed.
   std::vector<std::array<VertexId, 2>> into_;                 // what merged into what
   std::vector<std::pair<std::uint32_t, Quad>> renamed_;       // quads as they were
   std::map<std::vector<std::uint32_t>, std::size_t> failed_;  // by quads of a strip: changes_ when it failed
