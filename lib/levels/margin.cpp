@@ -7,7 +7,7 @@
 
 namespace bp {
 
-void add_margin(VoxelizedScene& scene, double margin_world, const PassContext& context) {
+std::unique_ptr<BrickShelf> add_margin(VoxelizedScene& scene, double margin_world, const PassContext& context) {
   constexpr double kRounding = 1 + 1e-12;  // rounding of the quotient and of squares
   const double reach = margin_world / scene.header.frame.voxel * kRounding;
   if (!(reach <= kMostReach))
@@ -17,7 +17,9 @@ void add_margin(VoxelizedScene& scene, double margin_world, const PassContext& c
   dilate_ball(*scene.solid, reach, *grown, context.memory, [&](std::uint64_t done, std::uint64_t total) {
     context.report("growing by the margin", "tiles", done, total);
   });
+  std::unique_ptr<BrickShelf> before = std::move(scene.solid);
   put_solid(scene, std::move(grown));
+  return before;
 }
 
 double farthest_of_margin(double margin_world, double voxel) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lib/grid/clip.h"
+#include "lib/quads/limbs.h"
 #include "lib/store/packing.h"
 #include "lib/store/result_key.h"
 
@@ -13,13 +14,14 @@ ResultKey key_of(const WholeInput& input) {
   const auto& [header, solid, first, count, request, lod, colors, encoding] = input;
   // The memory decides no byte; that is all of `context`, and how `surface` is kept. The fields about refusals and
   // about an earlier check of the scene decide none either.
-  const auto& [closing, mode, enclose, scene, rounding, is_within, surface, least_scale_world, field, foreseen, quads,
+  const auto& [closing, mode, enclose, scene, rounding, is_within, surface, least_scale_world, field, foreseen, cage,
                context] = lod;
   const GridFrame& frame = header.frame;
   KeyHash hash("levels in one mesh");
   hash.add(encoding, first, count, frame, header.bounds, header.scene.triangles, request.faces.size());
   hash.add(closing, mode, enclose, std::as_bytes(std::span(scene)), rounding.share, rounding.offset, least_scale_world,
-           quads, field ? to_json(*field) : "");
+           cage ? cage->plane : std::nullopt, cage && cage->limbs ? cage->limbs->key() : "",
+           field ? to_json(*field) : "");
   // A fixed number of dense faces will do, since the solid decides the true one.
   for (std::size_t i = 0; i < count; ++i) {
     hash.add(level_target(request, first + i, first, 1000000));

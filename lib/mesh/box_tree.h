@@ -21,7 +21,7 @@ class BoxTree {
   /// Gives an item a new box. The item's own box is exact, the boxes above it only grow; build() makes them tight.
   /// O(depth).
   void update(std::uint32_t item, const LatticeBox& box);
-  /// Takes an item out until the next build(). It must not be updated until then. O(1).
+  /// Takes an item out. update() puts it back until the next build(). O(1).
   void remove(std::uint32_t item);
   [[nodiscard]] std::size_t size() const { return order_.size(); }  ///< number of items when the tree was built
 

@@ -176,6 +176,28 @@ void HalfEdgeMesh::flip(HalfEdgeId h) {
   out_[b] = h;
 }
 
+void HalfEdgeMesh::save(VertexId v, Undo& undo) const {
+  for_each_outgoing(v, [&](HalfEdgeId out) {
+    const HalfEdgeId first = 3 * face(out);
+    for (HalfEdgeId h = first; h < first + 3; ++h) {
+      undo.halves.push_back({h, from_[h], twin_[h]});
+      undo.vertices.push_back({from_[h], position_[from_[h]], out_[from_[h]]});
+    }
+  });
+}
+
+void HalfEdgeMesh::restore(const Undo& undo) {
+  for (std::size_t i = undo.halves.size(); i-- > 0;) {  // what was saved first is put back last
+    const auto& [h, from, twin] = undo.halves[i];
+    from_[h] = from;
+    twin_[h] = twin;
+    const auto& [v, position, out] = undo.vertices[i];
+    position_[v] = position;
+    out_[v] = out;
+  }
+  face_count_ = undo.face_count;
+}
+
 void HalfEdgeMesh::erase(FaceId f) {
   for (HalfEdgeId h = 3 * f; h < 3 * f + 3; ++h) {
     out_[from_[h]] = kNoId;

@@ -107,6 +107,28 @@ class HalfEdgeMesh {
   /// Turns the edge inside its two faces; h becomes the new edge. Needs can_flip(h).
   void flip(HalfEdgeId h);
 
+  /// The former state of some faces and vertices.
+  struct Undo {
+    struct Half {
+      HalfEdgeId h;
+      VertexId from;
+      HalfEdgeId twin;
+    };
+    struct Vertex {
+      VertexId v;
+      LatticeCoord position;
+      HalfEdgeId out;
+    };
+    std::vector<Half> halves;
+    std::vector<Vertex> vertices;
+    std::size_t face_count = 0;
+  };
+  /// Adds the faces around v, and their vertices. Before a move it is called for the vertex; before a collapse or a
+  /// flip for both ends of the edge.
+  void save(VertexId v, Undo& undo) const;
+  /// Puts back everything that was saved; `face_count` was set at first.
+  void restore(const Undo& undo);
+
   /// Calls visit(v, i) for each live vertex in the order of ids, with i = 0, 1, 2, ... Returns the live faces in the
   /// order of ids, by these i.
   template <class Visit>

@@ -1,6 +1,5 @@
 #include "lib/quads/limb_cage.h"
 
-#include "lib/quads/limbs.h"
 #include "lib/quads/quad_cage.h"
 #include "lib/quads/thin_quads.h"
 
@@ -19,21 +18,22 @@ constexpr FineCage kFineCages[] = {{2, Thinning::strips}, {1, Thinning::singles}
 }  // namespace
 
 LatticeMesh cage_with_limbs(const BrickShelf& voxels, const GridFrame& frame, const Enclosed& enclosed,
-                            std::uint64_t faces, const std::optional<MirrorPlane>& plane, CageLimbs& limbs) {
-  const CellQuads boxes = cell_quads(voxels, frame, faces, plane);
-  if (boxes.mesh.triangles.empty()) return {};
-  LatticeMesh best = shrunk_cage(boxes, enclosed, plane);
-  const Limbs model(voxels);
-  limbs = {model.count(), model.joined(best)};
-  for (const FineCage& fine : kFineCages) {
-    if (limbs.joined.empty()) break;
-    const CellQuads thin = thinned(cube_quads(voxels, frame, fine.units, plane), enclosed, faces, plane, fine.thinning);
-    if (thin.mesh.triangles.empty()) continue;
-    LatticeMesh cage = shrunk_cage(thin, enclosed, plane);
-    std::vector<LatticeCoord> joined = model.joined(cage);
-    if (joined.size() >= limbs.joined.size()) continue;
+                            std::uint64_t faces, const std::optional<MirrorPlane>& plane, const Limbs& model,
+                            CageFit& fit) {
+  LatticeMesh best;
+  const auto propose = [&](const CellQuads& quads) {
+    if (quads.mesh.triangles.empty()) return;
+    LatticeMesh cage = shrunk_cage(quads, enclosed, plane);
+    CageFit fit_of_cage = model.fit(cage);
+    if (!best.triangles.empty() && !fit_of_cage.is_better_than(fit)) return;
     best = std::move(cage);
-    limbs.joined = std::move(joined);
+    fit = std::move(fit_of_cage);
+  };
+  propose(cell_quads(voxels, frame, faces, plane));
+  if (best.triangles.empty()) return {};
+  for (const FineCage& fine : kFineCages) {
+    if (fit.joined.empty()) break;
+    propose(thinned(cube_quads(voxels, frame, fine.units, plane), enclosed, faces, plane, fine.thinning));
   }
   return best;
 }

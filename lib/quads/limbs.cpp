@@ -1,10 +1,18 @@
 #include "lib/quads/limbs.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <set>
+#include <span>
+#include <utility>
 
+#include "lib/grid/brick_voxels.h"
+#include "lib/mesh/box_group.h"
 #include "lib/quads/detail/units.h"
 
 namespace bp {
@@ -12,11 +20,8 @@ namespace bp {
 namespace {
 
 constexpr double kLeastLength = 0.03;  // of the diagonal
-// A share of the way to the tip. Ways along the steps of cubes are up to a twelfth too long: a ball would have limbs.
-constexpr double kLeastShare = 0.1;
-constexpr std::int32_t kRim = 16;  // units that a cage may reach beyond the voxels; what lies farther is cut off
-constexpr std::int32_t kStep = 3;  // length of a step along an axis; 4 and 5 are those across two and three
-constexpr std::int32_t kFar = -1;  // no way leads there
+constexpr std::int32_t kStep = 3;      // length of a step along an axis; 4 and 5 are those across two and three
+constexpr std::int32_t kFar = -1;      // no way leads there
 
 using Cell = std::uint32_t;
 constexpr Cell kNoCell = ~Cell(0);
@@ -25,9 +30,10 @@ constexpr Cell kNoCell = ~Cell(0);
 struct Cubes {
   VoxelBox box;
   std::array<std::int32_t, 26> step{}, length{};
+  std::array<VoxelCoord, 26> way{};
   std::vector<char> solid;
 
-  explicit Cubes(const VoxelBox& b) : box(b), solid(std::size_t(b.volume()), 0) {
+  explicit Cubes(const VoxelBox& inner) : box(inner.grown(1)), solid(std::size_t(box.volume()), 0) {
     std::size_t n = 0;
     const VoxelCoord size = box.size();
     for (std::int32_t z = -1; z <= 1; ++z) {
@@ -35,6 +41,7 @@ struct Cubes {
         for (std::int32_t x = -1; x <= 1; ++x) {
           if (x == 0 && y == 0 && z == 0) continue;
           step[n] = (z * size.y + y) * size.x + x;
+          way[n] = {x, y, z};
           length[n++] = kStep - 1 + std::abs(x) + std::abs(y) + std::abs(z);
         }
       }
@@ -51,15 +58,15 @@ struct Cubes {
   }
 };
 
-/// The lengths of the ways from the root, and the cubes by their length.
+/// The lengths of the ways from the roots, and the cubes by their length.
 struct Ways {
   std::vector<std::int32_t> length;
   std::vector<std::vector<Cell>> by_length;
 };
 
-Ways ways_from(Cell root, const Cubes& cubes) {
-  Ways ways{std::vector<std::int32_t>(cubes.solid.size(), kFar), {{root}}};
-  ways.length[root] = 0;
+Ways ways_from(const std::vector<Cell>& roots, const Cubes& cubes) {
+  Ways ways{std::vector<std::int32_t>(cubes.solid.size(), kFar), {roots}};
+  for (const Cell root : roots) ways.length[root] = 0;
   for (std::size_t n = 0; n < ways.by_length.size(); ++n) {
     std::vector<Cell> settled;
     for (std::size_t i = 0; i < ways.by_length[n].size(); ++i) {
@@ -82,36 +89,59 @@ Ways ways_from(Cell root, const Cubes& cubes) {
   return ways;
 }
 
-/// Returns the cube that is left last if layers of cubes are taken away from outside.
-Cell deepest(const Cubes& cubes) {
+/// Returns the solid cubes, the deepest first: in the reverse order in which they go if layers of cubes are taken away
+/// from outside.
+std::vector<Cell> by_depth(const Cubes& cubes) {
   std::vector<char> left = cubes.solid;
-  std::vector<Cell> layer, next;
+  std::vector<Cell> order, layer, next;
   const std::array<std::size_t, 6> sides{4, 10, 12, 13, 15, 21};  // the steps along axes
   for (Cell c = 0; c < left.size(); ++c) {
     if (!left[c]) continue;
     if (std::any_of(sides.begin(), sides.end(), [&](std::size_t k) { return !left[c + Cell(cubes.step[k])]; }))
       layer.push_back(c);
   }
-  Cell last = kNoCell;
   while (!layer.empty()) {
-    last = *std::min_element(layer.begin(), layer.end());
+    std::sort(layer.begin(), layer.end());
+    order.insert(order.end(), layer.rbegin(), layer.rend());
     for (const Cell c : layer) left[c] = 0;
     next.clear();
     for (const Cell c : layer) {
       for (const std::size_t k : sides) {
-        Cell to = c + Cell(cubes.step[k]);
+        const Cell to = c + Cell(cubes.step[k]);
         if (left[to] == 1) left[to] = 2, next.push_back(to);
       }
     }
     std::swap(layer, next);
   }
-  return last;
+  std::reverse(order.begin(), order.end());
+  return order;
+}
+
+/// Returns, for each connected part that holds some of `cells`, the first of these in it.
+std::vector<Cell> first_of_parts(const std::vector<Cell>& cells, const Cubes& cubes) {
+  std::vector<char> left = cubes.solid;
+  std::vector<Cell> first, part;
+  for (const Cell cell : cells) {
+    if (!left[cell]) continue;
+    first.push_back(cell);
+    left[cell] = 0;
+    part.assign(1, cell);
+    while (!part.empty()) {
+      const Cell c = part.back();
+      part.pop_back();
+      for (const std::int32_t step : cubes.step) {
+        const Cell to = c + Cell(step);
+        if (left[to]) left[to] = 0, part.push_back(to);
+      }
+    }
+  }
+  return first;
 }
 
 /// Grows the parts of the cubes beyond t while t shrinks. Two parts that meet are named by a cube each; meet(one,
-/// other, t) returns the name that their union keeps.
-template <class Meet>
-void grow_parts(const Ways& ways, const Cubes& cubes, const Meet& meet) {
+/// other, t) returns the name that their union keeps. grown(t, name_of) is called when all cubes of t have their parts.
+template <class Meet, class Grown>
+void grow_parts(const Ways& ways, const Cubes& cubes, const Meet& meet, const Grown& grown) {
   std::vector<Cell> up(ways.length.size(), kNoCell);
   const auto find = [&](Cell c) {
     while (up[c] != c) c = up[c] = up[up[c]];
@@ -129,22 +159,53 @@ void grow_parts(const Ways& ways, const Cubes& cubes, const Meet& meet) {
         up[kept == a ? b : a] = kept;
       }
     }
+    grown(std::int32_t(n), find);
   }
 }
 
-/// Returns the tips of the parts that grow by `least` or more. A part is named by its tip.
-std::vector<Cell> tips_of(const Ways& ways, const Cubes& cubes, std::int32_t least) {
-  std::vector<Cell> tips{ways.by_length.back().front()};
-  grow_parts(ways, cubes, [&](Cell a, Cell b, std::int32_t t) {
+/// Returns the width of a section: the most that its cubes extend along one of the 13 directions between neighbours.
+double width_of(std::span<const std::array<Cell, 2>> section, const Cubes& cubes) {
+  double width = 0;
+  for (std::size_t k = 0; k < cubes.way.size() / 2; ++k) {
+    const VoxelCoord& way = cubes.way[k];
+    std::int32_t low = std::numeric_limits<std::int32_t>::max(), high = std::numeric_limits<std::int32_t>::min();
+    for (const auto& [part, cube] : section) {
+      const VoxelCoord p = cubes.place(cube);
+      const std::int32_t at = way.x * p.x + way.y * p.y + way.z * p.z;
+      low = std::min(low, at);
+      high = std::max(high, at);
+    }
+    const std::int32_t axes = std::abs(way.x) + std::abs(way.y) + std::abs(way.z);  // a cube extends as far
+    width = std::max(width, (high - low + axes) / std::sqrt(axes));
+  }
+  return width;
+}
+
+/// Returns the tips of the parts that have a neck: at some t, the ways from their section to the root and to the tip
+/// are both longer than it is wide, and the latter at least `least` long. A part is named by its tip.
+std::vector<Cell> tips_of(const Ways& ways, const Cubes& cubes, double least) {
+  std::set<Cell> tips;
+  std::vector<std::array<Cell, 2>> cut;  // names of parts, and their cubes next to t
+  const auto meet = [&](Cell a, Cell b, std::int32_t) {
     const bool first = ways.length[a] != ways.length[b] ? ways.length[a] > ways.length[b] : a < b;
-    const Cell farther = first ? a : b, nearer = first ? b : a;
-    if (ways.length[nearer] - t >= std::max(least, std::int32_t(kLeastShare * ways.length[nearer])))
-      tips.push_back(nearer);
-    return farther;
+    return first ? a : b;
+  };
+  grow_parts(ways, cubes, meet, [&](std::int32_t t, const auto& name_of) {
+    if (t % kStep != 0) return;
+    cut.clear();
+    for (auto n = std::size_t(t); n < std::min(std::size_t(t + kStep), ways.by_length.size()); ++n) {
+      for (const Cell c : ways.by_length[n]) {
+        const Cell name = name_of(c);
+        if (ways.length[name] - t >= least * kStep && !tips.contains(name)) cut.push_back({name, c});
+      }
+    }
+    std::sort(cut.begin(), cut.end());
+    for (auto first = cut.begin(), last = first; first != cut.end(); first = last) {
+      last = std::find_if(first, cut.end(), [&](const auto& c) { return c[0] != (*first)[0]; });
+      if (std::min(t, ways.length[(*first)[0]] - t) >= width_of({first, last}, cubes) * kStep) tips.insert((*first)[0]);
+    }
   });
-  std::sort(tips.begin(), tips.end());
-  tips.erase(std::unique(tips.begin(), tips.end()), tips.end());
-  return tips;
+  return {tips.begin(), tips.end()};
 }
 
 /// Returns, for each tip, the t at which its part first meets a part with another tip; 0 if it meets none.
@@ -152,7 +213,7 @@ std::vector<std::int32_t> meetings_of(const std::vector<Cell>& tips, const Ways&
   std::vector<std::int32_t> met(tips.size(), 0);
   std::map<Cell, std::vector<std::size_t>> inside;  // tips of a part, by its name
   for (std::size_t i = 0; i < tips.size(); ++i) inside[tips[i]] = {i};
-  grow_parts(ways, cubes, [&](Cell a, Cell b, std::int32_t t) {
+  const auto meet = [&](Cell a, Cell b, std::int32_t t) {
     const auto in_a = inside.find(a), in_b = inside.find(b);
     if (in_b == inside.end()) return a;
     if (in_a == inside.end()) return b;
@@ -162,7 +223,8 @@ std::vector<std::int32_t> meetings_of(const std::vector<Cell>& tips, const Ways&
     in_a->second.insert(in_a->second.end(), in_b->second.begin(), in_b->second.end());
     inside.erase(in_b);
     return a;
-  });
+  };
+  grow_parts(ways, cubes, meet, [](std::int32_t, const auto&) {});
   return met;
 }
 
@@ -171,7 +233,6 @@ std::vector<std::int32_t> meetings_of(const std::vector<Cell>& tips, const Ways&
 /// below. Lines are moved off the corners of the mesh by an odd share of a lattice unit.
 void mark_inside(const LatticeMesh& mesh, const LatticeCoord& corner, double edge, Cubes& cubes) {
   constexpr double kAside[2] = {0.137, 0.291};  // lattice units
-  const VoxelCoord size = cubes.box.size();
   std::vector<char> crossed(cubes.solid.size(), 0);
   for (const auto& t : mesh.triangles) {
     std::array<std::array<double, 3>, 3> p{};
@@ -209,32 +270,76 @@ void mark_inside(const LatticeMesh& mesh, const LatticeCoord& corner, double edg
   }
 }
 
+/// Makes the hollows solid that the grown voxels close off from the outside. The gaps that they fill stay empty.
+void fill_within(const BrickShelf& grown, Units& units) {
+  const VoxelBox box = bounds_of_voxels(grown);
+  VoxelBox around =
+      hull(units.box, {units.unit(box.min), units.unit(box.max - VoxelCoord{1, 1, 1}) + VoxelCoord{1, 1, 1}});
+  const std::int32_t margin = std::max(units.box.min.x - around.min.x, around.max.x - units.box.max.x);
+  Grid wall(around);
+  for_each_voxel(grown, [&](const VoxelCoord& p) { wall.at(units.unit(p)) = 1; });
+  Grid filled = wall;
+  fill(filled);
+  std::vector<VoxelCoord> layer, next;
+  for_each(units.box, [&](const VoxelCoord& p) {
+    if (filled.at(p) && !wall.at(p)) layer.push_back(p);
+  });
+  for (std::int32_t i = 0; i <= margin; ++i) {
+    next.clear();
+    for (const VoxelCoord& p : layer) {
+      if (std::exchange(units.solid.at(p), 1) == 1) continue;
+      for_each_neighbour(p, [&](const VoxelCoord& q, int, bool) {
+        if (units.box.contains(q) && !units.solid.at(q)) next.push_back(q);
+      });
+    }
+    std::swap(layer, next);
+  }
+  fill(units.solid);
+}
+
 }  // namespace
 
 struct Limbs::State {
-  explicit State(const Units& u) : origin(u.origin), edge(u.edge), cubes(u.box.grown(kRim)) {
+  explicit State(const Units& u) : origin(u.origin), edge(u.edge), cubes(u.box) {
     for_each(u.box, [&](const VoxelCoord& p) { cubes.solid[cubes.number(p)] = u.solid.at(p); });
   }
   VoxelCoord origin;  // in voxels
   std::int32_t edge;  // in voxels
   Cubes cubes;
-  Cell root = kNoCell;
-  std::vector<Cell> tips;
+  std::vector<VoxelCoord> roots, tips;
   std::vector<std::int32_t> length;
 };
 
-Limbs::Limbs(const BrickShelf& voxels) {
-  const Units units = units_of(voxels, std::nullopt);
+namespace {
+
+std::vector<VoxelCoord> places_of(const std::vector<Cell>& cells, const Cubes& cubes) {
+  std::vector<VoxelCoord> places;
+  for (const Cell c : cells) places.push_back(cubes.place(c));
+  return places;
+}
+
+std::vector<Cell> numbers_of(const std::vector<VoxelCoord>& places, const Cubes& cubes) {
+  std::vector<Cell> cells;
+  for (const VoxelCoord& p : places) cells.push_back(cubes.number(p));
+  return cells;
+}
+
+}  // namespace
+
+Limbs::Limbs(const BrickShelf& model, const BrickShelf& grown) {
+  Units units = units_of(model, std::nullopt);
+  fill_within(grown, units);
   state_ = std::make_unique<State>(units);
   State& s = *state_;
-  s.root = deepest(s.cubes);
-  if (s.root == kNoCell) return;
-  const Ways ways = ways_from(s.root, s.cubes);
+  const std::vector<Cell> roots = first_of_parts(by_depth(s.cubes), s.cubes);
+  const Ways ways = ways_from(roots, s.cubes);
   const VoxelCoord size = units.box.size();
   const double diagonal = std::sqrt(double(size.x) * size.x + double(size.y) * size.y + double(size.z) * size.z);
-  s.tips = tips_of(ways, s.cubes, std::int32_t(kLeastLength * kStep * diagonal));
-  const std::vector<std::int32_t> met = meetings_of(s.tips, ways, s.cubes);
-  for (std::size_t i = 0; i < s.tips.size(); ++i) s.length.push_back(ways.length[s.tips[i]] - met[i]);
+  const std::vector<Cell> tips = tips_of(ways, s.cubes, kLeastLength * diagonal);
+  const std::vector<std::int32_t> met = meetings_of(tips, ways, s.cubes);
+  for (std::size_t i = 0; i < tips.size(); ++i) s.length.push_back(ways.length[tips[i]] - met[i]);
+  s.roots = places_of(roots, s.cubes);
+  s.tips = places_of(tips, s.cubes);
 }
 
 Limbs::~Limbs() = default;
@@ -243,24 +348,48 @@ std::size_t Limbs::count() const {
   return state_->tips.size();
 }
 
-std::vector<LatticeCoord> Limbs::joined(const LatticeMesh& cage) const {
+std::string Limbs::key() const {
   const State& s = *state_;
-  std::vector<LatticeCoord> places;
-  if (s.tips.size() < 2) return places;
-  Cubes around = s.cubes;
+  std::string key(s.cubes.solid.begin(), s.cubes.solid.end());
+  for (const VoxelCoord& p : {s.origin, s.cubes.box.min, s.cubes.box.max})
+    key += fmt::format(" {} {} {}", p.x, p.y, p.z);
+  return key + fmt::format(" {}", s.edge);  // limbs follow from the cubes
+}
+
+CageFit Limbs::fit(const LatticeMesh& cage) const {
+  const State& s = *state_;
   LatticeCoord corner;
   for (int i = 0; i < 3; ++i) corner[i] = std::int64_t(s.origin[i]) * kLatticePerVoxel;
   const std::int64_t edge = std::int64_t(s.edge) * kLatticePerVoxel;
-  mark_inside(cage, corner, double(edge), around);
-  const Ways ways = ways_from(s.root, around);
-  const std::vector<std::int32_t> met = meetings_of(s.tips, ways, around);
-  for (std::size_t i = 0; i < s.tips.size(); ++i) {
-    if (2 * (ways.length[s.tips[i]] - met[i]) > s.length[i]) continue;
-    const VoxelCoord p = s.cubes.place(s.tips[i]);
-    places.push_back(corner +
-                     LatticeCoord{(2 * p.x + 1) * edge / 2, (2 * p.y + 1) * edge / 2, (2 * p.z + 1) * edge / 2});
+  const LatticeBox bounds = box_of(cage.vertices);
+  VoxelBox box = s.cubes.box;
+  for (int i = 0; i < 3; ++i) {
+    box.min[i] = std::min(box.min[i], std::int32_t(floor_div(bounds.min[i] - corner[i], edge)));
+    box.max[i] = std::max(box.max[i], std::int32_t(floor_div(bounds.max[i] - corner[i], edge)) + 1);
   }
-  return places;
+  Cubes around(box);
+  for_each(s.cubes.box,
+           [&](const VoxelCoord& p) { around.solid[around.number(p)] = s.cubes.solid[s.cubes.number(p)]; });
+  mark_inside(cage, corner, double(edge), around);
+  std::vector<Cell> model;
+  CageFit fit;
+  for (Cell c = 0; c < around.solid.size(); ++c) {
+    fit.cubes += std::size_t(around.solid[c]);
+    if (s.cubes.box.contains(around.place(c)) && s.cubes.solid[s.cubes.number(around.place(c))] != 0)
+      model.push_back(c);
+  }
+  fit.reach = std::int32_t(ways_from(model, around).by_length.size()) - 1;
+  if (s.tips.size() < 2) return fit;
+  const Ways ways = ways_from(first_of_parts(numbers_of(s.roots, around), around), around);
+  const std::vector<Cell> tips = numbers_of(s.tips, around);
+  const std::vector<std::int32_t> met = meetings_of(tips, ways, around);
+  for (std::size_t i = 0; i < tips.size(); ++i) {
+    if (2 * (ways.length[tips[i]] - met[i]) > s.length[i]) continue;
+    const VoxelCoord& p = s.tips[i];
+    fit.joined.push_back(corner +
+                         LatticeCoord{(2 * p.x + 1) * edge / 2, (2 * p.y + 1) * edge / 2, (2 * p.z + 1) * edge / 2});
+  }
+  return fit;
 }
 
 }  // namespace bp

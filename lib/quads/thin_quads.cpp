@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 
 #include "lib/mesh/lattice_geometry.h"
 #include "lib/quads/detail/enclosed_by_pairs.h"
@@ -28,9 +30,6 @@ constexpr double kPerRound = 0.25;  // share of the strips that a round tries be
 constexpr std::array<double, 6> kOutwards{0,    0.1, 0.2,
                                           0.35, 0.5, 0.75};  // times the mean edge: places of merged vertices
 constexpr std::array<double, 3> kAlong{0.5, 0, 1};
-/// A cage is given up when taking back failed steps has cost so many quads, each step all of the cage's: spiders and
-/// elephants need up to 1.4 million, and a soup of loose triangles would take minutes.
-constexpr std::uint64_t kMostTakenBack = std::uint64_t(1) << 22;
 
 std::vector<Quad> quads_of(const LatticeMesh& mesh) {
   std::vector<Quad> quads;
@@ -50,16 +49,16 @@ double area_of(const std::vector<Quad>& quads, const std::vector<Vec3d>& p) {
 class Thinner {
  public:
   Thinner(const CellQuads& cage, std::vector<Vec3d> tight, const Enclosed& enclosed,
-          const std::optional<MirrorPlane>& plane, std::uint64_t& taken_back)
+          const std::optional<MirrorPlane>& plane)
       : cage_(cage),
         plane_(plane),
-        taken_back_(taken_back),
         tight_(std::move(tight)),
         quads_(quads_of(cage.mesh)),
         alive_(quads_.size(), 1),
         left_(quads_.size()),
         mesh_(cage.mesh),
-        kept_(mesh_, enclosed) {
+        kept_(mesh_, enclosed),
+        changed_(mesh_.vertex_capacity(), 0) {
     kept_.give_contacts(false);
     kept_.allow_flips(true);
     kept_.set_least_quality(0);
@@ -70,7 +69,7 @@ class Thinner {
   /// Removes strips until `goal` quads are left, or as many as are possible. `last`: the number for the whole cage.
   CellQuads run(std::size_t goal, std::size_t last, int most_worse) {
     std::size_t before = left_ + 1;
-    while (left_ > goal && left_ < before && taken_back_ <= kMostTakenBack) {
+    while (left_ > goal && left_ < before) {
       before = left_;
       round(goal, last, most_worse);
     }
@@ -94,12 +93,22 @@ class Thinner {
     }
     std::stable_sort(strips.begin(), strips.end(), [](const Strip& a, const Strip& b) { return a.price < b.price; });
     touched_.assign(mesh_.vertex_capacity(), 0);
+    editor_->refresh();
     const auto most = std::size_t(kPerRound * double(strips.size())) + 1;
     std::size_t removed = 0;
     for (std::size_t i = 0; i < strips.size() && left_ > goal && (i < most || removed == 0); ++i) {
-      if (taken_back_ > kMostTakenBack) return;
+      if (has_failed(strips[i])) continue;
       removed += remove(strips[i]);
     }
+  }
+
+  /// Returns whether the strip could not be removed, and nothing has changed at its vertices since then.
+  [[nodiscard]] bool has_failed(const Strip& strip) const {
+    const auto failed = failed_.find(strip.quads);
+    return failed != failed_.end() && std::all_of(strip.quads.begin(), strip.quads.end(), [&](std::uint32_t q) {
+             return std::all_of(quads_[q].begin(), quads_[q].end(),
+                                [&](VertexId v) { return changed_[v] <= failed->second; });
+           });
   }
 
   [[nodiscard]] std::uint32_t image(std::uint32_t quad) const {
@@ -119,34 +128,41 @@ class Thinner {
       if (!alive_[q] || std::any_of(quads_[q].begin(), quads_[q].end(), [&](VertexId v) { return touched_[v] != 0; }))
         return false;
     }
-    const HalfEdgeMesh mesh = mesh_;
     into_.clear();
+    renamed_.clear();
+    editor_->begin_undo();
     for (const std::uint32_t q : gone) kept_.part(2 * q, 2 * q + 1);
     bool done = strip.rungs.size() > 1 || (turn(strip.quads[0], strip.rungs[0][0]) &&
                                            (!plane_ || turn(image(strip.quads[0]), cage_.mate[strip.rungs[0][0]])));
     for (std::size_t i = 0; done && i < strip.rungs.size(); ++i) done = merge_rung(strip.rungs[i]);
-    const std::vector<Quad> quads = quads_;
     for (const std::uint32_t q : gone) alive_[q] = 0;
     done = done && rename(gone);
     if (done) {
-      left_ -= gone.size();
-      for (const std::uint32_t q : gone) {
-        for (const VertexId v : quads_[q]) touched_[v] = 1;
-      }
-      for (const auto& [from, to] : into_) {
-        tight_[to] = 0.5 * (tight_[from] + tight_[to]);
-      }
+      note_removed(gone);
       return true;
     }
-    taken_back_ += quads_.size();
-    mesh_ = mesh;
-    quads_ = quads;
+    editor_->undo();
+    failed_[strip.quads] = changes_;
+    for (const auto& [q, quad] : renamed_) quads_[q] = quad;
     for (const std::uint32_t q : gone) {
       alive_[q] = 1;
       kept_.join(2 * q, 2 * q + 1);
     }
-    editor_.emplace(mesh_, kept_, ShapeLimits{});
     return false;
+  }
+
+  /// Notes which vertices have changed, after the quads were removed.
+  void note_removed(const std::vector<std::uint32_t>& gone) {
+    left_ -= gone.size();
+    ++changes_;
+    for (const auto& [from, to] : into_) {
+      changed_[to] = changes_;
+      mesh_.for_each_outgoing(to, [&](HalfEdgeId h) { changed_[mesh_.to(h)] = changes_; });
+    }
+    for (const std::uint32_t q : gone) {
+      for (const VertexId v : quads_[q]) touched_[v] = 1;
+    }
+    for (const auto& [from, to] : into_) tight_[to] = 0.5 * (tight_[from] + tight_[to]);
   }
 
   /// Makes the diagonal from `corner` that of the quad's triangles.
@@ -160,17 +176,25 @@ class Thinner {
 
   /// Puts the merged vertices into the quads. Returns false if a vertex would have too few of them.
   bool rename(const std::vector<std::uint32_t>& gone) {
-    std::vector<VertexId> name(mesh_.vertex_capacity());
-    for (VertexId v = 0; v < name.size(); ++v) name[v] = v;
-    for (const auto& [from, to] : into_) name[from] = to;
-    std::vector<int> count(name.size(), 0);
-    for (std::size_t q = 0; q < quads_.size(); ++q) {
-      if (!alive_[q]) continue;
-      for (VertexId& v : quads_[q]) v = name[v], ++count[v];
+    for (const auto& [from, to] : into_) {
+      mesh_.for_each_outgoing(to, [&](HalfEdgeId h) {
+        const std::uint32_t q = HalfEdgeMesh::face(h) / 2;
+        const auto corner = std::find(quads_[q].begin(), quads_[q].end(), from);
+        if (corner == quads_[q].end()) return;
+        renamed_.push_back({q, quads_[q]});
+        *corner = to;
+      });
     }
     return std::all_of(gone.begin(), gone.end(), [&](std::uint32_t q) {
-      return std::all_of(quads_[q].begin(), quads_[q].end(), [&](VertexId v) { return count[name[v]] >= 3; });
+      return std::all_of(quads_[q].begin(), quads_[q].end(),
+                         [&](VertexId v) { return !mesh_.vertex_alive(v) || quads_around(v) >= 3; });
     });
+  }
+
+  [[nodiscard]] std::size_t quads_around(VertexId v) const {
+    std::set<std::uint32_t> quads;
+    mesh_.for_each_outgoing(v, [&](HalfEdgeId h) { quads.insert(HalfEdgeMesh::face(h) / 2); });
+    return quads.size();
   }
 
   bool merge_rung(const std::array<VertexId, 2>& rung) {
@@ -260,16 +284,20 @@ class Thinner {
 
   const CellQuads& cage_;
   const std::optional<MirrorPlane>& plane_;
-  std::uint64_t& taken_back_;  // quads of cages that failed steps were taken back in
-  std::vector<Vec3d> tight_;   // by vertex: where it lies when the cage is shrunk
+  std::vector<Vec3d> tight_;  // by vertex: where it lies when the cage is shrunk
   std::vector<Quad> quads_;
   std::vector<char> alive_;
   std::size_t left_;
   HalfEdgeMesh mesh_;
   EnclosedByPairs kept_;
   std::optional<ProxyEditor> editor_;
-  std::vector<std::array<VertexId, 2>> into_;  // of the strip that is being removed: what merged into what
-  std::vector<char> touched_;                  // by vertex: merged in this round
+  // The next two belong to the strip that is being removed.
+  std::vector<std::array<VertexId, 2>> into_;                 // what merged into what
+  std::vector<std::pair<std::uint32_t, Quad>> renamed_;       // quads as they were
+  std::map<std::vector<std::uint32_t>, std::size_t> failed_;  // by quads of a strip: changes_ when it failed
+  std::size_t changes_ = 0;                                   // strips that were removed
+  std::vector<std::size_t> changed_;  // by vertex: changes_ at its last change, or a neighbour's
+  std::vector<char> touched_;         // by vertex: merged in this round
 };
 
 /// Shrinks the cage, and returns its vertices; then swells it, which leaves room for merging vertices.
@@ -296,12 +324,10 @@ CellQuads thinned(CellQuads cage, const Enclosed& enclosed, std::uint64_t faces,
   const auto& worse = thinning == Thinning::strips ? kWorseAfterStrips : kWorseOfSingles;
   const std::size_t last = faces / 2;
   std::vector<Vec3d> tight = relax(cage, enclosed, plane);
-  std::uint64_t taken_back = 0;
   for (std::size_t step = 0; cage.mesh.quads.size() > last;) {
     const std::size_t before = cage.mesh.quads.size();
     const auto goal = std::max(last, std::size_t((step == 0 ? kPerStage : kPerSingles) * double(before)));
-    cage = Thinner(cage, std::move(tight), enclosed, plane, taken_back).run(goal, last, worse[step]);
-    if (taken_back > kMostTakenBack) return {};
+    cage = Thinner(cage, std::move(tight), enclosed, plane).run(goal, last, worse[step]);
     if (double(cage.mesh.quads.size()) <= kLeastProgress * double(before))
       step = 0;
     else if (++step == worse.size())

@@ -13,8 +13,7 @@ enum class Thinning {
 /// Removes strips of quads (detail/strips.h) from `cage` until it has at most `faces` triangles, and evens it out in
 /// between. Each step is checked exactly, so the result is closed, 2-manifold and embedded, holds `enclosed` under
 /// either diagonal of each quad, and has the parts and holes that `cage` has. With a plane it is its own mirror image.
-/// Returns no triangles if too few can be removed, or too many steps fail. Deterministic. Cost:
-/// some exact steps for each quad.
+/// Returns no triangles if too few can be removed. Deterministic. Cost: some exact steps for each quad.
 [[nodiscard]] CellQuads thinned(CellQuads cage, const Enclosed& enclosed, std::uint64_t faces,
                                 const std::optional<MirrorPlane>& plane, Thinning thinning);
 

@@ -69,6 +69,25 @@ bool ProxyEditor::cut(HalfEdgeId h) {
   return true;
 }
 
+void ProxyEditor::begin_undo() {
+  tree_.maintain();
+  undo_.emplace().face_count = mesh_.face_count();
+}
+
+void ProxyEditor::undo() {
+  mesh_.restore(*undo_);
+  for (const HalfEdgeMesh::Undo::Half& half : undo_->halves) {
+    if (half.h % 3 == 0) tree_.update(HalfEdgeMesh::face(half.h));
+  }
+  begin_undo();
+}
+
+/// Saves the faces around vertices if changes are recorded.
+void ProxyEditor::save(std::initializer_list<VertexId> vertices) {
+  if (!undo_) return;
+  for (const VertexId v : vertices) mesh_.save(v, *undo_);
+}
+
 /// Records that the faces are replaced by a fan around `apex`.
 ProxyEditor::Unsettled& ProxyEditor::replace(std::span<const FaceId> faces, const LatticeCoord& apex) {
   sense_.add(faces.front(), fan_gain6(mesh_, faces, apex));
@@ -80,6 +99,7 @@ ProxyEditor::Unsettled& ProxyEditor::replace(std::span<const FaceId> faces, cons
 }
 
 void ProxyEditor::make_move(VertexId v, const LatticeCoord& to) {
+  save({v});
   replaced_.clear();
   mesh_.for_each_outgoing(v, [&](HalfEdgeId h) { replaced_.push_back(HalfEdgeMesh::face(h)); });
   replace(replaced_, to).apex = v;
@@ -89,6 +109,7 @@ void ProxyEditor::make_move(VertexId v, const LatticeCoord& to) {
 
 void ProxyEditor::make_collapse(HalfEdgeId h, const LatticeCoord& to) {
   const VertexId u = mesh_.from(h), w = mesh_.to(h);
+  save({u, w});
   replaced_.clear();
   mesh_.for_each_outgoing(u, [&](HalfEdgeId g) { replaced_.push_back(HalfEdgeMesh::face(g)); });
   mesh_.for_each_outgoing(w, [&](HalfEdgeId g) {
@@ -98,11 +119,12 @@ void ProxyEditor::make_collapse(HalfEdgeId h, const LatticeCoord& to) {
   for (const HalfEdgeId g : {h, mesh_.twin(h)}) tree_.remove(HalfEdgeMesh::face(g));
   mesh_.collapse(h, to);
   mesh_.for_each_outgoing(u, [&](HalfEdgeId g) { tree_.update(HalfEdgeMesh::face(g)); });
-  tree_.maintain();
+  if (!undo_) tree_.maintain();
 }
 
 /// Flips the edge. The new faces are a fan around one end of the new edge, if faces without area are counted.
 void ProxyEditor::make_flip(HalfEdgeId h) {
+  save({mesh_.from(h), mesh_.to(h)});
   const HalfEdgeId t = mesh_.twin(h);
   const std::array<FaceId, 2> faces{HalfEdgeMesh::face(h), HalfEdgeMesh::face(t)};
   replace(faces, mesh_.position(mesh_.opposite(t)));

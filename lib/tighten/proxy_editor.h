@@ -1,4 +1,7 @@
 #pragma once
+#include <initializer_list>
+#include <optional>
+
 #include "lib/mesh/shells.h"
 #include "lib/simplify/waves.h"
 #include "lib/tighten/contact_forces.h"
@@ -62,6 +65,12 @@ class ProxyEditor {
   /// Makes the reach longer, if a step has failed because of it since the last call. Returns whether it did.
   [[nodiscard]] bool loosen();
 
+  /// Begins to record changes, or begins anew. Until end_undo(), undo() takes back all changes since then, in the time
+  /// that they took. Only without contact points, since their lists are not recorded; sense() does not change back.
+  void begin_undo();
+  void end_undo() { undo_.reset(); }
+  void undo();
+
   /// Rebuilds the tree: its boxes only grow with changes, so fresh ones pay after many.
   void refresh() { tree_.rebuild(); }
 
@@ -76,6 +85,7 @@ class ProxyEditor {
     ContactPoints::Scratch scratch;
     std::vector<FaceId> around;
   };
+  void save(std::initializer_list<VertexId> vertices);
   Unsettled& replace(std::span<const FaceId> faces, const LatticeCoord& apex);
   void settle(const Unsettled& some, Settler& settler);
 
@@ -91,6 +101,7 @@ class ProxyEditor {
   EditedProxy proxy_;
   EditCheck check_;
   std::uint64_t beyond_reach_before_ = 0;  // counts.beyond_reach at the last loosen()
+  std::optional<HalfEdgeMesh::Undo> undo_;
   std::vector<FaceId> replaced_, around_;  // faces of the change that is being made
   // The first unsettled_count_ of these are in use: the changes since points were last settled.
   std::vector<Unsettled> unsettled_;

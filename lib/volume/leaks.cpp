@@ -9,6 +9,7 @@
 #include "lib/core/parallel.h"
 #include "lib/grid/brick_voxels.h"
 #include "lib/volume/detail/clearance.h"
+#include "lib/volume/detail/shut_trial.h"
 #include "lib/volume/dilate.h"
 
 namespace bp {
@@ -19,8 +20,8 @@ namespace {
 constexpr std::int32_t kWiderBy = 5, kWiderOf = 4;
 constexpr std::uint64_t kLeastRoom = 1000;  // rooms below one part in so many of the largest are left out
 constexpr double kGroundAdds = 1.25;        // standing on the ground multiplies what rooms hold by more than this
-// Clearance 2, state 1, lists 4, a way through an opening 8 at most, sets of voxels 1.
-constexpr std::uint64_t kBytesPerVoxel = 16;
+// Clearance 2, state 1, lists 4, a way through an opening 8 at most, sets of voxels 1, a closing around an opening 2.
+constexpr std::uint64_t kBytesPerVoxel = 18;
 // Empty voxels around the solid ones: openings in the bounds have an outside.
 constexpr std::int32_t kPadding = 2;
 // Voxels from the middle of a way within which an opening is looked at; doubled while it is longer.
@@ -113,9 +114,23 @@ class LeakSearch {
     leak.room_clearance = most;
     if (find_way(level, leak)) {
       leak.room_voxels = room_voxels(level);
+      leak.shut_at = shut_at(leak);
       leaks_.push_back(leak);
     }
     for_each_in_room([&](Index i) { state_[i] &= std::uint8_t(~kInRoom); });
+  }
+
+  /// Tries closings around the opening, while the voxels of the room are marked.
+  [[nodiscard]] std::int32_t shut_at(const Leak& leak) const {
+    const OpeningSides sides{
+        clearance_.solid(), leak.place, [&](VoxelCoord p) { return (state_[index_of(p)] & kInRoom) != 0; },
+        [&](VoxelCoord p) { return is_outside(index_of(p), leak.clearance) || (state_[index_of(p)] & kAtSide) != 0; }};
+    return least_shutting_scale(sides, leak.clearance);
+  }
+
+  /// Returns whether the outside has reached a voxel that is wider than the opening of the marked room.
+  [[nodiscard]] bool is_outside(Index i, std::int32_t level) const {
+    return clearance_[i] > level && (state_[i] & (kReached | kInRoom)) == kReached;
   }
 
   /// Finds the shortest way through voxels of the level, from the room to what was reached before it, and the middle of
@@ -133,8 +148,7 @@ class LeakSearch {
     for (std::size_t k = 0; k < way_.size() && !last; ++k) {
       if ((state_[way_[k].voxel] & kAtSide) != 0) last = Index(k), leak.outer = coord_of(way_[k].voxel);
       for_each_neighbor(way_[k].voxel, [&](Index next) {
-        const bool outside = clearance_[next] > level && (state_[next] & (kReached | kInRoom)) == kReached;
-        if (outside && !last) last = Index(k), leak.outer = coord_of(next);
+        if (!last && is_outside(next, level)) last = Index(k), leak.outer = coord_of(next);
       });
       if (!last) for_each_neighbor(way_[k].voxel, [&](Index next) { add(next, Index(k)); });
     }

@@ -17,9 +17,13 @@
 namespace bp {
 
 struct Leak {
-  VoxelCoord place;                 ///< middle of the opening; an empty voxel
-  VoxelCoord inner, outer;          ///< ends of the shortest way through the opening, in the room and outside it
-  std::int32_t clearance = 0;       ///< d, voxels
+  VoxelCoord place;            ///< middle of the opening; an empty voxel
+  VoxelCoord inner, outer;     ///< ends of the shortest way through the opening, in the room and outside it
+  std::int32_t clearance = 0;  ///< d, voxels
+  /// Least scale, whole voxels, of the closings that were tried around the opening (detail/shut_trial.h) and shut it:
+  /// d, or more if the opening is slanted, since closings erode by balls. A larger scale may open it again. 0: none of
+  /// them does up to 3 d, or the opening is too large to try.
+  std::int32_t shut_at = 0;
   std::int32_t width = 0;           ///< of the opening, voxels: 2 d - 1 or 2 d, or a little more if it is slanted
   std::int32_t room_clearance = 0;  ///< largest clearance in the room; a closing of that scale fills the room
   /// Voxels of all cubes in the room that are wider than the opening: the room without narrow corners, and without the

@@ -30,10 +30,10 @@ constexpr double kBesideOpening = 1.733;  // sqrt(3), rounded up: cubes reach so
 
 std::string row_text(const PlacedLeak& leak, const GridFrame& frame, std::size_t number) {
   return fmt::format(
-      "leak {:<6} {}, {:.3g} wide{}; needs --scale {:.4g} or more\n"
+      "leak {:<6} {}, {:.3g} wide{}; {}\n"
       "  room      {:.4g}, up to {:.3g} wide; --scale {:.4g} fills it\n",
       number, place_text(middle_of(leak.place, frame), frame), leak.width * frame.voxel, parts_text(leak.parts),
-      closing_scale(leak, frame), room_volume(leak, frame), 2 * filling_scale(leak, frame), filling_scale(leak, frame));
+      scale_text(leak, frame), room_volume(leak, frame), 2 * filling_scale(leak, frame), filling_scale(leak, frame));
 }
 
 Json row_json(const PlacedLeak& leak, const GridFrame& frame) {
@@ -41,6 +41,7 @@ Json row_json(const PlacedLeak& leak, const GridFrame& frame) {
           {"width", leak.width * frame.voxel},
           {"width_voxels", leak.width},
           {"least_scale", closing_scale(leak, frame)},
+          {"shut_when_tried", leak.shut_at > 0},
           {"inside", middle_of(leak.inner, frame)},
           {"outside", middle_of(leak.outer, frame)},
           {"parts", leak.parts},

@@ -28,7 +28,7 @@ GroundSide ground_of(const GridFrame& frame) {
 }
 
 double closing_scale(const Leak& leak, const GridFrame& frame) {
-  const double scale = (leak.clearance + kBeyondWholeVox) * frame.voxel;
+  const double scale = (std::max(leak.shut_at, leak.clearance) + kBeyondWholeVox) * frame.voxel;
   const double unit = std::pow(10.0, std::floor(std::log10(scale)) - 3);
   return std::ceil(scale / unit) * unit;
 }
@@ -47,9 +47,15 @@ std::string place_text(const Vec3d& p, const GridFrame& frame) {
 }
 
 std::string leak_sentence(const Leak& leak, const GridFrame& frame) {
-  return fmt::format("the largest room ({:.3g}) leaks at {}, where it is {:.3g} wide and needs --scale {:.4g} or more",
-                     room_volume(leak, frame), place_text(middle_of(leak.place, frame), frame),
-                     leak.width * frame.voxel, closing_scale(leak, frame));
+  return fmt::format("the largest room ({:.3g}) leaks at {}, where it is {:.3g} wide; {}", room_volume(leak, frame),
+                     place_text(middle_of(leak.place, frame), frame), leak.width * frame.voxel,
+                     scale_text(leak, frame));
+}
+
+std::string scale_text(const Leak& leak, const GridFrame& frame) {
+  const double scale = closing_scale(leak, frame);
+  if (leak.shut_at > 0) return fmt::format("--scale {:.4g} shuts it, as tried there", scale);
+  return fmt::format("it needs --scale {:.4g} or more; none was found that shuts it", scale);
 }
 
 std::string parts_text(const std::set<std::string>& names) {

@@ -12,9 +12,8 @@ namespace bp {
 [[nodiscard]] Vec3d middle_of(VoxelCoord p, const GridFrame& frame);
 /// Returns the axis of the voxels that points up.
 [[nodiscard]] GroundSide ground_of(const GridFrame& frame);
-/// Returns the least scale at which a closing with cubes can close the leak, rounded up to four digits. It does if the
-/// opening lies along the axes. At an angle, the erosion, which is by balls, may open it again, as it opens what spans
-/// a thin wall.
+/// Returns the scale at which a closing with cubes shut the leak when it was tried there (Leak::shut_at); if none did,
+/// the least that could. Rounded up to four digits.
 [[nodiscard]] double closing_scale(const Leak& leak, const GridFrame& frame);
 /// Returns the scale from which on a closing fills the room instead of enclosing it.
 [[nodiscard]] double filling_scale(const Leak& leak, const GridFrame& frame);
@@ -22,8 +21,11 @@ namespace bp {
 
 /// Returns "1.5,2,0.25", with as many digits as a tenth of a voxel needs.
 [[nodiscard]] std::string place_text(const Vec3d& p, const GridFrame& frame);
-/// Returns "the largest room (41.2) leaks at 1.5,2,0.25, where it is 0.9 wide and needs --scale 0.46".
+/// Returns "the largest room (41.2) leaks at 1.5,2,0.25, where it is 0.9 wide; --scale 0.46 shuts it, as tried
+/// there".
 [[nodiscard]] std::string leak_sentence(const Leak& leak, const GridFrame& frame);
+/// Returns "--scale 0.46 shuts it, as tried there", or that none was found that does.
+[[nodiscard]] std::string scale_text(const Leak& leak, const GridFrame& frame);
 /// Returns " next to 'wall' and 2 other parts"; empty without names.
 [[nodiscard]] std::string parts_text(const std::set<std::string>& names);
 

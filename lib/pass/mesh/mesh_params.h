@@ -31,8 +31,10 @@ enum class Enclose { closing, input, scene };
   return std::array{"closing", "input", "scene"}[std::size_t(what)];
 }
 
+class Limbs;
 struct CageParams {
-  std::optional<MirrorPlane> plane;  ///< the voxels and the cage are their own mirror images about it
+  std::optional<MirrorPlane> plane;    ///< the voxels and the cage are their own mirror images about it
+  std::shared_ptr<const Limbs> limbs;  ///< of the model within its margin (lib/quads/limbs.h); null: of what is meshed
 };
 
 struct MeshParams {

@@ -207,13 +207,15 @@ class LevelMaker {
     const std::optional<MirrorPlane>& plane = params_.cage->plane;
     return {finish(header_.frame, faces, [&](const SimplifyParams&, LevelCounts& counts) {
       counts.simplify.stop = StopReason::faces;
-      CageLimbs limbs;
-      LatticeMesh mesh = cage_with_limbs(*shelves.meshed, header_.frame, *ground_.enclosed, faces, plane, limbs);
+      std::shared_ptr<const Limbs> model = params_.cage->limbs;
+      if (model == nullptr) model = std::make_shared<Limbs>(*shelves.meshed, *shelves.meshed);
+      CageFit fit;
+      LatticeMesh mesh = cage_with_limbs(*shelves.meshed, header_.frame, *ground_.enclosed, faces, plane, *model, fit);
       if (mesh.triangles.empty())
         fail(ErrorCode::bad_argument, "{} faces: a cage of quads has at least 12 triangles, and a symmetric one 20",
              faces);
-      counts.limbs.count = limbs.count;
-      for (const LatticeCoord& tip : limbs.joined) counts.limbs.joined.push_back(header_.frame.world(tip));
+      counts.limbs.count = model->count();
+      for (const LatticeCoord& tip : fit.joined) counts.limbs.joined.push_back(header_.frame.world(tip));
       return mesh;
     })};
   }

@@ -14,6 +14,7 @@ class Clearance {
   Clearance(BitBox solid, const VoxelBox& box);
 
   [[nodiscard]] const VoxelBox& box() const { return box_; }
+  [[nodiscard]] const BitBox& solid() const { return solid_; }
   /// Returns the Chebyshev distance of a voxel. 0: it is solid. At most kMost, also if there is no solid voxel.
   [[nodiscard]] std::int32_t operator[](std::size_t i) const { return distance_[i]; }
   [[nodiscard]] std::int32_t largest() const { return std::int32_t(counts_.size()) - 1; }

@@ -41,7 +41,7 @@ bpcheck horn.obj even/horn_cage.obj | tail -1
 
 # Limbs that grow together are named; with more faces they stay apart.
 { block 0,0,9 31,1,10 0; for i in 0 1 2 3 4 5 6 7; do block "$((4 * i)),0,0" "$((4 * i + 1)),1,9" "$((8 * i + 8))"; done; } > comb.obj
-for faces in 40 400; do
+for faces in 40 500; do
   bplod comb.obj --profile cage --up z --faces $faces --resolution 128 --overwrite -o comb 2>&1 | grep limbs || echo "none of $faces faces"
 done
 

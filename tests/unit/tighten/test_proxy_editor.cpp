@@ -1,4 +1,8 @@
+#include <random>
+
 #include "lib/enclosed/enclosed_voxels.h"
+#include "lib/quads/cell_quads.h"
+#include "lib/quads/detail/enclosed_by_pairs.h"
 #include "lib/tighten/proxy_editor.h"
 #include "tests/support/lattice_boxes.h"
 #include "tests/support/proxy_checks.h"
@@ -104,4 +108,44 @@ TEST_CASE("a reach is loosened to some times its length, and then there is none"
     reach = next;
   }
   CHECK(reach == 0);
+}
+
+TEST_CASE("undoing changes puts the mesh back, and later changes are tested as on a fresh one", "[quick][meshing]") {
+  MemoryShelf cells;
+  fill_shelf(cells, {{0, 0, 0}, {64, 64, 64}}, [](VoxelCoord p) {
+    return std::min({p.x, p.y, p.z}) >= 4 && std::max({p.x, p.y, p.z}) < 56;
+  });
+  const LatticeMesh proxy = cube_quads(cells, {}, 16, std::nullopt).mesh;
+  HalfEdgeMesh mesh(proxy), other(proxy);
+  EnclosedByPairs enclosed(mesh, block()), of_other(other, block());
+  for (EnclosedByPairs* one : {&enclosed, &of_other}) one->give_contacts(false), one->allow_flips(true);
+  ProxyEditor editor(mesh, enclosed, {}), fresh(other, of_other, {});
+  std::mt19937 random(3);
+  const auto change = [&](ProxyEditor& e, std::uint32_t seed) {  // returns which of some changes were made
+    std::mt19937 own(seed);
+    std::vector<bool> made;
+    for (int i = 0; i < 60; ++i) {
+      const HalfEdgeId h = HalfEdgeId(own() % (3 * e.mesh().face_capacity()));
+      const std::int64_t by = std::int64_t(own() % 40) - 20;
+      const std::uint32_t kind = own() % 3;
+      if (!e.mesh().alive(HalfEdgeMesh::face(h))) continue;
+      const VertexId v = e.mesh().from(h);
+      const LatticeCoord to = e.mesh().position(v) + LatticeCoord{by, -by, by};
+      made.push_back(kind == 0 ? e.move(v, to) : kind == 1 ? e.collapse(h, to) : e.flip(h));
+    }
+    return made;
+  };
+  for (int round = 0; round < 20; ++round) {
+    editor.begin_undo();
+    const std::vector<bool> undone = change(editor, std::uint32_t(random()));
+    REQUIRE(std::count(undone.begin(), undone.end(), true) > 5);
+    editor.undo();
+    editor.end_undo();
+    const auto seed = std::uint32_t(random());
+    CHECK(change(editor, seed) == change(fresh, seed));
+    CHECK(mesh.face_count() == other.face_count());
+    CHECK(mesh.compact({}).vertices == other.compact({}).vertices);
+    CHECK(mesh.compact({}).triangles == other.compact({}).triangles);
+    if (mesh.face_count() < 60) break;
+  }
 }

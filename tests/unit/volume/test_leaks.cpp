@@ -1,6 +1,8 @@
 #include <map>
 #include <random>
 
+#include "lib/closing/closing.h"
+#include "lib/closing/closing_scratch.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/grid/brick_voxels.h"
@@ -216,6 +218,39 @@ TEST_CASE("leaks are as their definition says", "[leaks]") {
     }
   }
   CHECK(seen > 30);
+}
+
+TEST_CASE("the scale that is told shuts the leak, also in a turned house", "[leaks]") {
+  for (const int degrees : {0, 15, 30, 45}) {
+    for (const double width : {4.0, 9.0}) {
+      CAPTURE(degrees, width);
+      const double turn = degrees * 3.14159265358979 / 180;
+      BitBox house(VoxelBox{{-70, -5, -70}, {70, 45, 70}});
+      for_each(VoxelBox{{-60, 0, -60}, {60, 40, 60}}, [&](VoxelCoord p) {
+        const double x = std::cos(turn) * p.x - std::sin(turn) * p.z, z = std::sin(turn) * p.x + std::cos(turn) * p.z;
+        const double wall = std::min({40 - std::abs(x), 30 - std::abs(z), p.y + 0.5, 39.5 - p.y});
+        const bool door = z > 0 && std::abs(x) < width / 2 && p.y >= 8 && p.y < 28;
+        if (wall >= 0 && wall < 2 && !door) house.set(p);
+      });
+      const Leaks found = find_leaks(house);
+      REQUIRE(found.leaks.size() == 1);
+      const Leak& leak = found.leaks[0];
+      CHECK(leak.shut_at >= leak.clearance);
+      if (degrees == 0) CHECK(leak.shut_at == leak.clearance);
+      // The whole house is closed at that scale, and nothing else is open.
+      GridFrame frame;
+      frame.voxel = 1;
+      ScaleField field;
+      field.base = leak.shut_at + kBeyondWholeVox;
+      const Halo halo = halo_of(house.box(), field, frame);
+      BitBox closed;
+      ClosingScratch scratch;
+      close_tile(house, field.sample(frame, house.box().grown(halo.erosion_vox)), halo, {}, house.box(), closed,
+                 scratch);
+      CHECK(find_leaks(closed).leaks.empty());
+      CHECK((closed.test({0, 20, 0}) || find_leaks(closed).closed_voxels > 1000));
+    }
+  }
 }
 
 TEST_CASE("looking for leaks beyond the memory is refused", "[leaks]") {

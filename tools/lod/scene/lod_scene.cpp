@@ -18,6 +18,7 @@
 #include "lib/levels/margin.h"
 #include "lib/levels/symmetry.h"
 #include "lib/pass/mesh/scene_check.h"
+#include "lib/quads/limbs.h"
 #include "lib/volume/boundary_runs.h"
 #include "tools/lod/choices.h"
 #include "tools/lod/proportions.h"
@@ -222,7 +223,9 @@ CageRoom make_room(Build& build, LodScene& scene) {
       room.plane = middle_plane(scene.voxels.header, int(o.symmetry));
   }
   if (room.plane) add_image(scene.voxels, *room.plane, build.make_shelf);
-  if (room.margin_world > 0) add_margin(scene.voxels, room.margin_world, build.context());
+  std::unique_ptr<BrickShelf> model;
+  if (room.margin_world > 0) model = add_margin(scene.voxels, room.margin_world, build.context());
+  room.limbs = std::make_shared<Limbs>(model ? *model : *scene.voxels.solid, *scene.voxels.solid);
   return room;
 }
 
@@ -240,7 +243,7 @@ LodOptions options_of_chain(const Build& build, const LodScene& scene, const Cag
   lod.context.progress = refused_with_outputs(std::move(lod.context.progress));
   if (scene.voxels.solid != nullptr) lod.first = first_target(o, scene, tileset.cut);
   lod.field = scene.field;
-  if (o.is_cage()) lod.cage = CageParams{room.plane};
+  if (o.is_cage()) lod.cage = CageParams{room.plane, room.limbs};
   return lod;
 }
 

@@ -50,7 +50,8 @@ struct ReadOptions {
 /// The room that a cage leaves around its scene.
 struct CageRoom {
   double margin_world = 0, voxel = 0;
-  std::optional<MirrorPlane> plane;  ///< the mirror plane of the voxels
+  std::optional<MirrorPlane> plane;    ///< the mirror plane of the voxels
+  std::shared_ptr<const Limbs> limbs;  ///< of the scene, without the margin
 };
 /// Makes the voxels symmetric if that is wanted, and grows them by the margin of a cage.
 [[nodiscard]] CageRoom make_room(Build& build, LodScene& scene);
