@@ -36,11 +36,11 @@ struct Enclosure {
 
 /// Chooses the enclosed set, and reads the scene's triangles if they are it. For a bounding proxy, `automatic` chooses
 /// the scene's triangles if they are known and the same as those of the stream: `scene` is given, or the stream names
-/// its files and these hold them. There may be at most kMostEnclosedTriangles of them. Else it chooses the scene's
-/// voxels. A fit takes the closing instead of the voxels; it takes no triangles if it has an error or follows a closing
-/// by cubes. A proxy inside the scene always takes the closing. The choice does not depend on the memory. Throws
-/// out_of_resource if the triangles do not fit in memory, bad_input if `scene` or files are not what the stream was
-/// made from.
+/// its files and these hold them. There may be at most kMostEnclosedTriangles of them. Without such triangles it
+/// chooses the scene's voxels. A fit takes the closing instead of the voxels; it takes no triangles if it has an error
+/// or follows a closing by cubes. A proxy inside the scene always takes the closing. The choice does not depend on the
+/// memory. Throws out_of_resource if the triangles do not fit in memory, bad_input if `scene` or files are not what the
+/// stream was made from.
 [[nodiscard]] Enclosure make_enclosure(const EncloseOption& option, const EnclosureInput& input);
 
 }  // namespace bp
