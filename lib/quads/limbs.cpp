@@ -314,12 +314,14 @@ namespace {
 
 std::vector<VoxelCoord> places_of(const std::vector<Cell>& cells, const Cubes& cubes) {
   std::vector<VoxelCoord> places;
+  places.reserve(cells.size());
   for (const Cell c : cells) places.push_back(cubes.place(c));
   return places;
 }
 
 std::vector<Cell> numbers_of(const std::vector<VoxelCoord>& places, const Cubes& cubes) {
   std::vector<Cell> cells;
+  cells.reserve(places.size());
   for (const VoxelCoord& p : places) cells.push_back(cubes.number(p));
   return cells;
 }

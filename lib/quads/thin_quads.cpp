@@ -136,14 +136,14 @@ class Thinner {
                                            (!plane_ || turn(image(strip.quads[0]), cage_.mate[strip.rungs[0][0]])));
     for (std::size_t i = 0; done && i < strip.rungs.size(); ++i) done = merge_rung(strip.rungs[i]);
     for (const std::uint32_t q : gone) alive_[q] = 0;
-    done = done && rename(gone);
+    done = done && took_only(gone) && rename(gone);
     if (done) {
-      note_removed(gone);
+      settle(gone);
       return true;
     }
     editor_->undo();
     failed_[strip.quads] = changes_;
-    for (const auto& [q, quad] : renamed_) quads_[q] = quad;
+    for (std::size_t i = renamed_.size(); i-- > 0;) quads_[renamed_[i].first] = renamed_[i].second;
     for (const std::uint32_t q : gone) {
       alive_[q] = 1;
       kept_.join(2 * q, 2 * q + 1);
@@ -151,18 +151,26 @@ class Thinner {
     return false;
   }
 
-  /// Notes which vertices have changed, after the quads were removed.
-  void note_removed(const std::vector<std::uint32_t>& gone) {
+  /// Returns whether the triangles of these quads, and no others, are gone. Where surfaces touch, a merge may take
+  /// triangles of a quad beside the strip.
+  [[nodiscard]] bool took_only(const std::vector<std::uint32_t>& gone) const {
+    return mesh_.face_count() == 2 * (left_ - gone.size()) &&
+           std::none_of(gone.begin(), gone.end(),
+                        [&](std::uint32_t q) { return mesh_.alive(2 * q) || mesh_.alive(2 * q + 1); });
+  }
+
+  /// Records that the quads are gone.
+  void settle(const std::vector<std::uint32_t>& gone) {
     left_ -= gone.size();
     ++changes_;
     for (const auto& [from, to] : into_) {
+      tight_[to] = 0.5 * (tight_[from] + tight_[to]);
       changed_[to] = changes_;
       mesh_.for_each_outgoing(to, [&](HalfEdgeId h) { changed_[mesh_.to(h)] = changes_; });
     }
     for (const std::uint32_t q : gone) {
       for (const VertexId v : quads_[q]) touched_[v] = 1;
     }
-    for (const auto& [from, to] : into_) tight_[to] = 0.5 * (tight_[from] + tight_[to]);
   }
 
   /// Makes the diagonal from `corner` that of the quad's triangles.
@@ -176,7 +184,8 @@ class Thinner {
 
   /// Puts the merged vertices into the quads. Returns false if a vertex would have too few of them.
   bool rename(const std::vector<std::uint32_t>& gone) {
-    for (const auto& [from, to] : into_) {
+    for (const std::array<VertexId, 2>& pair : into_) {
+      const VertexId from = pair[0], to = pair[1];  // the lambda cannot capture a binding
       mesh_.for_each_outgoing(to, [&](HalfEdgeId h) {
         const std::uint32_t q = HalfEdgeMesh::face(h) / 2;
         const auto corner = std::find(quads_[q].begin(), quads_[q].end(), from);
