@@ -8,6 +8,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <mutex>
 
 namespace bp {
 
@@ -51,11 +52,13 @@ class Item {
   InWork in_;
 };
 
-/// The threads of the process; 0 until a ThreadLimit has been made. oneTBB answers the same under a lock, for which the
-/// threads of small loops would wait most of their time.
+/// The threads of the process; 0 until they are first asked for or limited. oneTBB answers the same under a lock, for
+/// which the threads of small loops would wait most of their time.
 std::atomic<int> process_threads{0};
+std::mutex noting;  // so that of limits that begin or end at the same time the last one counts
 
 void note_process_threads() {
+  const std::lock_guard lock(noting);
   process_threads = int(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
 }
 

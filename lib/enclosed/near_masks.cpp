@@ -151,7 +151,7 @@ class NearMasks::Mask {
 /// The mask for a distance, which may not be made yet.
 struct NearMasks::Entry {
   double distance = 0;
-  std::once_flag once;
+  std::mutex making;
   std::unique_ptr<const Mask> owner;
   std::atomic<const Mask*> mask{nullptr};  // null until it is whole
   Entry* next = nullptr;
@@ -179,11 +179,13 @@ NearMasks::Entry& NearMasks::entry(double distance) const {
 
 const NearMasks::Mask& NearMasks::mask(double distance) const {
   Entry& entry = this->entry(distance);
-  std::call_once(entry.once, [&] {
+  if (const Mask* made = entry.mask) return *made;
+  const std::lock_guard lock(entry.making);
+  if (!entry.owner) {
     isolated([&] { entry.owner = std::make_unique<Mask>(voxels_, distance); });
     entry.mask = entry.owner.get();
-  });
-  return *entry.mask;
+  }
+  return *entry.owner;
 }
 
 bool NearMasks::is_near(std::span<const NewFace> faces, double distance) const {

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <functional>
 #include <map>
-#include <span>
 
 #include "lib/core/parallel.h"
 #include "lib/core/vec3.h"
+#include "lib/geometry/vertex_fans.h"
 #include "lib/live/surface_piece.h"
 
 namespace bp {
@@ -62,25 +62,6 @@ class Joiner {
   std::map<std::array<std::int32_t, 3>, std::uint32_t> shared_;
 };
 
-/// The triangles at each vertex.
-class Fans {
- public:
-  explicit Fans(const SharedSurface& s) : begins_(s.vertices.size() + 1, 0), all_(s.triangles.size() * 3) {
-    for (const auto& t : s.triangles)
-      for (const std::uint32_t v : t) ++begins_[v + 1];
-    for (std::size_t v = 0; v < s.vertices.size(); ++v) begins_[v + 1] += begins_[v];
-    std::vector<std::uint32_t> next(begins_.begin(), begins_.end() - 1);
-    for (std::uint32_t i = 0; i < s.triangles.size(); ++i)
-      for (const std::uint32_t v : s.triangles[i]) all_[next[v]++] = i;
-  }
-  [[nodiscard]] std::span<const std::uint32_t> of(std::uint32_t vertex) const {
-    return std::span(all_).subspan(begins_[vertex], begins_[vertex + 1] - begins_[vertex]);
-  }
-
- private:
-  std::vector<std::uint32_t> begins_, all_;
-};
-
 void for_each_triangle(std::size_t n, const std::function<void(std::size_t)>& body) {
   parallel_ranges(std::int64_t(n), 4096, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i < end; ++i) body(std::size_t(i));
@@ -88,7 +69,7 @@ void for_each_triangle(std::size_t n, const std::function<void(std::size_t)>& bo
 }
 
 /// Returns the normals of triangles, each times its area, after the filter.
-std::vector<Vec3d> filtered(const SharedSurface& s, const Fans& fans) {
+std::vector<Vec3d> filtered(const SharedSurface& s, const VertexFans& fans) {
   std::vector<Vec3d> normals(s.triangles.size()), before;
   std::vector<double> areas(normals.size());
   for_each_triangle(normals.size(), [&](std::size_t i) {
@@ -115,7 +96,7 @@ std::vector<Vec3d> filtered(const SharedSurface& s, const Fans& fans) {
 }
 
 SmoothSurface with_normals(const SharedSurface& s) {
-  const Fans fans(s);
+  const VertexFans fans(s.triangles, s.vertices.size());
   const std::vector<Vec3d> normals = filtered(s, fans);
   SmoothSurface out;
   out.triangles.resize(normals.size());
