@@ -23,6 +23,7 @@ struct Example {
 
 struct Finding {
   std::uint64_t count = 0;
+  bool at_least = false;          ///< counting ended early: there may be more than `count`
   std::vector<Example> examples;  ///< the first ones by number; at most CheckOptions::max_examples
 
   void add(const Example& e, std::size_t max_examples) {
@@ -32,6 +33,7 @@ struct Finding {
   /// Appends the examples of a later part of the input, and adds its count.
   void append(const Finding& f, std::size_t max_examples) {
     count += f.count;
+    at_least |= f.at_least;
     for (const Example& e : f.examples)
       if (examples.size() < max_examples) examples.push_back(e);
   }
@@ -81,7 +83,8 @@ struct CheckReport {
   Finding nonmanifold_edges;     ///< index, other: vertices of an edge with more than two triangles
   Finding nonmanifold_vertices;  ///< index: vertex whose triangles form more than one fan, of one part if parts are
                                  ///< asked for
-  Finding self_intersections;    ///< index < other: triangles that meet beyond what they share; 200 each at most
+  Finding self_intersections;  ///< index < other: triangles that meet beyond what they share; of each, 200 are counted
+                               ///< at most
   /// Index: first triangle of a closed component that no other surrounds and whose signed volume is not positive.
   Finding inverted_components;
 

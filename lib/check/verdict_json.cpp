@@ -20,7 +20,10 @@ Json json_of(const Finding& f, const FindingText& t) {
     one["position"] = e.position;
     examples.push_back(std::move(one));
   }
-  return {{"count", f.count}, {"examples", std::move(examples)}};
+  Json finding = {{"count", f.count}};
+  if (f.at_least) finding["at_least"] = true;  // the count ended early
+  finding["examples"] = std::move(examples);
+  return finding;
 }
 
 Json json_of(const std::optional<SampledDistance>& d) {

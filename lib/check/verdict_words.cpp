@@ -80,12 +80,13 @@ std::optional<double> volume_ratio(const CheckReport& r) {
   return *r.volume / std::abs(*r.scene_volume);
 }
 
-/// Returns "1 edge has one triangle only", "2 edges have one triangle only".
+/// Returns "1 edge has one triangle only", "2 edges have one triangle only", "at least 200 pairs of triangles
+/// intersect".
 std::string counted(const Finding& f, const FindingText& t) {
   const std::string text = t.text;
   const std::size_t open = text.find('['), bar = text.find('|'), close = text.find(']');
   const std::string noun = f.count == 1 ? text.substr(open + 1, bar - open - 1) : text.substr(bar + 1, close - bar - 1);
-  return fmt::format("{} {}{}", f.count, noun, text.substr(close + 1));
+  return fmt::format("{}{} {}{}", f.at_least ? "at least " : "", f.count, noun, text.substr(close + 1));
 }
 
 /// Returns whether a finding belongs to a question that was not asked: no report mentions it.

@@ -27,7 +27,8 @@ std::string complaint_of(const CheckReport& r) {
   add(!r.oriented() || !r.outward(), "is not oriented outwards");
   add(!r.manifold(), "is not 2-manifold");
   add(!r.sound(), "has degenerate or repeated triangles");
-  add(!r.embedded(), "meets itself in " + counted(r.self_intersections.count, "place"));
+  add(!r.embedded(), std::string("meets itself in ") + (r.self_intersections.at_least ? "at least " : "") +
+                         counted(r.self_intersections.count, "place"));
   add(r.touching.count > 0, "is touched by " + counted(r.touching.count, "triangle") + " of the scene");
   add(r.outside.count > 0, "leaves " + counted(r.outside.count, "triangle") + " of the scene outside");
   add(r.within_rounding.count > 0, "cannot be decided: it is as near to " +

@@ -109,12 +109,14 @@ Finding Surface::self_intersections(std::size_t max_examples, bool within_parts)
         }
         return met == kMostMet;
       });
+      here.at_least |= met == kMostMet;
     }
   });
   Finding all;
   for (const Finding& f : found) {
     for (const Example& e : f.examples) add_sorted(all, e, max_examples);
     all.count += f.count - f.examples.size();
+    all.at_least |= f.at_least;
   }
   return all;
 }

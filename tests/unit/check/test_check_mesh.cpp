@@ -1,6 +1,7 @@
 // The proxy alone: each finding has a mesh that has this fault only (or faults that follow from it).
 #include <random>
 
+#include "lib/check/verdict_text.h"
 #include "lib/exact/predicates.h"
 #include "tests/catch.h"
 #include "tests/reference/triangle_clip.h"
@@ -121,9 +122,12 @@ TEST_CASE("triangles at one place meet each other, and not all pairs are counted
     for (const Vec3d& p : {Vec3d{double(i) * 1e-9, 0, 0}, Vec3d{1, 0, 0}, Vec3d{0, 1, 0}}) mesh.vertices.push_back(p);
     mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
-  const std::uint64_t count = check(mesh).self_intersections.count;
-  CHECK(count >= kCopies);
-  CHECK(count <= 200 * kCopies);  // half of the square would be 8 million
+  const CheckReport report = check(mesh);
+  CHECK(report.self_intersections.count >= kCopies);
+  CHECK(report.self_intersections.count <= 200 * kCopies);  // half of the square would be 8 million
+  CHECK(report.self_intersections.at_least);
+  CHECK(verdict_text(report, "m").find("at least ") != std::string::npos);
+  CHECK(verdict_json(report, "m").find("\"at_least\": true") != std::string::npos);
 }
 
 TEST_CASE("a fold flat onto its neighbour is an intersection of neighbours", "[quick][check]") {
@@ -207,6 +211,7 @@ TEST_CASE("self-intersecting pairs equal rational clipping of all pairs", "[quic
   }
   const CheckReport r = check(m);
   CHECK(r.self_intersections.count == expected);
+  CHECK(!r.self_intersections.at_least);
   CHECK(r.self_intersections.examples.size() == 5);
 }
 
