@@ -10,9 +10,9 @@ namespace bp {
 namespace {
 
 /// Returns a number with three significant digits; from 1000 to 10^15 it is rounded to a whole number, without an
-/// exponent.
+/// exponent. Three digits of 999.5 would be those of 1000.
 std::string number(double x) {
-  return x >= 1000 && x < 1e15 ? fmt::format("{:.0f}", x) : fmt::format("{:.3g}", x);
+  return x >= 999.5 && x < 1e15 ? fmt::format("{:.0f}", x) : fmt::format("{:.3g}", x);
 }
 
 /// Returns "2 is 154 % of the scene's diagonal (1.3)".

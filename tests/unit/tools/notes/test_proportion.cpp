@@ -70,6 +70,8 @@ TEST_CASE("a grid that is too coarse or too fine is questioned", "[quick][tools]
                       "16384: is the scene in other units? to insist, say --voxel 0.000769%"));
   CHECK_NOTHROW(question_resolution(16384, scene));
   CHECK_THROWS_WITH(question_resolution(100000, scene), Contains("more than 16384: to insist, say --voxel 0.000923%"));
+  CHECK_THAT(voxel("0.9997", box(0.01, 0, 0)), Contains("to insist, write 9997%"));
+  CHECK_THAT(voxel("0.9997", box(0.1, 0, 0)), Contains("to insist, write 1000%"));
   CHECK_FALSE(voxel("1e-300", scene).empty());
   CHECK_FALSE(voxel("1e300", scene).empty());
   for (const char* word : {"0.15", "0.0001", "769%", "1e-9%"}) CHECK(voxel(word, scene).empty());
