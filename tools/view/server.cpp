@@ -197,7 +197,11 @@ void Server::State::add_routes() {
   http.Get("/api/parts",
            [this](const Request&, Response& response) { response.set_content(session.parts(), "application/json"); });
   http.Get("/api/events", [this](const Request& request, Response& response) { listen(request, response); });
-  http.Post("/api/edit", doing([this](const std::string& body) { session.edit(body); }));
+  http.Post("/api/edit", [this](const Request& request, Response& response) {
+    answer(response, [&] {
+      response.set_content(fmt::format("{{\"revision\": {}}}", session.edit(request.body)), "application/json");
+    });
+  });
   http.Post("/api/save", doing([this](const std::string& body) { session.save(body); }));
   http.Post("/api/check", doing([this](const std::string& body) { session.check(body); }));
   http.Post("/api/mesh", doing([this](const std::string&) { session.mesh(); }));

@@ -170,9 +170,10 @@ bool Session::is_current(const ProxyJob::Status& proxy) const {
   return proxy.revision == design_->revision() && proxy.faces == faces_;
 }
 
-void Session::edit(const std::string& json) {
+std::uint64_t Session::edit(const std::string& json) {
   const Json request = parse_request(json);
   const std::string op = word(request, "op");
+  std::uint64_t revision = 0;
   {
     const std::lock_guard lock(mutex_);
     const std::uint64_t before = design_->revision();
@@ -197,12 +198,14 @@ void Session::edit(const std::string& json) {
     } else {
       fail(ErrorCode::bad_input, "the request's 'op' is not known");
     }
-    if (design_->revision() != before) {
+    revision = design_->revision();
+    if (revision != before) {
       job_->stop();
-      closing_->request(design_->plan(), design_->revision());
+      closing_->request(design_->plan(), revision);
     }
   }
   events_.tell();
+  return revision;
 }
 
 void Session::mesh() {

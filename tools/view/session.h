@@ -39,8 +39,8 @@ class Session {
   /// where a list of rules is one step, too, {"op": "base", "base": LENGTH, "again": BOOL},
   /// {"op": "orientation", "orientation": "auto", a list of frames, or null, "again": BOOL}, {"op": "remove", "rule":
   /// N}, {"op": "undo"}, {"op": "redo"}, {"op": "faces", "faces": N}, {"op": "live", "live": BOOL}. Throws bad_input,
-  /// and changes nothing, for any other JSON.
-  void edit(const std::string& json);
+  /// and changes nothing, for any other JSON. Returns the design's revision after the step.
+  std::uint64_t edit(const std::string& json);
   void check(const std::string& json);  ///< begins to prove a file of --show: `json` is {"file": N}
   void mesh();                          ///< begins a proxy of the present design
   void stop();                          ///< ends the proxy at work

@@ -47,8 +47,10 @@ export async function bytes(path: string): Promise<ArrayBuffer> {
   return (await checked(await fetch(path))).arrayBuffer();
 }
 
-export async function post(path: string, body: unknown = {}): Promise<void> {
-  await checked(await fetch(path, { method: 'POST', body: JSON.stringify(body) }));
+/// Sends a request. Returns the design's revision after it, and 0 if the request does not change the design.
+export async function post(path: string, body: unknown = {}): Promise<number> {
+  const answer = await (await checked(await fetch(path, { method: 'POST', body: JSON.stringify(body) }))).json();
+  return answer.revision ?? 0;
 }
 
 /// Names of the scene's parts, for rules by name.

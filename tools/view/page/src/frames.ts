@@ -7,7 +7,6 @@ import type { View } from './view';
 
 const byId = <T extends HTMLElement>(id: string): T => document.getElementById(id) as T;
 const kFields = ['x', 'y', 'z', 'rx', 'ry', 'rz'] as const;  // a place, and turns about the axes in degrees
-const kSettled = 700;  // ms after which the server's answer counts again
 
 function turnOf(frame: Frame['frame']): THREE.Quaternion {
   if (typeof frame[0] === 'number') {
@@ -38,7 +37,6 @@ export class Frames {
   private gizmo: TransformControls;
   private dragging = false;
   private moved = false;  // whether this drag was sent before
-  private touched = -Infinity;
   private active = true;
 
   constructor(private view: View, private canvas: HTMLCanvasElement, private facts: () => State['scene'], private send: (value: Orientation, again: boolean) => void) {
@@ -89,7 +87,6 @@ export class Frames {
   choose(value: null | 'auto'): void {
     if (this.frames.length === 0 && this.told === value) return;
     this.frames = [];
-    this.touched = performance.now();
     this.send(value, false);
   }
   private remove(i: number): void {
@@ -98,11 +95,10 @@ export class Frames {
     this.sendAll(false);
   }
 
-  /// Shows what the server has, unless a person is at it: the answer lags behind.
+  /// Shows what the server has; while a person drags a frame, afterwards.
   tell(orientation: Orientation): void {
     this.told = orientation;
-    const wait = this.touched + kSettled - performance.now();
-    if (this.dragging || wait > 0) return void setTimeout(() => { if (this.told === orientation) this.tell(orientation); }, Math.max(wait, 50));
+    if (this.dragging) return void setTimeout(() => { if (this.told === orientation) this.tell(orientation); }, 50);
     const text = JSON.stringify(this.frames), next = Array.isArray(orientation) ? orientation : [];
     if (next.length > 0 && this.frames.length === 0) byId<HTMLDetailsElement>('cubes').open = true;
     this.frames = next;
@@ -130,7 +126,6 @@ export class Frames {
     this.change(this.view.fromScene(values.slice(0, 3) as Vec3), new THREE.Quaternion().setFromEuler(new THREE.Euler(rx, ry, rz)), false);
   }
   private sendAll(again: boolean): void {
-    this.touched = performance.now();
     this.send(this.frames.length > 0 ? this.frames : null, again);
     this.list();
     this.show();

@@ -29,9 +29,22 @@ const view = makeView();
 
 /// Edits reach the server in the order in which they were made.
 let queue: Promise<unknown> = Promise.resolve();
+let onTheWay = 0, answered = 0;  // requests without an answer; the design's revision after the last one that has one
 function send(path: string, body: unknown = {}): Promise<unknown> {
-  queue = queue.then(() => post(path, body)).catch(complain);
+  ++onTheWay;
+  queue = queue.then(() => post(path, body)).then((revision) => { answered = Math.max(answered, revision); }).catch(complain)
+    .finally(() => { --onTheWay; settle(); });
   return queue;
+}
+/// The state lags behind while edits are on the way: what depends on the design waits until it has all of them.
+const isSettled = () => onTheWay === 0 && waiting === null && state.design.revision >= answered;
+const later: (() => void)[] = [];
+function settle(): void {
+  if (!isSettled()) return;
+  base.follow(state.design.base);
+  faces.follow(state.faces);
+  frames.tell(state.design.orientation);
+  while (later.length > 0 && isSettled()) later.shift()!();
 }
 /// Runs one task at a time. If tasks follow quickly, only the last one waits; it replaces those before.
 let waiting: (() => void) | null = null;
@@ -62,7 +75,9 @@ const frames = new Frames(view, byId('canvas'), facts, (value, again) => (again 
 /// A frame is placed under the pointer, else under the middle of the view, else in the middle of the scene.
 function addFrame(): void {
   const canvas = byId('canvas'), seen = hovered ? null : view.pick(canvas.clientWidth / 2, canvas.clientHeight / 2);
-  frames.add(hovered ?? (seen ? view.toScene(seen) : state.scene.middle));
+  const at = hovered ?? (seen ? view.toScene(seen) : state.scene.middle);
+  later.push(() => frames.add(at));
+  settle();
 }
 
 /// The proxy that is shown: one that was made before, or 0, the last one.
@@ -233,10 +248,8 @@ function tell(next: State): void {
   if (next.proxy.number !== state.proxy.number) chosen = 0;  // a new proxy is shown at once
   state = next;
   showState(state, (i) => void send('/api/edit', { op: 'remove', rule: i }));
-  base.follow(state.design.base);
-  faces.follow(state.faces);
   files.tell(state.layers);
-  frames.tell(state.design.orientation);
+  settle();
   showPlot();
   view.setBase(state.design.base_world);
   void follow();

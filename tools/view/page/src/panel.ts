@@ -8,14 +8,12 @@ const input = (id: string) => byId<HTMLInputElement>(id);
 /// A text and a slider for one length. `changed` gets it, and whether the slider still moves.
 export class LengthField {
   value: Length = '1%';
-  private touched = 0;
   private moving = false;
   constructor(private name: string, private scene: () => State['scene'], private zero: boolean, private changed: (value: Length, again: boolean) => void) {
     const text = input(name), range = input(`${name}-slide`);
     range.addEventListener('input', () => {
       const again = this.moving;
       this.moving = true;
-      this.touched = performance.now();
       this.value = `${show(slide.toPercent(Number(range.value), this.zero), 2)}%`;
       text.value = String(this.value);
       text.classList.remove('wrong');
@@ -30,9 +28,9 @@ export class LengthField {
       this.changed(value, false);
     });
   }
-  /// Shows a value, unless a person moves the slider: the server's answer lags behind.
+  /// Shows the design's value, unless a person is at the field.
   follow(value: Length): void {
-    if (performance.now() - this.touched > 700 && document.activeElement !== input(this.name)) this.set(value);
+    if (!this.moving && document.activeElement !== input(this.name)) this.set(value);
   }
   set(value: Length): void {
     this.value = value;
@@ -42,15 +40,13 @@ export class LengthField {
 }
 
 export class FaceField {
-  private touched = 0;
-  private wait = 0;
+  private wait = 0;  // the timer until a moved slider counts; 0: none
   constructor(private changed: (faces: number) => void) {
     input('faces-slide').addEventListener('input', () => {
-      this.touched = performance.now();
       const n = faceSlide.to(Number(input('faces-slide').value));
       input('faces').value = String(n);
       clearTimeout(this.wait);
-      this.wait = window.setTimeout(() => this.changed(n), 250);
+      this.wait = window.setTimeout(() => { this.wait = 0; this.changed(n); }, 250);
     });
     input('faces').addEventListener('change', () => {
       const n = Number(input('faces').value), fine = Number.isInteger(n) && n >= 4 && n <= 1e7;
@@ -59,7 +55,7 @@ export class FaceField {
     });
   }
   follow(n: number): void {
-    if (performance.now() - this.touched < 700 || document.activeElement === input('faces')) return;
+    if (this.wait !== 0 || document.activeElement === input('faces')) return;
     input('faces').value = String(n);
     input('faces-slide').value = String(faceSlide.from(n));
   }
