@@ -40,7 +40,7 @@ std::unique_ptr<BrickShelf> shelf_of_rows(const VoxelBox& box, const ShelfFactor
 
 }  // namespace
 
-ResultKey TileMaker::key() const {
+ResultKey TileMaker::key(const ResultKey& inputs) const {
   const TileShape& shape = params_;
   KeyHash hash(kJobName);
   hash.add(shape, level_.header.frame, coord_, level_.cells);
@@ -52,7 +52,7 @@ ResultKey TileMaker::key() const {
     const std::vector<TriangleD> scene = scene_nearby();
     hash.add(std::as_bytes(std::span(scene)), params_.rounding.share, params_.rounding.offset, grown_world());
   }
-  if (params_.add_to_key) params_.add_to_key(coord_, hash);
+  hash.add(inputs);
   return hash.key();
 }
 

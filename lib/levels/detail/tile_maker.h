@@ -18,8 +18,8 @@ class TileMaker {
         grown_(cell_.grown(1)) {}
 
   /// Returns the key of the tile in the store of results. It covers everything that the tile depends on, so equal keys
-  /// mean equal tiles.
-  [[nodiscard]] ResultKey key() const;
+  /// mean equal tiles. `inputs`: of the tile's file (TileJobs::get()).
+  [[nodiscard]] ResultKey key(const ResultKey& inputs) const;
   /// Cuts out the cell's voxels. Returns false for a cell in a cavity that the closing filled: it holds no voxel of the
   /// scene, and nobody can see a face in it.
   [[nodiscard]] bool begin();

@@ -26,20 +26,15 @@ std::unique_ptr<BrickShelf> TilePyramid::closing_at(double scale_world) {
   return closing;
 }
 
-void TilePyramid::add_level(double scale_world, TileParams params, TileEncoder encode,
-                            std::function<void(LevelTile&&)> consume) {
-  waiting_.push_back({closing_at(scale_world), nullptr, nullptr});
-  params.scale_world = scale_world;
+void TilePyramid::add_level(TileParams params) {
+  waiting_.push_back({closing_at(params.scale_world), nullptr, nullptr});
   params.element = options_.closing.element;
-  tasks_.push_back({{header_, *solid_, *surface_, *waiting_.back().closing, options_.cells},
-                    std::move(params),
-                    std::move(encode),
-                    std::move(consume)});
+  tasks_.push_back(
+      {level_, {header_, *solid_, *surface_, *waiting_.back().closing, options_.cells}, std::move(params)});
   added_ = true;
 }
 
-void TilePyramid::make_tiles(const std::function<void(double)>& left) {
-  bp::make_tiles(tasks_, options_.context, left);
+void TilePyramid::drop_tasks() {
   tasks_.clear();
   waiting_.clear();
   added_ = false;

@@ -117,7 +117,7 @@ ConvexParts nearest_hulls(Build& build, const MadeChain& chain) {
   if (!asks_for_faces(request_of(build.options))) limits.loose_faces = kMostCollisionFaces;
   ConvexParts of_body = convex_parts(body, limits);
   if (chain.scene.enclosed != Enclose::scene) return of_body;
-  LodOptions lod = lod_options(build, chain.scene, chain.room);
+  LodOptions lod = complete_options(build, chain.scene, chain.room);
   ConvexScene scene = convex_scene(lod.scene);
   const std::size_t most = most_hulls(limits, of_body.solids);
   const bool counts = scene.rest.empty() || scene.volume > kCounts * chain.made.facts.front().volume;

@@ -229,47 +229,39 @@ CageRoom make_room(Build& build, LodScene& scene) {
   return room;
 }
 
-namespace {
-
-/// Returns the options without the scene's triangles.
-LodOptions options_of_chain(const Build& build, const LodScene& scene, const CageRoom& room,
-                            const TilesetSteps& tileset) {
+LodOptions lod_options(const Build& build, const LodScene& scene, const CageRoom& room, double share, std::size_t cut) {
   const BuildOptions& o = build.options;
   LodOptions lod;
   lod.closing.element = o.closing.element;
   lod.mode = o.proxy.mode;
   lod.enclose = scene.enclosed;
-  lod.context = build.context(nullptr, tileset.share);
+  lod.rounding = scene.voxels.counts.scene.rounding;
+  lod.context = build.context(nullptr, share);
   lod.context.progress = refused_with_outputs(std::move(lod.context.progress));
-  if (scene.voxels.solid != nullptr) lod.first = first_target(o, scene, tileset.cut);
+  if (scene.voxels.solid != nullptr) lod.first = first_target(o, scene, cut);
   lod.field = scene.field;
   if (o.is_cage()) lod.cage = CageParams{room.plane, room.limbs};
   return lod;
 }
 
-}  // namespace
-
-std::uint64_t levels_limit(const Build& build, const LodScene& scene, const CageRoom& room,
-                           const TilesetSteps& tileset) {
-  const LodOptions lod = options_of_chain(build, scene, room, tileset);
-  if (tileset.limit) return tileset.limit(lod);
-  BrickShelf* const solid = scene.voxels.solid.get();
-  if (solid == nullptr) return 0;
-  return chain_limit(scene.voxels.header, *solid, lod, lod.context, scene.size.triangles);
-}
-
-LodOptions lod_options(const Build& build, const LodScene& scene, const CageRoom& room, const TilesetSteps& tileset) {
-  const BuildOptions& o = build.options;
-  LodOptions lod = options_of_chain(build, scene, room, tileset);
-  if (o.proxy.mode == MeshMode::fit || scene.enclosed == Enclose::scene)
-    lod.scene = naming_limit([&] { return scene_triangles(build, scene.size.triangles); },
-                             [&] { return levels_limit(build, scene, room, tileset); });
-  lod.rounding = scene.voxels.counts.scene.rounding;
+void take_triangles(const Build& build, const LodScene& scene, LodOptions& lod) {
+  if (lod.mode == MeshMode::fit || lod.enclose == Enclose::scene)
+    lod.scene = scene_triangles(build, scene.size.triangles);
   const bool encloses = lod.mode == MeshMode::bounding && lod.enclose == Enclose::scene;
   if (encloses && scene.voxels.solid != nullptr) {  // else an earlier chain took the voxels, after this test
     require_within(lod.scene, lod.rounding, scene.voxels.header.frame, *scene.voxels.solid);
     lod.is_within = true;
   }
+}
+
+std::uint64_t levels_limit(const LodScene& scene, const LodOptions& lod) {
+  BrickShelf* const solid = scene.voxels.solid.get();
+  return solid == nullptr ? 0 : chain_limit(scene.voxels.header, *solid, lod, lod.context, scene.size.triangles);
+}
+
+LodOptions complete_options(const Build& build, const LodScene& scene, const CageRoom& room) {
+  LodOptions lod = lod_options(build, scene, room);
+  naming_limit([&] { take_triangles(build, scene, lod); }, [&] { return levels_limit(scene, lod); });
   return lod;
 }
 
