@@ -22,6 +22,7 @@
 #include "tools/lod/scene/complete_levels.h"
 #include "tools/lod/scene/tileset_memory.h"
 #include "tools/lod/tiles/cut_tiles.h"
+#include "tools/lod/tiles/image_files.h"
 
 namespace bp {
 
@@ -162,16 +163,16 @@ void write_tileset(const Shop& shop, MadeTileset& made, TilesetFolder& folder) {
         make_provenance("bplod", tileset_options(made, shop.options().tile_vox), made.scene.voxels.counts.input_hash)};
   if (made.leaves) made.provenance.back().options += " leaves=scene";
   parallel_for(std::int64_t(made.files.size()), [&](std::int64_t i) {  // each waits for the disk
-    const Waiting& file = made.files[std::size_t(i)];
+    const WaitingFile& file = made.files[std::size_t(i)];
     std::vector<std::byte> bytes;
     shop.files->get(file.content, bytes);
-    folder.write(file.name, std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+    folder.write(file.name, text_of(bytes));
     shop.files->drop(file.content);
   });
   for (const auto& [name, number] : made.images) {
     const std::vector<std::byte> bytes = made.scene.textures->file(number);
     tileset.images.push_back(leaf_folder(shop.options()) + "/" + name);
-    folder.write(tileset.images.back(), std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+    folder.write(tileset.images.back(), text_of(bytes));
     if (made.leaves) made.leaves->bytes += bytes.size();
   }
   if (made.leaves) made.rows.insert(made.rows.begin(), *made.leaves);

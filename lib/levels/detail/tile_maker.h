@@ -35,10 +35,8 @@ class TileMaker {
   void leave_out_fringes();
   void hold_stray_parts();
   void hold_beside_triangles();
-  [[nodiscard]] LatticeMesh mesh_cell(TileMeasures& measures, MeshCounts& counts) const;
   [[nodiscard]] MeshParams mesh_params(TileMeasures& measures) const;
   [[nodiscard]] StreamHeader header() const;
-  [[nodiscard]] Bounds3d world(const VoxelBox& box, std::int64_t by = 0) const;
   [[nodiscard]] Bounds3d grown_world() const;
   [[nodiscard]] std::vector<TriangleD> scene_nearby() const;
   [[nodiscard]] std::vector<TriangleD> shown() const;

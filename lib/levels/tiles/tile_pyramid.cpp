@@ -1,7 +1,5 @@
 #include "lib/levels/tiles/tile_pyramid.h"
 
-#include <algorithm>
-
 #include "lib/core/error.h"
 #include "lib/volume/boundary_runs.h"
 #include "lib/volume/reduce.h"
@@ -16,18 +14,11 @@ TilePyramid::TilePyramid(const StreamHeader& header, std::unique_ptr<BrickShelf>
   boundary_layer(*solid_, *surface_);
 }
 
-std::unique_ptr<BrickShelf> TilePyramid::closing_at(double scale_world) {
-  CellClosing o;
-  o.cells = options_.cells;
-  o.closing = options_.closing;
-  o.context = options_.context;
-  auto closing = options_.context.make_shelf();
-  close_cells(header_, *solid_, backends_, scale_world, o, *closing);
-  return closing;
-}
-
 void TilePyramid::add_level(TileParams params) {
-  waiting_.push_back({closing_at(params.scale_world), nullptr, nullptr});
+  auto closing = options_.context.make_shelf();
+  close_cells(header_, *solid_, backends_, params.scale_world,
+              {options_.cells, options_.closing, false, options_.context}, *closing);
+  waiting_.push_back({std::move(closing), nullptr, nullptr});
   params.element = options_.closing.element;
   tasks_.push_back(
       {level_, {header_, *solid_, *surface_, *waiting_.back().closing, options_.cells}, std::move(params)});

@@ -1,7 +1,6 @@
 #pragma once
 #include "lib/device/backend.h"
 #include "lib/levels/tiles/level_tiles.h"
-#include "lib/levels/tiles/tile_plan.h"
 #include "lib/pass/close/cell_closing.h"
 #include "lib/pass/context.h"
 
@@ -40,7 +39,6 @@ class TilePyramid {
   [[nodiscard]] std::unique_ptr<BrickShelf> take_surface() { return std::move(surface_); }
 
  private:
-  [[nodiscard]] std::unique_ptr<BrickShelf> closing_at(double scale_world);
   /// The voxels of an added level whose tiles are not made yet.
   struct Waiting {
     std::unique_ptr<BrickShelf> closing;

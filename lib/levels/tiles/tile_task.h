@@ -27,7 +27,7 @@ struct TileShape {
   Enclose enclose = Enclose::input;
   double scale_world = 0;  ///< scale of the closing
   StructuringElement element = StructuringElement::cube;
-  std::uint64_t faces = 0;  ///< budget of each tile; 0: kDenseFacesPerFace decides
+  std::uint64_t faces = 0;  ///< budget of each tile; 0: kDensePerFace decides
   /// Largest distance of a tile to what it encloses; 0: none. It replaces the budget of faces.
   double error_world = 0;
   std::string encoding;  ///< everything in a tile's file that does not follow from the cell and the mesh
@@ -45,9 +45,9 @@ struct TileParams : TileShape {
   /// The triangles that vertices of a fit move to; null: they move to the closing. With Enclose::scene, the triangles
   /// that stay inside; null: the solid stays inside.
   const TriangleBvh* scene = nullptr;
-  Rounding rounding;                  ///< of the scene's triangles
-  std::optional<WantedTiles> wanted;  ///< the tiles that are made; empty: all
-  static constexpr std::uint64_t kDenseFacesPerFace = 100, kLeastTileFaces = 60;  ///< for tiles without a budget
+  Rounding rounding;                                    ///< of the scene's triangles
+  std::optional<WantedTiles> wanted;                    ///< the tiles that are made; empty: all
+  static constexpr std::uint64_t kLeastTileFaces = 60;  ///< the least faces of a tile without a budget
   /// A bounding tile without a budget gets more faces if it would lie farther than this from what it encloses. Thin
   /// parts that lie apart in one tile need that: the voxels' surface is small, so the budget is, too. It is done only
   /// for a surface of at most kMostFacesForError faces, which is whole in memory (16 MiB), as a limit on distances

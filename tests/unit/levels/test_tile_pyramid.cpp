@@ -6,6 +6,7 @@
 #include "lib/check/tile_cover.h"
 #include "lib/core/parallel.h"
 #include "lib/levels/tiles/tile_pyramid.h"
+#include "lib/levels/voxel_choice.h"
 #include "lib/pass/mesh/surface_around.h"
 #include "tests/catch.h"
 #include "tests/support/each_member.h"
@@ -68,13 +69,6 @@ double volume_of(const Level& level) {
   double volume = 0;
   for (const auto& [cell, made] : level) volume += made.measures.volume;
   return volume;
-}
-
-Bounds3d bounds_of(const VoxelBox& box, const GridFrame& frame) {
-  Bounds3d bounds;
-  for (const VoxelCoord p : {box.min, box.max})
-    bounds.add(frame.world({std::int64_t(p.x) * 64, std::int64_t(p.y) * 64, std::int64_t(p.z) * 64}));
-  return bounds;
 }
 
 /// With a slit in its roof, and a post in it, 26 below the roof; and a plate over several cells.

@@ -7,8 +7,8 @@
 
 #include "io/files/file.h"
 #include "lib/core/error.h"
+#include "lib/levels/cage_voxels.h"
 #include "lib/levels/lod_chain.h"
-#include "lib/levels/margin.h"
 #include "lib/pass/color/vertex_colors.h"
 #include "tools/cli/names.h"
 #include "tools/lod/bake_levels.h"

@@ -15,8 +15,7 @@
 #include "lib/geometry/triangle_bvh.h"
 #include "lib/geometry/triangle_totals.h"
 #include "lib/grid/shelf_stream.h"
-#include "lib/levels/margin.h"
-#include "lib/levels/symmetry.h"
+#include "lib/levels/cage_voxels.h"
 #include "lib/pass/mesh/scene_check.h"
 #include "lib/quads/limbs.h"
 #include "lib/volume/boundary_runs.h"
@@ -98,18 +97,6 @@ std::unique_ptr<SceneColors> gathered_colors(Build& build, TriangleSource& sourc
   return gather_colors(source, scene.header.frame, *scene.solid, context);
 }
 
-VoxelizeOptions voxelize_options(const Build& build, const ReadOptions& read) {
-  VoxelizeOptions v;
-  v.cell_vox = read.cell_vox;
-  v.fill = build.options.voxels.fill;
-  v.up = build.options.voxels.up;
-  v.context = build.context(read.results);
-  v.context.memory.bytes = build.budget.waiting;
-  v.context.make_scratch = [&] { return make_scratch(build.budget.store, build.options.common.temp); };
-  v.tile_memory_bytes = build.budget.tiles;
-  return v;
-}
-
 /// Reads the scene's triangles again. Returns none if the scene comes from a pipe, or if a fit has too many.
 std::vector<TriangleD> scene_triangles(const Build& build, std::uint64_t triangles) {
   // Independent of the memory, which must not decide what is made.
@@ -148,6 +135,18 @@ LodTarget first_target(const BuildOptions& o, const LodScene& scene, std::size_t
 }
 
 }  // namespace
+
+VoxelizeOptions voxelize_options(const Build& build, const ReadOptions& read) {
+  VoxelizeOptions v;
+  v.cell_vox = read.cell_vox;
+  v.fill = build.options.voxels.fill;
+  v.up = build.options.voxels.up;
+  v.context = build.context(read.results);
+  v.context.memory.bytes = build.budget.waiting;
+  v.context.make_scratch = [&] { return make_scratch(build.budget.store, build.options.common.temp); };
+  v.tile_memory_bytes = build.budget.tiles;
+  return v;
+}
 
 LodScene read_scene(Build& build, const ReadOptions& read) {
   const BuildOptions& o = build.options;

@@ -40,6 +40,8 @@ struct ReadOptions {
   bool ground = false;  ///< the scene stands on the ground (tools/run/grounded_source.h); it was read before without
   bool tells_time = false;  ///< tells how long the work will take, since no part of it may have been done before
 };
+/// Returns how a scene of the options is voxelized, but for the size of its voxels.
+[[nodiscard]] VoxelizeOptions voxelize_options(const Build& build, const ReadOptions& read);
 /// Reads and voxelizes the scene of the options. Notes tell about the scene, unless it is read again for the ground.
 [[nodiscard]] LodScene read_scene(Build& build, const ReadOptions& read);
 

@@ -195,7 +195,7 @@ void add_leaves(const Shop& shop, const std::vector<CellCoord>& cells, const Gri
   shop.build.report.begin("leaves");
   MadeLeaves leaves = make_leaves(shop.build, {frame, *made.held_looks, cells, shop.results, shop.files});
   for (auto& [cell, leaf] : leaves.places) made.tree->add_leaf(frame, cell, std::move(leaf));
-  for (LeafFile& file : leaves.files) made.files.push_back({std::move(file.name), file.content});
+  made.files.insert(made.files.end(), leaves.files.begin(), leaves.files.end());
   made.images = std::move(leaves.images);
   LevelRow row{leaf_folder(shop.options()) + "/*.glb", leaves.files.size(), leaves.triangles, leaves.bytes};
   row.error_world = leaf_error(leaf_unit(frame.voxel, shop.options().tile_vox));

@@ -4,7 +4,7 @@
 
 #include "lib/levels/tiles/tile_pyramid.h"
 #include "lib/tileset/tile_tree.h"
-#include "tools/lod/level_list.h"
+#include "tools/lod/leaves.h"
 #include "tools/lod/scene/lod_scene.h"
 
 /// Makes the levels of a tileset that are cut into tiles, and its leaves (bplod --profile 3dtiles).
@@ -27,12 +27,6 @@ struct Shop {
   }
 };
 
-/// A file that waits to be written.
-struct Waiting {
-  std::string name;
-  Scratch::Handle content;
-};
-
 struct MadeTileset {
   LodScene scene;
   std::unique_ptr<SceneLooks> held_looks;  ///< null: neither textures nor leaves need them
@@ -41,7 +35,7 @@ struct MadeTileset {
   // These members are set only for a whole tileset.
   std::vector<LevelRow> rows;
   std::optional<LevelRow> leaves;
-  std::vector<Waiting> files;
+  std::vector<WaitingFile> files;
   std::map<std::string, std::uint32_t> images;  ///< images that leaves use: numbers in the scene's TextureSet
   std::optional<TileTree> tree;
   std::vector<Provenance> provenance;  ///< empty: each tile has its own
