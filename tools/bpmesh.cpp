@@ -10,7 +10,6 @@
 #include "lib/pass/mesh/mesh_pass.h"
 #include "tools/cli/report.h"
 #include "tools/cli/run_tool.h"
-#include "tools/mesh/mesh_memory.h"
 #include "tools/mesh/mesh_options.h"
 #include "tools/mesh/mesh_report.h"
 #include "tools/mesh/mesh_step.h"

@@ -7,6 +7,7 @@
 #include "lib/fit/detail/face_points.h"
 #include "lib/fit/detail/settle.h"
 #include "lib/fit/detail/vertex_mover.h"
+#include "lib/geometry/spread.h"
 #include "lib/geometry/triangle_bvh.h"
 #include "lib/mesh/shells.h"
 
@@ -20,18 +21,15 @@ constexpr double kLongest = 2.5;  // longest edge, over the square root of a fac
 constexpr int kSweeps = 4, kRounds = 7;
 
 /// Returns the middles of about `share` of the faces, all of which have the same size. A hash of the place chooses
-/// them, because a regular choice would beat with the steps of the voxel surface.
+/// them.
 std::vector<FitPlace> spread_points(const SurfaceSource& dense, double share) {
-  constexpr std::uint64_t kMix = 0x9E3779B97F4A7C15;  // 2^64 over the golden ratio
   const std::vector<BrickCoord> bricks = dense.bricks();
   std::vector<std::vector<FitPlace>> chosen(bricks.size());
   parallel_for(std::int64_t(bricks.size()), [&](std::int64_t i) {
     const Piece piece = dense.piece(bricks[std::size_t(i)]);
     for (const auto& t : piece.triangles) {
       const LatticeCoord sum = piece.vertices[t[0]] + piece.vertices[t[1]] + piece.vertices[t[2]];
-      std::uint64_t hash = 0;
-      for (int k = 0; k < 3; ++k) hash = ((hash ^ std::uint64_t(sum[k])) * kMix) ^ (hash >> 29);
-      if (double((hash * kMix) >> 32) < share * 0x1p32) chosen[std::size_t(i)].push_back({1.0 / 3 * to_double(sum)});
+      if (is_among(sum, share)) chosen[std::size_t(i)].push_back({1.0 / 3 * to_double(sum)});
     }
   });
   std::vector<FitPlace> points;

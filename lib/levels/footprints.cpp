@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "lib/grid/brick_voxels.h"
+#include "lib/pass/mesh/complement.h"
 
 namespace bp {
 
@@ -66,11 +67,7 @@ class Columns {
 }  // namespace
 
 std::vector<Footprint> footprints(const BrickShelf& touched, const BrickShelf& hidden, int up) {
-  BrickBox bricks;
-  for (const BrickShelf* const shelf : {&touched, &hidden}) {
-    for (const BrickCoord at : shelf->coords()) bricks = hull(bricks, BrickBox{at, {at.x + 1, at.y + 1, at.z + 1}});
-  }
-  Columns columns(voxels_of(bricks), up);
+  Columns columns(voxels_of(hull(box_of_bricks(touched), box_of_bricks(hidden))), up);
   for_each_voxel(touched, [&](VoxelCoord p) { columns.add(p); });
   std::vector<Footprint> all = columns.parts();
   for (Footprint& part : all) part.box.min[up] = kHighest, part.box.max[up] = -kHighest;

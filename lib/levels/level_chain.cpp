@@ -1,7 +1,6 @@
 #include "lib/levels/level_chain.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 
 #include "lib/levels/lod_chain.h"
@@ -67,12 +66,6 @@ bool is_needless(const LodLevel& level, const LodLevel& next, const ChainRange& 
 }
 
 }  // namespace
-
-void put_solid(VoxelizedScene& scene, std::unique_ptr<BrickShelf> solid) {
-  scene.solid = std::move(solid);
-  for (const BrickCoord& c : scene.solid->coords())
-    scene.header.bricks = hull(scene.header.bricks, BrickBox{c, {c.x + 1, c.y + 1, c.z + 1}});
-}
 
 LevelFacts facts_of(const LodLevel& level, const LodTarget& target) {
   const LevelCounts& counts = level.counts.levels.front();

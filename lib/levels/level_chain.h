@@ -20,9 +20,6 @@ struct VoxelizedScene {
   std::unique_ptr<BrickShelf> solid;
   VoxelizeCounts counts;
 };
-/// Replaces `scene.solid`, and grows `scene.header.bricks` to hold its bricks.
-void put_solid(VoxelizedScene& scene, std::unique_ptr<BrickShelf> solid);
-
 constexpr const char* kFromScene = "scene";  ///< LevelFacts::stopped_by, where nothing was closed or meshed
 
 /// The facts about a level that lists, reports and notes tell.

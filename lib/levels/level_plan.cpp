@@ -19,7 +19,7 @@ PlannedLevel planned(const CutLevel& cut, double area, const Bounds3d& bounds) {
   PlannedLevel level{cut.frame.voxel, cut.scale_world, cut.halo.total_vox(), cut.cells.count(), cut.number, 0, true};
   if (cut.target.error_world > 0) return level;
   const auto least = double(level.tiles * TileParams::kLeastTileFaces);
-  const double by_surface = dense_faces(area, bounds, level.voxel) / TileParams::kDenseFacesPerFace;
+  const double by_surface = dense_faces(area, bounds, level.voxel) / double(kDensePerFace);
   level.faces = cut.target.faces > 0 ? cut.target.faces * level.tiles : std::uint64_t(std::max(by_surface, least));
   return level;
 }

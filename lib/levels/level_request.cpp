@@ -47,9 +47,9 @@ bool asks_for_nothing(const LevelRequest& r) {
 }
 
 LevelRequest with_defaults(LevelRequest r, std::uint64_t triangles, const LevelDefaults& defaults) {
-  constexpr double kLeast = 4;  // the least faces of a closed surface
   for (const double share : r.shares)
-    r.faces.push_back(std::uint64_t(std::max(std::round(share / 100 * double(triangles)), kLeast)));
+    r.faces.push_back(
+        std::uint64_t(std::max(std::round(share / 100 * double(triangles)), double(kFacesOfTetrahedron))));
   r.shares.clear();
   if (!asks_for_nothing(r)) return r;
   r.most_faces = default_faces(triangles, defaults.triangles_per_face);

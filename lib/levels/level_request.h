@@ -13,7 +13,6 @@ namespace bp {
 constexpr std::uint64_t kFacesPerTriangle = 4;
 constexpr std::uint64_t kLeastFirstFaces = 200;  ///< the least faces of a finest level whose budget is not given
 
-constexpr std::uint64_t kDensePerFace = 100;  ///< triangles of the dense surface for each face of a finest level
 constexpr std::uint64_t kMostLevels = 32;
 constexpr std::uint64_t kLeastFaces = kFacesOfBox;  ///< the least faces of a level whose budget is not given
 /// The most faces that are chosen without a budget: of a finest level, to save time; of a collision mesh, for physics

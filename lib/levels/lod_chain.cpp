@@ -37,10 +37,9 @@ struct LodChain::State {
   /// No closed surface has fewer faces than a tetrahedron. A request for fewer is one for these: the search would end
   /// with what a budget that cannot be met happened to leave.
   std::vector<LodLevel> make(const std::vector<LodTarget>& asked) {
-    constexpr std::uint64_t kLeastOfClosed = 4;
     std::vector<LodTarget> targets = asked;
     for (LodTarget& target : targets)
-      if (target.faces > 0) target.faces = std::max(target.faces, kLeastOfClosed);
+      if (target.faces > 0) target.faces = std::max(target.faces, kFacesOfTetrahedron);
     std::vector<LodLevel> levels(targets.size());
     std::size_t first = 0;
     if (!std::exchange(is_begun, true)) {
@@ -48,7 +47,7 @@ struct LodChain::State {
       // The first level leaves the mesh that these start from.
       if (targets.size() == 1 || any_may_follow(std::span(targets).subspan(1))) {
         std::optional<LevelStart> left;
-        levels[first++] = LevelSearch(scene, scene.context(), targets[0], start_for(targets[0])).make(&left);
+        levels[first++] = searched_level(scene, scene.context(), targets[0], start_for(targets[0]), &left);
         if (left) begin_with(std::move(left));
       }
     }
@@ -77,7 +76,7 @@ struct LodChain::State {
   }
 
   [[nodiscard]] LodLevel made(const LodTarget& target, const PassContext& context) {
-    return LevelSearch(scene, context, target, start_for(target)).make();
+    return searched_level(scene, context, target, start_for(target));
   }
 
   /// Returns how many levels surely fit into the memory at the same time.
@@ -127,10 +126,6 @@ LodChain::~LodChain() = default;
 
 std::uint64_t LodChain::dense_faces() const {
   return state_->scene.ruler().dense_faces;
-}
-
-std::int64_t LodChain::longest_side_vox() const {
-  return state_->scene.ground().longest_side_vox;
 }
 
 std::vector<LodLevel> LodChain::make(const std::vector<LodTarget>& targets) {

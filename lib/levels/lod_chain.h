@@ -22,8 +22,6 @@ class LodChain {
 
   /// Returns the triangles of the dense surface of the solid, from which budgets are derived.
   [[nodiscard]] std::uint64_t dense_faces() const;
-  /// Returns the length of the solid's longest side, in voxels.
-  [[nodiscard]] std::int64_t longest_side_vox() const;
 
   /// Makes the levels of all targets, which must be listed finest first. These meshes are proposed for each level, and
   /// the best one is kept (detail/best_level.h):

@@ -9,8 +9,6 @@ namespace bp {
 
 namespace {
 
-// With fewer dense triangles for each face, the level shows the steps of the voxels.
-constexpr double kDenseFacesPerFace = 100;
 constexpr double kScalesPerEdge = 4;
 constexpr double kLeastSideVox = 48;  // the longest side of a reduced grid has more
 // Voxels along the length that a rule by shape asks for, which is measured to within two voxels.
@@ -37,7 +35,7 @@ int reductions_for(const LodGround& ground, const LodTarget& target, double scal
   double coarsest = std::min(scale / kLeastScaleVox, double(ground.longest_side_vox) / kLeastSideVox * ground.voxel);
   if (target.faces > 0) {
     const double per_face = double(ground.dense_faces) / double(target.faces);
-    coarsest = std::min(coarsest, std::sqrt(per_face / kDenseFacesPerFace) * ground.voxel);
+    coarsest = std::min(coarsest, std::sqrt(per_face / double(kDensePerFace)) * ground.voxel);
     coarsest = std::min(coarsest, std::sqrt(double(ground.dense_faces) / kLeastDenseFaces) * ground.voxel);
   }
   if (target.error_world > 0) coarsest = std::min(coarsest, target.error_world / kVoxelsPerError);

@@ -18,6 +18,10 @@ struct LodTarget {
   bool keep_voxels = false;           ///< the voxels are not doubled for this level, since the user named their size
 };
 
+/// Triangles of the dense surface for each face of a finest level or of a tile. With fewer, it shows the steps of
+/// voxels.
+constexpr std::uint64_t kDensePerFace = 100;
+constexpr std::uint64_t kFacesOfTetrahedron = 4;  ///< no closed surface has fewer for each part and handle
 /// A budget never doubles the voxels, nor chooses larger ones, below this many triangles of the dense surface. Meshing
 /// so many takes one or two seconds, and larger voxels would add more error and volume than the budget does.
 constexpr double kLeastDenseFaces = 500000;

@@ -21,9 +21,7 @@ constexpr double kGroundGains = 1.25;
 constexpr double kLeastTriedVox = 2;  // the least scale that is tried
 // The largest scales that are tried, as parts of the scene's diagonal.
 constexpr double kMostScale = 1.0 / 16, kMostOpening = 1.0 / 8;
-// Thresholds below which parts are left out, as parts of the largest part's volume.
-constexpr double kLeastPart = 1e-3, kMostLeastPart = 0.3;
-constexpr std::uint64_t kFewFacesPerPart = kFacesOfBox;  // parts are left out if there are fewer faces for each
+constexpr double kMostLeastPart = 0.3;  // the largest MeshParams::least_part that is tried
 
 double largest_scale(const StreamHeader& header) {
   return header.bounds.diagonal() * kMostScale;
@@ -162,7 +160,7 @@ class OccluderMesh {
   /// whether a mesh was the best so far.
   bool attempt(double scale) {
     bool any = false;
-    for (double least = kLeastPart; least <= kMostLeastPart; least *= std::sqrt(10.0)) {
+    for (double least = MeshParams::kLeastPart; least <= kMostLeastPart; least *= std::sqrt(10.0)) {
       LodLevel level;
       if (!mesh_at(scale, least, level)) break;
       const std::uint64_t parts = level.counts.levels.front().measures.shells;
@@ -172,15 +170,14 @@ class OccluderMesh {
       }
       level.reached = level.mesh.triangles.size() <= faces_;
       any |= keep_better(std::move(level), scale);
-      if (parts * kFewFacesPerPart <= faces_) break;
+      if (parts * kFacesOfBox <= faces_) break;
     }
     return any;
   }
 
   bool keep_better(LodLevel level, double scale) {
-    const auto volume = [](const LodLevel& l) { return l.counts.levels.front().measures.volume; };
     const bool better = best_.mesh.triangles.empty() || (level.reached && !best_.reached) ||
-                        (level.reached == best_.reached && volume(level) > volume(best_));
+                        (level.reached == best_.reached && volume_of(level) > volume_of(best_));
     if (!better) return false;
     best_ = std::move(level);
     opening_ = scale;
@@ -261,7 +258,7 @@ bool may_gain_on_ground(const StreamHeader& header, std::uint64_t without) {
 
 std::uint64_t occluder_limit(const StreamHeader& header, const HiddenScene& hidden, const OccluderRequest& request) {
   ShelfSource shelf(header_of(header, hidden, 0), *hidden.voxels.voxels, nullptr, ShelfSource::Keep::all);
-  return mesh_limit(shelf, request.hidden.context, params_of(request.faces, kLeastPart), 0);
+  return mesh_limit(shelf, request.hidden.context, params_of(request.faces, MeshParams::kLeastPart), 0);
 }
 
 MadeOccluder make_occluder(const StreamHeader& header, const HiddenScene& hidden, Backends& backends,

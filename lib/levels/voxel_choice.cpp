@@ -38,6 +38,14 @@ double area_of(const Bounds3d& b) {
   return 2 * (x * y + y * z + z * x);
 }
 
+Bounds3d bounds_of(const VoxelBox& box, const GridFrame& frame, std::int64_t by) {
+  const LatticeCoord all{by, by, by}, min{box.min.x, box.min.y, box.min.z}, max{box.max.x, box.max.y, box.max.z};
+  Bounds3d bounds;
+  bounds.add(frame.world(min * kLatticePerVoxel - all));
+  bounds.add(frame.world(max * kLatticePerVoxel + all));
+  return bounds;
+}
+
 double chosen_voxel(const VoxelRequest& voxels, const LevelRequest& levels, const SceneSize& scene) {
   const Bounds3d& bounds = scene.bounds;
   if (voxels.voxel > 0) return voxels.voxel;

@@ -1,4 +1,5 @@
 #pragma once
+#include "lib/core/grid_frame.h"
 #include "lib/levels/level_request.h"
 
 /// Chooses the edge of the voxels that levels of detail are made of.
@@ -45,5 +46,8 @@ struct VoxelRequest {
 
 /// Returns the area of the six sides of a box.
 [[nodiscard]] double area_of(const Bounds3d& bounds);
+
+/// Returns a box of voxels in scene units, grown by so many lattice units.
+[[nodiscard]] Bounds3d bounds_of(const VoxelBox& box, const GridFrame& frame, std::int64_t by = 0);
 
 }  // namespace bp

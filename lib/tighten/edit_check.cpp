@@ -1,7 +1,6 @@
 #include "lib/tighten/edit_check.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "lib/core/vec3.h"
 #include "lib/exact/predicates.h"

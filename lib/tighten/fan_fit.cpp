@@ -2,9 +2,7 @@
 // them at once.
 #include "lib/tighten/fan_fit.h"
 
-#include <algorithm>
 #include <bit>
-#include <cmath>
 
 #include "lib/core/vec3.h"
 
@@ -13,7 +11,6 @@ namespace bp {
 namespace {
 
 constexpr int kCutRounds = 12;
-constexpr double kMargin = 0.6;  // lattice units: rounding an apex moves it by up to 0.87, but rarely straight down
 
 }  // namespace
 
@@ -41,7 +38,7 @@ void FanFit::set_plane(Point& point) const {
   const std::uint32_t s = point.sector;
   point.plane_of = s;
   point.normal = cross(rim_[s] - point.at, rim_[s + 1 == rim_.size() ? 0 : s + 1] - point.at);
-  point.margin = kMargin / 2 * length(point.normal);
+  point.margin = kFitMargin / 2 * length(point.normal);
 }
 
 /// Moves each point to the face that it lies under, walking at most once around the fan.
@@ -86,7 +83,7 @@ bool FanFit::cut(const Vec3d& apex) {
     if (deepest_[s] >= 0) continue;
     const Point& point = points_[deepest_point_[s]];
     const Vec3d n = (1 / length(point.normal)) * point.normal;
-    cuts_.push_back({n, dot(n, point.at) + kMargin});
+    cuts_.push_back({n, dot(n, point.at) + kFitMargin});
   }
   return cuts_.size() > before;
 }
@@ -95,7 +92,7 @@ void FanFit::add_plane(const Vec3d& normal, const Vec3d& through, const Vec3d& o
   const double size = length(normal);
   if (!(size > 0)) return;
   const Vec3d n = (1 / size) * normal;
-  avoided_.push_back({n, dot(n, through) + kMargin});
+  avoided_.push_back({n, dot(n, through) + kFitMargin});
   obstacles_.push_back(obstacle);
 }
 
@@ -105,7 +102,7 @@ void FanFit::avoid_corner(const Vec3d& apex, const Vec3d& p) {
     const Vec3d &a = rim_[s], &b = rim_[s + 1 == rim_.size() ? 0 : s + 1];
     if (dot(cross(outward_, a - apex), p - apex) < 0 || dot(cross(outward_, b - apex), p - apex) >= 0) continue;
     const Vec3d normal = cross(a - p, b - p);
-    if (dot(normal, outward_) > 0 && dot(normal, apex - p) < kMargin * length(normal)) add_plane(normal, p, p);
+    if (dot(normal, outward_) > 0 && dot(normal, apex - p) < kFitMargin * length(normal)) add_plane(normal, p, p);
   }
 }
 
@@ -117,7 +114,7 @@ void FanFit::avoid_edge(const Vec3d& apex, const Vec3d& p, const Vec3d& q) {
     if (dot(spoke, p - apex) * dot(spoke, q - apex) > 0 || dot(across, apex - p) * dot(across, r - p) > 0) continue;
     Vec3d normal = cross(r - p, q - p);
     if (dot(normal, outward_) < 0) normal = -1.0 * normal;
-    if (dot(normal, apex - p) >= kMargin * length(normal)) continue;
+    if (dot(normal, apex - p) >= kFitMargin * length(normal)) continue;
     const double at_p = dot(spoke, p - apex), at_q = dot(spoke, q - apex),
                  share = at_p == at_q ? 0 : at_p / (at_p - at_q);
     add_plane(normal, p, p + share * (q - p));  // the point where they cross
@@ -131,7 +128,7 @@ void FanFit::avoid_face(const Vec3d& apex, const Vec3d& p, const Vec3d& q, const
   normal = turn * normal;
   const auto beside = [&](const Vec3d& a, const Vec3d& b) { return turn * dot(cross(outward_, b - a), apex - a) < 0; };
   if (beside(p, q) || beside(q, r) || beside(r, p)) return;
-  if (dot(normal, apex - p) >= kMargin * length(normal)) return;
+  if (dot(normal, apex - p) >= kFitMargin * length(normal)) return;
   add_plane(normal, p, apex - (dot(normal, apex - p) / dot(normal, outward_)) * outward_);  // under the apex
 }
 

@@ -6,6 +6,14 @@
 #include "lib/enclosed/enclosed.h"
 #include "lib/mesh/constrained_minimum.h"
 
+/// Lattice units by which fits keep faces over points: rounding a vertex moves it by up to 0.87, but rarely straight
+/// down.
+constexpr double kFitMargin = 0.6;
+/// The largest step of a vertex that a fan fit proposes, in mean spokes, and the most rounds in which it avoids
+/// obstacles.
+constexpr double kFanReach = 0.5;
+constexpr int kFanRounds = 4;
+
 /// Finds the apex of a fan of faces that encloses the least volume and still lies over given points. With a fixed rim,
 /// the volume under the fan is linear in the apex x, and so is "point p lies under face (x, a, b)": ((a - p) x (b - p))
 /// . (x - p) >= 0. A point constrains only the face that it lies under, seen along the area vector of the rim, which

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "lib/core/vec3.h"
 #include "lib/exact/predicates.h"
 #include "lib/mesh/step_limits.h"
 

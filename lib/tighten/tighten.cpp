@@ -6,7 +6,6 @@
 #include <cmath>
 #include <memory>
 
-#include "lib/core/vec3.h"
 #include "lib/exact/predicates.h"
 #include "lib/mesh/shells.h"
 #include "lib/tighten/detail/joint_fit.h"

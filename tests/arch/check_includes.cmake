@@ -39,7 +39,7 @@ set(rules
   "lib/pass/hide:lib/core lib/grid lib/volume lib/pass/close lib/pass/mesh"
   "lib/pass/measure:lib/core lib/geometry lib/grid lib/volume lib/pass"
   "lib/live:lib/core lib/geometry lib/grid lib/volume lib/device lib/pass lib/pass/close lib/pass/measure"
-  "lib/levels:lib/core lib/store lib/geometry lib/grid lib/volume lib/closing lib/device lib/mesh lib/enclosed lib/simplify lib/surface lib/hulls lib/quads lib/tileset lib/pass lib/pass/voxelize lib/pass/close lib/pass/measure lib/pass/mesh lib/pass/color lib/pass/hide"
+  "lib/levels:lib/core lib/store lib/geometry lib/grid lib/volume lib/closing lib/device lib/mesh lib/enclosed lib/simplify lib/surface lib/hulls lib/quads lib/pass lib/pass/voxelize lib/pass/close lib/pass/measure lib/pass/mesh lib/pass/color lib/pass/hide"
   "io/files:lib/core"
   "io/store:lib/core lib/store lib/grid io/files"
   "io/stream:lib/core lib/store lib/grid io/files io/store"

@@ -9,7 +9,6 @@
 #include "tools/api/call.h"
 #include "tools/api/mesh.h"
 #include "tools/api/structs.h"
-#include "tools/mesh/mesh_memory.h"
 #include "tools/mesh/shortfalls.h"
 #include "tools/run/memory_shares.h"
 #include "tools/run/scene_budget.h"

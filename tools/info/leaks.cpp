@@ -32,8 +32,9 @@ std::string row_text(const PlacedLeak& leak, const GridFrame& frame, std::size_t
   return fmt::format(
       "leak {:<6} {}, {:.3g} wide{}; {}\n"
       "  room      {:.4g}, up to {:.3g} wide; --scale {:.4g} fills it\n",
-      number, place_text(middle_of(leak.place, frame), frame), leak.width * frame.voxel, parts_text(leak.parts),
-      scale_text(leak, frame), room_volume(leak, frame), 2 * filling_scale(leak, frame), filling_scale(leak, frame));
+      number, place_text(middle_of(leak.place, frame), frame), leak.width * frame.voxel,
+      parts_text("next to", leak.parts), scale_text(leak, frame), room_volume(leak, frame),
+      2 * filling_scale(leak, frame), filling_scale(leak, frame));
 }
 
 Json row_json(const PlacedLeak& leak, const GridFrame& frame) {

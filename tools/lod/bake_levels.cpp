@@ -103,9 +103,8 @@ double error_or(double error_world, double scale_world, double voxel) {
 
 /// The scene's outside is hardly larger than its bounds, so these stand for its area.
 double planned_texels(double faces, const Bounds3d& bounds, double error_world) {
-  const Vec3d s = bounds.max - bounds.min;
-  const double area = 2 * (s[0] * s[1] + s[1] * s[2] + s[2] * s[0]), texels = kTexelsPerError / error_world;
-  return std::max(kTexelsPerFace * faces, error_world > 0 ? area * texels * texels : 0);
+  const double texels = kTexelsPerError / error_world;
+  return std::max(kTexelsPerFace * faces, error_world > 0 ? area_of(bounds) * texels * texels : 0);
 }
 
 double texture_reach(double error_world, double scale_world, double voxel) {
@@ -113,16 +112,10 @@ double texture_reach(double error_world, double scale_world, double voxel) {
 }
 
 Bounds3d texture_bounds(const VoxelBox& box, const GridFrame& frame, double scale_world) {
-  const double reach = texture_reach(0, scale_world, frame.voxel) + scale_world + 2 * frame.voxel;
-  const auto corner = [&](VoxelCoord v, double by) {
-    Vec3d p = frame.world({v.x * std::int64_t(kLatticePerVoxel), v.y * std::int64_t(kLatticePerVoxel),
-                           v.z * std::int64_t(kLatticePerVoxel)});
-    for (double& x : p) x += by;
-    return p;
-  };
-  Bounds3d bounds;
-  bounds.add(corner(box.min, -reach));
-  bounds.add(corner(box.max, reach));
+  const double by = texture_reach(0, scale_world, frame.voxel) + scale_world + 2 * frame.voxel;
+  Bounds3d bounds = bounds_of(box, frame);
+  for (double& x : bounds.min) x -= by;
+  for (double& x : bounds.max) x += by;
   return bounds;
 }
 

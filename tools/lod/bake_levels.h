@@ -1,6 +1,5 @@
 #pragma once
 #include <memory>
-#include <vector>
 
 #include "lib/pass/bake/scene_looks.h"
 #include "tools/lod/scene/lod_scene.h"

@@ -10,7 +10,6 @@
 #include "io/stream/brick_shelf.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
-#include "tools/cli/names.h"
 #include "tools/lod/choices.h"
 #include "tools/lod/options/parse_options.h"
 #include "tools/run/scene_budget.h"
@@ -62,8 +61,6 @@ void tell(Build& build, const ToldScene& scene, const std::string& list, const s
 }
 
 }  // namespace
-
-Build::Build(const BuildOptions& o) : Build(o, {}) {}
 
 Build::Build(const BuildOptions& o, BuildHost by)
     : options(o),

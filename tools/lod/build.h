@@ -35,8 +35,7 @@ struct Build {
   const BuildHost host;
   PlacedScene placed;  ///< on the globe: set before the scene is read
 
-  explicit Build(const BuildOptions& options);
-  Build(const BuildOptions& options, BuildHost host);
+  explicit Build(const BuildOptions& options, BuildHost host = {});
   Build(const Build&) = delete;
   Build& operator=(const Build&) = delete;
 

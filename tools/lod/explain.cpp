@@ -40,10 +40,9 @@ constexpr double kBytesPerLeafTriangle = 20;
 constexpr double kScratchPerTriangle = 20, kScratchPerTexturedTriangle = 60;
 
 struct Scene {
-  SceneCounts counts;
+  VoxelizeCounts counts;  ///< of the triangles alone
   SurfaceMap surface;
   Bounds3d bounds;
-  double area = 0, extent = 0;  ///< as in VoxelizeCounts
   std::optional<UpAxis> up_told;
   UpAxis up = UpAxis::y;
   bool textured = false;
@@ -70,16 +69,15 @@ Scene read_scene(const Build& build) {
     options.textures = std::make_shared<TextureTable>();
   }
   const auto source = open_scenes(o.voxels.scenes, options);
-  SurfaceMap surface = surface_of(*source);
-  const auto [bounds, area, extent] = surface.all();
-  if (bounds.empty()) fail(ErrorCode::bad_input, "{}: no triangles; a scene needs at least one", source->name());
-  Scene scene{source->counts(),
-              std::move(surface),
-              bounds,
-              area,
-              extent,
-              source->up(),
-              o.voxels.up.value_or(source->up().value_or(UpAxis::y))};
+  Scene scene;
+  scene.surface = surface_of(*source);
+  scene.bounds = scene.surface.all().bounds;
+  if (scene.bounds.empty()) fail(ErrorCode::bad_input, "{}: no triangles; a scene needs at least one", source->name());
+  scene.counts.scene = source->counts();
+  scene.counts.area = scene.surface.all().area;
+  scene.counts.extent = scene.surface.all().extent;
+  scene.up_told = source->up();
+  scene.up = o.voxels.up.value_or(source->up().value_or(UpAxis::y));
   if (options.textures) scene.image_bytes = options.textures->file_bytes();
   const bool from_colors = o.appearance == Appearance::texture && source->has_colors();
   scene.textured = options.textures && can_read_again(o) &&
@@ -108,9 +106,9 @@ double file_bytes(const Plan& plan, bool tileset, const Scene& scene) {
   double sum = plan.leaf_bytes;
   for (const PlannedLevel& level : plan.levels) {
     constexpr double kTaken = 0.7;
-    const double planned =
-        level.faces > 0 ? double(level.faces)
-                        : double(planned_dense_faces(scene.area, scene.bounds, level.voxel)) / double(kDensePerFace);
+    const double planned = level.faces > 0 ? double(level.faces)
+                                           : double(planned_dense_faces(scene.counts.area, scene.bounds, level.voxel)) /
+                                                 double(kDensePerFace);
     const double faces = kTaken * planned;
     const double texture = scene.textured ? kBytesPerTexel * planned_texels(faces, scene.bounds, level.scale_world) : 0;
     sum += tileset ? kBytesPerFace * faces + kBytesPerTile * double(level.tiles) + texture
@@ -133,8 +131,8 @@ std::vector<std::uint64_t> thousandths_of(const std::vector<double>& work) {
 
 /// Returns the voxel size as voxelize_stream() will choose it.
 double planned_voxel(const BuildOptions& o, const Scene& scene) {
-  const double least = kVoxelsPerOff * scene.counts.rounding.of(scene.bounds);
-  return std::max(voxel_size(o, {scene.bounds, scene.counts.triangles}), least);
+  const double least = kVoxelsPerOff * scene.counts.scene.rounding.of(scene.bounds);
+  return std::max(voxel_size(o, {scene.bounds, scene.counts.scene.triangles}), least);
 }
 
 Plan plan_of(const Build& build, const Scene& scene) {
@@ -146,10 +144,10 @@ Plan plan_of(const Build& build, const Scene& scene) {
   if (tileset) v.cell_vox = o.tile_vox;
   Plan plan;
   plan.header = solid_header(scene.bounds, planned_voxel(o, scene), scene.up, v);
-  const LevelRequest request = request_for(o, scene.counts.triangles, diagonal, plan.header.frame.voxel);
+  const LevelRequest request = request_for(o, scene.counts.scene.triangles, diagonal, plan.header.frame.voxel);
   if (tileset) {
     const TilesetPlan tiles = plan_tileset(request, Cells{o.tile_vox}, plan.header);
-    plan.levels = planned_tileset(tiles, request, plan.header, scene.area);
+    plan.levels = planned_tileset(tiles, request, plan.header, scene.counts.area);
     plan.jobs = tiles.jobs();
     plan.thousandths = thousandths_of(scene.surface.work(tiles, Cells{o.tile_vox}));
     if (!o.cache.empty()) plan.kept = look_up_tileset(o);
@@ -157,16 +155,12 @@ Plan plan_of(const Build& build, const Scene& scene) {
     plan.scales = request.scale_world ? std::vector<double>{*request.scale_world} : occluder_scales(plan.header);
     plan.openings = occluder_openings(plan.header);
   } else {
-    plan.levels = planned_chain(request, plan.header, scene.area, is_named(voxel_request(o, diagonal)));
+    plan.levels = planned_chain(request, plan.header, scene.counts.area, is_named(voxel_request(o, diagonal)));
     plan.jobs = plan.levels.size();
   }
-  VoxelizeCounts counts;
-  counts.scene = scene.counts;
-  counts.area = scene.area;
-  counts.extent = scene.extent;
-  plan.work = estimate_build(o, plan.header.bounds, counts, plan.header.frame.voxel);
+  plan.work = estimate_build(o, plan.header.bounds, scene.counts, plan.header.frame.voxel);
   if (!tileset) plan.origin = origin_of(o.proxy.origin, plan.header.frame, plan.header.bounds);
-  const double triangles = double(scene.counts.triangles);
+  const double triangles = double(scene.counts.scene.triangles);
   if (o.leaves)
     plan.leaf_bytes = kBytesPerLeafTriangle * triangles + kBytesPerTile * double(plan.levels.front().tiles) +
                       double(scene.image_bytes);
@@ -194,14 +188,14 @@ Json json_of(const PlannedLevel& level) {
 }
 
 Json json_of(const Build& build, const Scene& scene, const Plan& plan) {
-  const SceneCounts& c = scene.counts;
+  const SceneCounts& c = scene.counts.scene;
   Json json{{"triangles", c.triangles},
             {"degenerate", c.degenerate},
             {"non_finite", c.non_finite},
             {"bad_faces", c.bad_faces},
             {"min", scene.bounds.min},
             {"max", scene.bounds.max},
-            {"area", scene.area},
+            {"area", scene.counts.area},
             {"voxel", plan.header.frame.voxel},
             {"grid", grid_of(plan.header)},
             {"reader_bytes", build.budget.reader},
@@ -251,7 +245,7 @@ std::string occluder_text(const BuildOptions& o, const Plan& plan) {
 
 /// Returns what levels to look at are chosen from. Only the images of a run tell what looks nearer.
 std::string visual_text(const Scene& scene, const Plan& plan) {
-  const std::uint64_t triangles = scene.counts.triangles;
+  const std::uint64_t triangles = scene.counts.scene.triangles;
   std::string out = "level\tfaces\tfrom\n";
   for (std::size_t i = 0; i < plan.levels.size(); ++i) {
     const std::uint64_t faces = plan.levels[i].faces;
@@ -267,7 +261,7 @@ std::string visual_text(const Scene& scene, const Plan& plan) {
 }
 
 std::string text_of(const Build& build, const Scene& scene, const Plan& plan) {
-  std::string out = scene_text(scene.counts.triangles, scene.bounds);
+  std::string out = scene_text(scene.counts.scene.triangles, scene.bounds);
   const std::array<std::int32_t, 3> size = grid_of(plan.header);
   out += fmt::format("grid\t{} x {} x {} voxels of {:.6g}\n", size[0], size[1], size[2], plan.header.frame.voxel);
   if (plan.origin != Vec3d{}) out += fmt::format("origin\t{}\n", origin_text(plan.origin));
@@ -284,7 +278,7 @@ std::string text_of(const Build& build, const Scene& scene, const Plan& plan) {
                      size_text(std::uint64_t(plan.scratch_bytes)));
   if (plan.leaf_bytes > 0)
     out += fmt::format("leaves\tabout {} of the files, {} triangles and more\n",
-                       size_text(std::uint64_t(plan.leaf_bytes)), scene.counts.triangles);
+                       size_text(std::uint64_t(plan.leaf_bytes)), scene.counts.scene.triangles);
   if (build.options.proxy.visual) return out + visual_text(scene, plan);
   out += "level\tvoxel\tscale\thalo\ttiles\tnumbers\tfaces\n";
   for (std::size_t i = 0; i < plan.levels.size(); ++i) out += row_of(plan.levels[i], i);
@@ -306,7 +300,7 @@ void explain(const BuildOptions& options) {
   build.report.begin("read");
   const Scene scene = read_scene(build);
   build.note(up_note(scene.bounds, options.voxels.tell_up() || scene.up_told));
-  const SceneSize size{scene.bounds, scene.counts.triangles};
+  const SceneSize size{scene.bounds, scene.counts.scene.triangles};
   question_proportions(options, size);
   build.note(voxel_note(options, size));
   build.note(cache_note(options));

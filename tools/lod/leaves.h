@@ -19,13 +19,14 @@ struct LeafTask {
   Scratch* files = nullptr;  ///< where contents wait until they are written
 };
 
-struct LeafFile {
+/// A file that waits to be written.
+struct WaitingFile {
   std::string name;
   Scratch::Handle content;
 };
 
 struct MadeLeaves {
-  std::vector<LeafFile> files;  ///< in the order of the cells
+  std::vector<WaitingFile> files;  ///< in the order of the cells
   std::vector<std::pair<CellCoord, TileLeaf>> places;
   /// Names of the image files that leaves use, with their numbers in the scene's TextureSet.
   std::map<std::string, std::uint32_t> images;

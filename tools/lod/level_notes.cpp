@@ -17,7 +17,6 @@ namespace bp {
 
 namespace {
 
-constexpr std::uint64_t kFacesOfTetrahedron = 4;
 constexpr double kMuchFuller = 2;  // times the volume of the scene's voxels
 // Errors below this, in voxels, are due to the rounding of vertices to the lattice.
 constexpr double kExactVox = 1.0 / 16;

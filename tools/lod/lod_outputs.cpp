@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <fstream>
 
 #include "io/files/final_names.h"
@@ -132,18 +131,12 @@ std::vector<std::string> profile_files(LodProfile profile, const std::string& na
 
 std::vector<WrittenFile> write_profile(const BuildOptions& options, const CompleteLevels& made, double diameter,
                                        const Vec3d& origin, const LeafLooks& looks, OutputFolder& out) {
-  switch (options.profile) {
-    case LodProfile::gltf:
-      return write_gltf_profile(options.name, made, diameter, {origin, false, contract_of_levels(options)}, looks, out);
-    case LodProfile::tiles:      // tile_build.h
-    case LodProfile::collision:  // collision/collision_files.h
-      break;
-    case LodProfile::occluder:
-      return write_occluder_profile(options.name, made.levels.front().mesh, origin, out);
-    case LodProfile::cage:
-      return write_cage_profile(options.name, made.levels.front().mesh, origin, out);
-  }
-  return {};
+  if (options.profile == LodProfile::occluder)
+    return write_occluder_profile(options.name, made.levels.front().mesh, origin, out);
+  if (options.profile == LodProfile::cage)
+    return write_cage_profile(options.name, made.levels.front().mesh, origin, out);
+  // Tilesets and collision meshes are written elsewhere (tile_build.h, collision/collision_files.h).
+  return write_gltf_profile(options.name, made, diameter, {origin, false, contract_of_levels(options)}, looks, out);
 }
 
 void take_away_longer_list(const BuildOptions& options, std::size_t levels, OutputFolder& out) {

@@ -10,7 +10,6 @@
 #include "lib/check/counted.h"
 #include "lib/core/error.h"
 #include "lib/levels/footprints.h"
-#include "tools/cli/names.h"
 #include "tools/lod/choices.h"
 #include "tools/lod/lod_outputs.h"
 #include "tools/notes/leak_words.h"

@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <map>
 
-#include "io/files/file.h"
 #include "io/mesh/lod_writer.h"
 #include "io/store/result_store.h"
 #include "io/store/scratch.h"
@@ -14,195 +12,21 @@
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/levels/lod_chain.h"
-#include "lib/levels/tiles/cut_levels.h"
 #include "lib/levels/whole_levels.h"
-#include "lib/pass/leaf/scene_leaf.h"
 #include "lib/store/hex.h"
 #include "tools/lod/bake_levels.h"
 #include "tools/lod/choices.h"
 #include "tools/lod/kept_results.h"
 #include "tools/lod/leaves.h"
 #include "tools/lod/lod_outputs.h"
-#include "tools/lod/proportions.h"
 #include "tools/lod/scene/complete_levels.h"
 #include "tools/lod/scene/tileset_memory.h"
-#include "tools/notes/estimate.h"
+#include "tools/lod/tiles/cut_tiles.h"
+#include "tools/lod/tiles/image_files.h"
 
 namespace bp {
 
 namespace {
-
-/// The purpose of a run: the whole tileset, results of some jobs, or a list of the kept results.
-enum class Task { tileset, some_jobs, look_up };
-
-/// The tools that the jobs of a tileset share.
-struct Shop {
-  Build& build;
-  Task task;
-  ResultStore* results;  ///< may be null
-  Scratch* files;        ///< where files wait until all are made
-  bool tells_time;       ///< the time is told before the work; false: later, when it is known how many results are kept
-  [[nodiscard]] const BuildOptions& options() const { return build.options; }
-  [[nodiscard]] Cells cells() const { return {build.options.tile_vox}; }
-  [[nodiscard]] bool wants(std::uint64_t number, std::uint64_t count) const {
-    return task != Task::some_jobs || options().tiles->meets(number, count);
-  }
-};
-
-/// A file that waits to be written.
-struct Waiting {
-  std::string name;
-  Scratch::Handle content;
-};
-
-/// A cut level while its tiles are made.
-struct LevelAtWork {
-  FoundJobs found{};
-  LevelRow row;
-  std::uint64_t over_faces = 0, dense = 0;
-  std::vector<std::pair<CellCoord, TreeTile>> tiles;
-};
-
-struct MadeTileset {
-  LodScene scene;
-  std::unique_ptr<SceneLooks> held_looks;  ///< null: neither textures nor leaves need them
-  TilesetPlan plan;
-  std::vector<FoundJobs> found;
-  // These members are set only for a whole tileset.
-  std::vector<LevelRow> rows;
-  std::optional<LevelRow> leaves;
-  std::vector<Waiting> files;
-  std::map<std::string, std::uint32_t> images;  ///< images that leaves use: numbers in the scene's TextureSet
-  std::optional<TileTree> tree;
-  std::vector<Provenance> provenance;  ///< empty: each tile has its own
-
-  /// Returns the looks that textures are baked from; null: levels get no textures.
-  [[nodiscard]] const SceneLooks* looks() const { return scene.textured ? held_looks.get() : nullptr; }
-};
-
-std::string name_of(CellCoord c) {
-  return fmt::format("{}_{}_{}", c.x, c.y, c.z);
-}
-
-/// Returns how the tiles of a level become files, with their names and provenance.
-CutFiles cut_files(const Build& build, const MadeTileset& made, const CutLevel& cut, std::size_t level) {
-  const std::string folder = level_name(build.options.name, level);
-  OptionText text = option_text(build.options, made.scene.enclosed, cut.target, level, cut.scale_world, cut.frame);
-  if (made.scene.colors != nullptr) text.add("colors", "auto");
-  if (made.scene.textured) text.add("appearance", build.options.full() ? "full" : "texture");
-  const Provenance provenance = make_provenance("bplod", text);
-  CutFiles files;
-  files.encoding = folder + " " + provenance.options;
-  const SceneLooks* const looks = made.looks();
-  files.encode = [&build, &scene = made.scene, looks, scale = cut.scale_world, folder, provenance](
-                     CellCoord cell, LatticeMesh&& mesh, LatticeCoord at) {
-    mesh.provenance = {provenance};
-    if (looks != nullptr)
-      mesh.texture = level_texture(build, scene, mesh, {0, 0, scale}, *looks, texture_memory(build));
-    return tile_glb({folder + "_" + name_of(cell), &mesh}, at, build.options.compression);
-  };
-  if (looks != nullptr) {
-    files.add_to_key = [looks, cells = Cells{build.options.tile_vox}, frame = cut.frame, scale = cut.scale_world](
-                           CellCoord cell, KeyHash& hash) {
-      looks->add_to(hash, texture_bounds(cells.box(cell), frame, scale));
-    };
-  }
-  return files;
-}
-
-/// Takes a finished tile.
-void take(const Shop& shop, LevelTile&& tile, const CutLevel& cut, const std::string& folder, LevelAtWork& level,
-          std::vector<Waiting>& files) {
-  level.found.jobs += 1;
-  level.found.kept += tile.kept;
-  if (shop.task != Task::tileset) return;
-  const TileMeasures& m = tile.measures;
-  level.row.tiles += 1;
-  level.row.faces += m.faces;
-  level.row.bytes += tile.content.size();
-  level.dense += m.faces_dense;
-  level.over_faces += m.faces_asked > 0 && m.faces > m.faces_asked;
-  const std::string file = folder + "/" + name_of(tile.cell) + ".glb";
-  level.tiles.emplace_back(tile.cell, tree_tile(tile, shop.cells(), cut.frame, file));
-  files.push_back({file, shop.files->put(std::as_bytes(std::span(tile.content)))});
-}
-
-/// Finishes a level whose tiles have all been taken.
-void finish(const Shop& shop, std::size_t number, const CutLevel& cut, LevelAtWork& level, MadeTileset& made) {
-  made.found.push_back(level.found);
-  if (shop.task != Task::tileset) return;
-  for (auto& [cell, node] : level.tiles) made.tree->add(number, cut.frame, cell, std::move(node));
-  level.row.more = {{"faces_dense", level.dense}, {"kept", level.found.kept}};
-  made.rows.push_back(level.row);
-  if (level.over_faces > 0 && !shop.options().levels.faces.empty())
-    shop.build.note(
-        fmt::format("level {}: {} of {} tiles have more faces than were asked for: no further edge can be merged at a "
-                    "scale of {:.4g}",
-                    number, level.over_faces, level.row.tiles, level.row.scale_world));
-  const double asked = cut.target.error_world;
-  if (asked > 0 && level.row.error_world > asked) shop.build.note(error_note(number, level.row.error_world, asked));
-}
-
-/// Adds the scene's own triangles as leaves below the tiles of the finest level, which must be in the tree.
-void add_leaves(const Shop& shop, const std::vector<CellCoord>& cells, const GridFrame& frame, MadeTileset& made) {
-  if (!shop.options().leaves || shop.task != Task::tileset) return;
-  shop.build.report.begin("leaves");
-  MadeLeaves leaves = make_leaves(shop.build, {frame, *made.held_looks, cells, shop.results, shop.files});
-  for (auto& [cell, leaf] : leaves.places) made.tree->add_leaf(frame, cell, std::move(leaf));
-  for (LeafFile& file : leaves.files) made.files.push_back({std::move(file.name), file.content});
-  made.images = std::move(leaves.images);
-  LevelRow row{leaf_folder(shop.options()) + "/*.glb", leaves.files.size(), leaves.triangles, leaves.bytes};
-  row.error_world = leaf_error(leaf_unit(frame.voxel, shop.options().tile_vox));
-  row.more = {{"kept", leaves.kept}};
-  made.leaves = std::move(row);
-}
-
-/// Tells the time that is left when the kept results are known. `share`: the part of the work that is left.
-void tell_time(const Shop& shop, const VoxelizedScene& scene, double share) {
-  if (shop.tells_time || shop.task != Task::tileset) return;
-  Estimate work = estimate_build(shop.options(), scene.header.bounds, scene.counts, scene.header.frame.voxel);
-  work.core_seconds *= share;
-  work.serial_seconds *= share;
-  note_estimate(work, shop.options().common, shop.build.progress, shop.build.report);
-}
-
-CutOptions cut_options(const Shop& shop, const MadeTileset& made, const TriangleBvh* tree = nullptr) {
-  const BuildOptions& o = shop.options();
-  CutOptions cut;
-  cut.cells = shop.cells();
-  cut.mode = o.proxy.mode;
-  cut.enclose = made.scene.enclosed;
-  cut.colors = made.scene.colors.get();
-  cut.scene = tree, cut.rounding = made.scene.voxels.counts.scene.rounding;
-  if (shop.task == Task::some_jobs) cut.jobs = o.tiles;
-  cut.make = shop.task != Task::look_up;
-  return cut;
-}
-
-/// The levels of more than one cell.
-void make_cut(const Shop& shop, TilePyramid& pyramid, const CutOptions& cut, MadeTileset& made) {
-  const BuildOptions& o = shop.options();
-  std::vector<LevelAtWork> levels(made.plan.cut.size());
-  for (std::size_t i = 0; i < levels.size(); ++i) {
-    const CutLevel& level = made.plan.cut[i];
-    levels[i].found.what = fmt::format("level {}", i);
-    levels[i].row = {level_name(o.name, i) + "/*.glb", 0, 0, 0, 0, level.scale_world, level.frame.voxel};
-  }
-  const CutSteps steps{
-      [&](const std::string& name) { shop.build.report.begin(name); },
-      [&](std::size_t i, const GridFrame&) { return cut_files(shop.build, made, made.plan.cut[i], i); },
-      [&](std::size_t i, LevelTile&& tile) {
-        take(shop, std::move(tile), made.plan.cut[i], level_name(o.name, i), levels[i], made.files);
-      },
-      [&](double share) { tell_time(shop, made.scene.voxels, share); }};
-  make_cut_levels(pyramid, made.plan, cut, steps);
-  for (std::size_t i = 0; i < levels.size(); ++i) {
-    finish(shop, i, made.plan.cut[i], levels[i], made);
-    std::vector<CellCoord> cells;
-    for (const auto& [cell, node] : levels[i].tiles) cells.push_back(cell);
-    if (i == 0) add_leaves(shop, cells, made.plan.cut[i].frame, made);
-  }
-}
 
 /// Returns the inputs of the whole levels' files that WholeInput lacks: names, provenance, looks of the scene.
 std::string whole_encoding(const BuildOptions& o, const MadeTileset& made, const std::string& input_hash,
@@ -303,9 +127,9 @@ MadeTileset make_tileset(const Shop& shop) {
                                 o.tiles->end, made.plan.jobs()));
   shop.build.report.begin("measure the scene");
   const TilesetMemory limit({shop.build, made.scene, made.plan, made.held_looks.get(), cut_options(shop, made), share});
-  LodOptions lod = lod_options(shop.build, made.scene, {}, {share, made.plan.cut.size(), [&](const LodOptions& whole) {
-                                                              return limit(whole, *made.scene.voxels.solid);
-                                                            }});
+  LodOptions lod = lod_options(shop.build, made.scene, {}, share, made.plan.cut.size());
+  naming_limit([&] { take_triangles(shop.build, made.scene, lod); },
+               [&] { return limit(lod, *made.scene.voxels.solid); });
   TilePyramid pyramid(header, std::move(made.scene.voxels.solid), shop.build.backends,
                       pyramid_options(shop, bytes_beside_tiles(lod.scene.size()), share));
   // After a refusal, the tasks of the pyramid are counted, which look for triangles in the tree.
@@ -339,16 +163,16 @@ void write_tileset(const Shop& shop, MadeTileset& made, TilesetFolder& folder) {
         make_provenance("bplod", tileset_options(made, shop.options().tile_vox), made.scene.voxels.counts.input_hash)};
   if (made.leaves) made.provenance.back().options += " leaves=scene";
   parallel_for(std::int64_t(made.files.size()), [&](std::int64_t i) {  // each waits for the disk
-    const Waiting& file = made.files[std::size_t(i)];
+    const WaitingFile& file = made.files[std::size_t(i)];
     std::vector<std::byte> bytes;
     shop.files->get(file.content, bytes);
-    folder.write(file.name, std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+    folder.write(file.name, text_of(bytes));
     shop.files->drop(file.content);
   });
   for (const auto& [name, number] : made.images) {
     const std::vector<std::byte> bytes = made.scene.textures->file(number);
     tileset.images.push_back(leaf_folder(shop.options()) + "/" + name);
-    folder.write(tileset.images.back(), std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+    folder.write(tileset.images.back(), text_of(bytes));
     if (made.leaves) made.leaves->bytes += bytes.size();
   }
   if (made.leaves) made.rows.insert(made.rows.begin(), *made.leaves);

@@ -59,9 +59,7 @@ SceneOptions scene_options(const EnclosureInput& in, const std::string& format) 
 /// Throws bad_input if triangles lie outside the bounds: the voxels do not enclose them, so they cannot be kept inside.
 void check_bounds(const std::string& name, const std::vector<TriangleD>& chunk, const Bounds3d& bounds) {
   Bounds3d both = bounds;
-  for (const TriangleD& t : chunk) {
-    for (const Vec3d& p : t) both.add(p);
-  }
+  for (const TriangleD& t : chunk) both.merge(bounds_of(t));
   if (both == bounds) return;
   fail(ErrorCode::bad_input, "{}: reaches beyond the scene that the stream was made from; name that scene", name);
 }

@@ -1,18 +1,16 @@
 #include "tools/mesh/mesh_step.h"
 
+#include "io/store/scratch.h"
 #include "lib/geometry/signed_volume.h"
 #include "lib/pass/mesh/mesh_pass.h"
 #include "tools/mesh/enclosure.h"
 #include "tools/mesh/mesh_report.h"
 #include "tools/notes/proportion.h"
+#include "tools/run/memory_shares.h"
 
 namespace bp {
 
 namespace {
-
-/// A share of the volume, which is a tenth of the diameter. Such a part hides a hundredth of what the largest part
-/// hides, and costs as many triangles.
-constexpr double kLeastPart = 1e-3;
 
 /// Edges follow the scale where it differs from place to place: no edge is longer than so many scales.
 constexpr double kEdgeFactor = 4;
@@ -26,7 +24,7 @@ MeshParams mesh_params(const MeshOptions& o, const StreamHeader& header) {
   if (o.error()) question_length("--error", *o.error(), header.bounds, header.frame.voxel);
   if (o.error()) params.error_world = o.error()->in_world(header.bounds.diagonal(), header.frame.voxel);
   params.volume_ratio = o.volume;
-  if (o.proxy.mode == MeshMode::inside) params.least_part = kLeastPart;
+  if (o.proxy.mode == MeshMode::inside) params.least_part = MeshParams::kLeastPart;
   params.quads = o.quads;
   if (!header.scale.constant()) params.edge_factor = kEdgeFactor;
   params.edges_yield = true;
@@ -73,6 +71,18 @@ MeshWriteOptions write_options(MeshMode mode, const Vec3d& origin) {
                             : mode == MeshMode::inside ? Contract::inside
                                                        : Contract::encloses;
   return {origin, mode == MeshMode::fit, contract};
+}
+
+PieceMemory mesh_memory(const CommonOptions& common) {
+  const MeshBudget budget(common.memory_bytes);
+  PieceMemory memory;
+  memory.waiting_bytes = budget.waiting;
+  memory.work_bytes = budget.work;
+  memory.limit = budget.limit;
+  memory.waiting_share = MeshBudget::kWaitingShare;
+  memory.work_share = MeshBudget::kWorkShare;
+  memory.make_scratch = [store = budget.store, temp = common.temp] { return make_scratch(store, temp); };
+  return memory;
 }
 
 }  // namespace bp

@@ -35,4 +35,7 @@ void tell_steps(std::vector<LatticeMesh>& levels, const MeshOptions& options, co
 /// Returns how a proxy of this mode is written.
 [[nodiscard]] MeshWriteOptions write_options(MeshMode mode, const Vec3d& origin);
 
+/// Returns the part of --memory that bpmesh has for surfaces.
+[[nodiscard]] PieceMemory mesh_memory(const CommonOptions& common);
+
 }  // namespace bp

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "lib/core/parallel.h"
+#include "lib/levels/voxel_choice.h"
 #include "tools/cli/length.h"
 
 namespace bp {
@@ -31,9 +32,7 @@ constexpr double kSerialShare = 0.5;  ///< share of bpmesh's time in which one c
 constexpr double kProgramBytes = 25e6, kVoxBytes = 10, kCloseBytes = 100, kMeshBytes = 32;
 
 double area_in_voxels(const Bounds3d& b, double voxel) {
-  if (b.empty()) return 0;
-  const double x = b.max[0] - b.min[0], y = b.max[1] - b.min[1], z = b.max[2] - b.min[2];
-  return 2 * (x * y + y * z + z * x) / (voxel * voxel);
+  return b.empty() ? 0 : area_of(b) / (voxel * voxel);
 }
 
 Estimate of_grid(const Bounds3d& scene, double voxel) {

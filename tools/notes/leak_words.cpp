@@ -15,16 +15,8 @@ Vec3d middle_of(VoxelCoord p, const GridFrame& frame) {
 }
 
 GroundSide ground_of(const GridFrame& frame) {
-  switch (frame.up) {
-    case UpAxis::x:
-    case UpAxis::minus_x:
-      return {0, frame.up == UpAxis::minus_x};
-    case UpAxis::y:
-    case UpAxis::minus_y:
-      return {1, frame.up == UpAxis::minus_y};
-    default:
-      return {2, frame.up == UpAxis::minus_z};
-  }
+  const std::string_view name = name_of(frame.up);  // "x" or "-x"
+  return {name.back() - 'x', name.front() == '-'};
 }
 
 double closing_scale(const Leak& leak, const GridFrame& frame) {
@@ -58,13 +50,13 @@ std::string scale_text(const Leak& leak, const GridFrame& frame) {
   return fmt::format("it needs --scale {:.4g} or more; none was found that shuts it", scale);
 }
 
-std::string parts_text(const std::set<std::string>& names) {
+std::string parts_text(const char* where, const std::set<std::string>& names) {
   if (names.empty()) return "";
   std::string name = *names.begin();
   std::replace_if(
       name.begin(), name.end(), [](char c) { return std::uint8_t(c) < ' ' || c == 0x7f; }, '?');
   const std::size_t others = names.size() - 1;
-  return fmt::format(" next to '{}'{}", name,
+  return fmt::format(" {} '{}'{}", where, name,
                      others == 0 ? "" : fmt::format(" and {} other part{}", others, others == 1 ? "" : "s"));
 }
 

@@ -26,7 +26,7 @@ namespace bp {
 [[nodiscard]] std::string leak_sentence(const Leak& leak, const GridFrame& frame);
 /// Returns "--scale 0.46 shuts it, as tried there", or that none was found that does.
 [[nodiscard]] std::string scale_text(const Leak& leak, const GridFrame& frame);
-/// Returns " next to 'wall' and 2 other parts"; empty without names.
-[[nodiscard]] std::string parts_text(const std::set<std::string>& names);
+/// Returns " next to 'wall' and 2 other parts", or with another word than "next to"; empty without names.
+[[nodiscard]] std::string parts_text(const char* where, const std::set<std::string>& names);
 
 }  // namespace bp

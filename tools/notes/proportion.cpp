@@ -1,6 +1,5 @@
 #include "tools/notes/proportion.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "lib/core/error.h"

@@ -12,6 +12,7 @@
 #include "lib/core/error.h"
 #include "lib/pass/voxelize/stray_part.h"
 #include "tools/cli/names.h"
+#include "tools/notes/leak_words.h"
 #include "tools/notes/proportion.h"
 
 namespace bp {
@@ -47,25 +48,14 @@ std::set<std::string> names_of(const StrayPart& stray, const SceneAgain& scene) 
   return options.part_names->names;
 }
 
-/// Returns " of 'bird' and 2 other parts"; empty without names.
-std::string names_text(const std::set<std::string>& names) {
-  if (names.empty()) return "";
-  std::string name = *names.begin();
-  std::replace_if(
-      name.begin(), name.end(), [](char c) { return std::uint8_t(c) < ' ' || c == 0x7f; }, '?');
-  const std::size_t others = names.size() - 1;
-  return fmt::format(" of '{}'{}", name,
-                     others == 0 ? "" : fmt::format(" and {} other part{}", others, others == 1 ? "" : "s"));
-}
-
 std::string stray_note(const VoxelizeCounts& counts, const StreamHeader& header, const SceneAgain& scene) {
   if (!counts.stray) return "";
   const StrayPart& stray = *counts.stray;
   return fmt::format(
       "{:.2g} % of the surface{}, from {} to {}, makes the scene {:.4g} long, and the rest is {:.4g} long: its voxels "
       "are as large as for that ({:.4g}); take it out of the file if it was left there by mistake{}",
-      100 * stray.share, names_text(names_of(stray, scene)), point_text(stray.part.min), point_text(stray.part.max),
-      header.bounds.longest_side(), stray.rest.longest_side(), header.frame.voxel,
+      100 * stray.share, parts_text("of", names_of(stray, scene)), point_text(stray.part.min),
+      point_text(stray.part.max), header.bounds.longest_side(), stray.rest.longest_side(), header.frame.voxel,
       voxel_for_the_rest(stray, header.bounds));
 }
 

@@ -1,7 +1,6 @@
 #include "lib/levels/detail/best_level.h"
 
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "lib/pass/mesh/mesh_measures.h"
@@ -26,9 +25,8 @@ double BestLevel::weight(const LodLevel& level) const {
 /// Returns the largest error with which the level would be better than the best one so far; negative: it cannot be
 /// better.
 double BestLevel::most_error(const LodLevel& level) const {
-  constexpr double kAny = std::numeric_limits<double>::infinity();
-  if (!level_) return kAny;
-  if (level.reached != level_->reached) return level.reached ? kAny : -1;
+  if (!level_) return HUGE_VAL;
+  if (level.reached != level_->reached) return level.reached ? HUGE_VAL : -1;
   return level_->price / weight(level) - unseen();
 }
 

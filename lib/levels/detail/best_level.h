@@ -1,6 +1,5 @@
 #pragma once
 #include <optional>
-#include <string>
 
 #include "lib/levels/detail/ruler.h"
 #include "lib/levels/lod_level.h"

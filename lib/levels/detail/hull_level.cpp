@@ -1,20 +1,17 @@
-#include "lib/levels/detail/hull_level.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "lib/core/vec3.h"
 #include "lib/hulls/convex_hull.h"
-#include "lib/levels/detail/convex_level.h"
+#include "lib/levels/detail/convex_levels.h"
 #include "lib/mesh/lattice_geometry.h"
 
 namespace bp {
 
 namespace {
 
-constexpr std::size_t kMostOfScene = 3 * 65536;  // corners of the scene's triangles
-constexpr std::size_t kMostFaces = 16384;        // each face is compared with each corner: 0.4 s
-constexpr double kFar = kLatticePerVoxel / 2.0;
+constexpr std::size_t kMostOfScene = 3 * 65536;           // corners of the scene's triangles
+constexpr std::size_t kMostFaces = 16384;                 // each face is compared with each corner: 0.4 s
 constexpr double kReach = double(std::int64_t(1) << 28);  // the largest coordinate that hull_of() takes
 
 /// Returns the centre of gravity of the hull's volume.
@@ -62,7 +59,7 @@ std::optional<ConvexHull> grown(const ConvexHull& hull, double room) {
   std::vector<LatticeCoord> points;
   for (const LatticeCoord& v : hull.vertices) {
     const Vec3d by = share * (to_double(v) - middle);
-    if (!(length(by) < kFar)) return {};
+    if (!(length(by) < kLatticePerVoxel / 2.0)) return {};
     points.push_back(v + rounded(by));
   }
   return hull_of(points);

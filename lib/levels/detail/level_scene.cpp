@@ -57,7 +57,6 @@ LodGround LevelScene::ground() const {
 }
 
 std::shared_ptr<const Enclosed> LevelScene::enclosed(const LevelVoxels::Solid& solid) {
-  constexpr std::uint64_t kSmallShare = 16;  // of the memory that levels have
   const std::lock_guard lock(mutex_);
   std::weak_ptr<const Enclosed>& place = enclosed_[solid.reductions];
   if (std::shared_ptr<const Enclosed> made = place.lock()) return made;

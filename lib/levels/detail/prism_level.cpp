@@ -1,10 +1,8 @@
-#include "lib/levels/detail/prism_level.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "lib/core/vec3.h"
-#include "lib/levels/detail/convex_level.h"
+#include "lib/levels/detail/convex_levels.h"
 #include "lib/mesh/lattice_geometry.h"
 
 namespace bp {

@@ -16,8 +16,6 @@ namespace bp {
 
 namespace {
 
-constexpr std::uint64_t kSmallShare = 16;  // a tree is kept if it takes at most this part of the memory
-
 /// Returns the bytes that the segments of runs and a tree over them take while they are used.
 std::uint64_t segment_bytes(std::uint64_t runs) {
   return TriangleBvh::bytes_with_triangles(runs);
@@ -79,13 +77,6 @@ void Ruler::take_surface(const RulerScene& scene, const BoundarySize& size, cons
   kept_segments_ = Surface(&segments_, true);
 }
 
-Bounds3d Ruler::bounds() const {
-  Bounds3d bounds;
-  for (const VoxelCoord& v : {box.min, box.max})
-    bounds.add(frame_.world(LatticeCoord{v.x, v.y, v.z} * kLatticePerVoxel));
-  return bounds;
-}
-
 std::uint64_t Ruler::bytes() const {
   return runs_.capacity() * sizeof(VoxelRun) + faces_.capacity() * sizeof(FaceRect) +
          segments_.capacity() * sizeof(TriangleD) + kept_segments_.bytes() + scene_.bytes();
@@ -143,7 +134,7 @@ std::optional<double> Ruler::error_of_fit(const std::vector<TriangleD>& mesh) co
   return scene_.with_tree([&](const TriangleBvh& scene) -> std::optional<double> {
     const std::vector<TriangleD> shown = shown_points(faces_, scene, frame_);
     if (shown.empty()) return std::nullopt;
-    const double there = distance_from_mesh_to_shown(mesh, shown, voxel());
+    const double there = largest_distance(mesh, TriangleBvh(shown), kTriangleTolerance * voxel()).at_most;
     return with_segments([&](const std::vector<TriangleD>& segments) {
       return distance_beyond_mesh(runs_, segments, scene, frame_, TriangleBvh(mesh), there);
     });

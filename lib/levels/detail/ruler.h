@@ -4,10 +4,14 @@
 
 #include "lib/geometry/triangle_bvh.h"
 #include "lib/levels/lod_level.h"
+#include "lib/levels/voxel_choice.h"
 #include "lib/volume/boundary_rects.h"
 #include "lib/volume/boundary_runs.h"
 
 namespace bp {
+
+/// Trees and enclosed sets are kept if they take at most this part of the memory.
+constexpr std::uint64_t kSmallShare = 16;
 
 /// The scene that a ruler measures against: its triangles if they are known, else its voxels.
 struct RulerScene {
@@ -42,7 +46,7 @@ class Ruler {
 
   [[nodiscard]] double voxel() const { return frame_.voxel; }
   /// Returns the box around all voxels of the solid, scene units.
-  [[nodiscard]] Bounds3d bounds() const;
+  [[nodiscard]] Bounds3d bounds() const { return bounds_of(box, frame_); }
   /// Returns the bytes that the ruler takes while it lives.
   [[nodiscard]] std::uint64_t bytes() const;
 

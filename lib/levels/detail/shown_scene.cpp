@@ -5,6 +5,7 @@
 
 #include "lib/core/parallel.h"
 #include "lib/core/vec3.h"
+#include "lib/geometry/spread.h"
 #include "lib/geometry/surface_distance.h"
 #include "lib/geometry/triangle_parts.h"
 #include "lib/levels/detail/voxel_distance.h"
@@ -13,7 +14,6 @@ namespace bp {
 
 namespace {
 
-constexpr std::int64_t kShownGrain = 256;
 constexpr double kCentreToCorner = 0.87;
 constexpr double kFaceToVoxel = 1.25;  // from the middle of a face to any point of its voxel, and rounding; in voxels
 
@@ -23,21 +23,12 @@ std::uint64_t faces_in(const FaceRect& r) {
   return n;
 }
 
-/// Returns whether a face is among about `share` of all, by a hash of its place.
-bool is_chosen(const LatticeCoord& middle, double share) {
-  constexpr std::uint64_t kMix = 0x9E3779B97F4A7C15;  // 2^64 over the golden ratio
-  std::uint64_t hash = 0;
-  for (int k = 0; k < 3; ++k) hash = ((hash ^ std::uint64_t(middle[k])) * kMix) ^ (hash >> 29);
-  return double((hash * kMix) >> 32) < share * 0x1p32;
-}
-
 /// Calls f(middle) for each face of the rectangle.
 template <class F>
 void for_each_face(const FaceRect& r, F&& f) {
-  constexpr std::int64_t kHalf = kLatticePerVoxel / 2;
   const auto last = [&](int i) { return std::max(r.max[i] - 1, r.min[i]); };
   const auto middle = [&](int i, std::int32_t at) {
-    return std::int64_t(at) * kLatticePerVoxel + (r.max[i] > r.min[i] ? kHalf : 0);
+    return std::int64_t(at) * kLatticePerVoxel + (r.max[i] > r.min[i] ? kLatticePerVoxel / 2 : 0);
   };
   for (std::int32_t z = r.min.z; z <= last(2); ++z) {
     for (std::int32_t y = r.min.y; y <= last(1); ++y) {
@@ -108,14 +99,14 @@ std::vector<TriangleD> shown_points(std::span<const FaceRect> faces, const Trian
   const double share = double(kMostShownPoints) / double(std::max<std::uint64_t>(area, 1));
   const double most = std::pow(kFaceToVoxel * frame.voxel, 2);
   const auto n = std::int64_t(faces.size());
-  std::vector<std::vector<TriangleD>> found(std::size_t((n + kShownGrain - 1) / kShownGrain));
+  std::vector<std::vector<TriangleD>> found(std::size_t((n + kMeasuredAtOnce - 1) / kMeasuredAtOnce));
   std::vector<char> misses(found.size(), 0);
-  parallel_ranges(n, kShownGrain, [&](std::int64_t begin, std::int64_t end) {
+  parallel_ranges(n, kMeasuredAtOnce, [&](std::int64_t begin, std::int64_t end) {
     std::uint32_t guess = 0;
-    const auto grain = std::size_t(begin / kShownGrain);
+    const auto grain = std::size_t(begin / kMeasuredAtOnce);
     for (auto i = std::size_t(begin); i < std::size_t(end); ++i) {
       for_each_face(faces[i], [&](const LatticeCoord& middle) {
-        if (share < 1 && !is_chosen(middle, share)) return;
+        if (share < 1 && !is_among(middle, share)) return;
         const Vec3d p = frame.world(middle);
         const TriangleBvh::Nearest nearest = scene.nearest(p, guess);
         guess = nearest.item;
@@ -131,18 +122,13 @@ std::vector<TriangleD> shown_points(std::span<const FaceRect> faces, const Trian
   return points;
 }
 
-double distance_from_mesh_to_shown(const std::vector<TriangleD>& mesh, const std::vector<TriangleD>& shown,
-                                   double voxel) {
-  return largest_distance(mesh, TriangleBvh(shown), kTriangleTolerance * voxel).at_most;
-}
-
 double distance_beyond_mesh(std::span<const VoxelRun> runs, const std::vector<TriangleD>& segments,
                             const TriangleBvh& scene, const GridFrame& frame, const TriangleBvh& mesh,
                             double at_least) {
   const std::vector<std::uint32_t> left = far_segments(segments, mesh, frame.voxel, at_least);
   const auto n = std::int64_t(left.size());
-  std::vector<double> largest(std::size_t((n + kShownGrain - 1) / kShownGrain), at_least);
-  parallel_ranges(n, kShownGrain, [&](std::int64_t begin, std::int64_t end) {
+  std::vector<double> largest(std::size_t((n + kMeasuredAtOnce - 1) / kMeasuredAtOnce), at_least);
+  parallel_ranges(n, kMeasuredAtOnce, [&](std::int64_t begin, std::int64_t end) {
     Beyond beyond(mesh, at_least);
     std::vector<Polygon> parts;
     for (auto i = std::size_t(begin); i < std::size_t(end); ++i) {
@@ -160,7 +146,7 @@ double distance_beyond_mesh(std::span<const VoxelRun> runs, const std::vector<Tr
         for (const Polygon& part : parts) beyond.meet(part);
       }
     }
-    largest[std::size_t(begin / kShownGrain)] = beyond.largest();
+    largest[std::size_t(begin / kMeasuredAtOnce)] = beyond.largest();
   });
   return largest.empty() ? at_least : *std::max_element(largest.begin(), largest.end());
 }

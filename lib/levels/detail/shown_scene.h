@@ -19,10 +19,6 @@ constexpr std::uint64_t kMostShownPoints = std::uint64_t(1) << 20;
 [[nodiscard]] std::vector<TriangleD> shown_points(std::span<const FaceRect> faces, const TriangleBvh& scene,
                                                   const GridFrame& frame);
 
-/// Returns an upper bound of the distance of any point of `mesh` to the nearest one of `shown` (shown_points()).
-[[nodiscard]] double distance_from_mesh_to_shown(const std::vector<TriangleD>& mesh,
-                                                 const std::vector<TriangleD>& shown, double voxel);
-
 /// Returns an upper bound of the distance to the mesh of any point of the scene that lies outside the mesh, in voxels
 /// of the runs. The mesh is closed. The result is at least `at_least`, and sharp if it is a voxel or more. `segments`:
 /// segments_of() the runs.

@@ -7,6 +7,8 @@
 #include "lib/grid/clip.h"
 #include "lib/grid/shelf_stream.h"
 #include "lib/levels/detail/voxel_distance.h"
+#include "lib/levels/voxel_choice.h"
+#include "lib/mesh/box_group.h"
 #include "lib/pass/mesh/mesh_pass.h"
 #include "lib/pass/mesh/surface_around.h"
 #include "lib/volume/boundary_rects.h"
@@ -16,8 +18,6 @@
 namespace bp {
 
 namespace {
-
-constexpr const char* kJobName = "tile";
 
 /// Makes bricks of the voxels in `box` from rows. word(c, y, z, p, i) returns row (y, z) of brick c; the row begins at
 /// voxel p, and is word i of a row of a bit box over `box`.
@@ -40,9 +40,9 @@ std::unique_ptr<BrickShelf> shelf_of_rows(const VoxelBox& box, const ShelfFactor
 
 }  // namespace
 
-ResultKey TileMaker::key() const {
+ResultKey TileMaker::key(const ResultKey& inputs) const {
   const TileShape& shape = params_;
-  KeyHash hash(kJobName);
+  KeyHash hash("tile");
   hash.add(shape, level_.header.frame, coord_, level_.cells);
   const BrickCoord origin = brick_of(cell_.min);
   add_voxels(hash, level_.closing, grown_, origin);
@@ -52,7 +52,7 @@ ResultKey TileMaker::key() const {
     const std::vector<TriangleD> scene = scene_nearby();
     hash.add(std::as_bytes(std::span(scene)), params_.rounding.share, params_.rounding.offset, grown_world());
   }
-  if (params_.add_to_key) params_.add_to_key(coord_, hash);
+  hash.add(inputs);
   return hash.key();
 }
 
@@ -84,7 +84,8 @@ void TileMaker::take_scene() {
 
 LatticeMesh TileMaker::make(TileMeasures& measures) {
   MeshCounts counts;
-  LatticeMesh mesh = mesh_cell(measures, counts);
+  ShelfSource source(header(), *solid_, closing_.get(), ShelfSource::Keep::solid);
+  LatticeMesh mesh = std::move(mesh_stream(source, context_, mesh_params(measures), counts).front());
   measure(mesh, measures);
   measures.faces_dense = counts.levels.front().simplify.faces_in;
   measures.volume = counts.levels.front().measures.volume;
@@ -141,25 +142,17 @@ void TileMaker::hold_stray_parts() {
   load_voxels(*closing_, closing);
   load_voxels(*solid_, held);
   grow_within(closing, held);
+  const auto stray = shelf_of_rows(grown_, context_.make_shelf,
+                                   [&](BrickCoord, std::int32_t, std::int32_t, VoxelCoord p, std::int32_t i) {
+                                     return closing.row(p.y, p.z)[i] & ~held.row(p.y, p.z)[i];
+                                   });
   BrickBits bits, before;
-  for_each_brick(grown_, [&](BrickCoord c) {
-    const VoxelCoord first = first_voxel(c);
-    bool stray = false;
+  for (const BrickCoord c : stray->coords()) {
+    stray->get(c, bits);
     solid_->get(c, before);
-    for (std::int32_t z = 0; z < kBrickEdge; ++z) {
-      for (std::int32_t y = 0; y < kBrickEdge; ++y) {
-        const VoxelCoord p = first + VoxelCoord{0, y, z};
-        std::uint64_t& word = bits[std::size_t(z * kBrickEdge + y)];
-        word = before[std::size_t(z * kBrickEdge + y)];
-        if (row_within(c, y, z, grown_) == 0) continue;
-        const std::int32_t i = (p.x - closing.box().min.x) / kBrickEdge;
-        const std::uint64_t left = closing.row(p.y, p.z)[i] & ~held.row(p.y, p.z)[i];
-        stray = stray || left != 0;
-        word |= left;
-      }
-    }
-    if (stray) solid_->put(c, classify(bits), bits);
-  });
+    for (std::size_t i = 0; i < bits.size(); ++i) bits[i] |= before[i];
+    solid_->put(c, classify(bits), bits);
+  }
 }
 
 /// Collects the voxels that must stay inside in addition to the triangles. These are the parts of the closing that hold
@@ -190,9 +183,8 @@ MeshParams TileMaker::mesh_params(TileMeasures& measures) const {
   mesh.near_world = params_.scale_world;  // used where error_world is no limit
   if (params_.error_world == 0) {
     const std::uint64_t solid_faces = 2 * boundary_.faces;
-    measures.faces_asked = params_.faces > 0
-                               ? params_.faces
-                               : std::max(solid_faces / TileParams::kDenseFacesPerFace, TileParams::kLeastTileFaces);
+    measures.faces_asked =
+        params_.faces > 0 ? params_.faces : std::max(solid_faces / kDensePerFace, TileParams::kLeastTileFaces);
     mesh.faces = {measures.faces_asked};
     if (params_.faces == 0 && params_.mode == MeshMode::bounding && solid_faces <= TileParams::kMostFacesForError)
       mesh.error_world = TileParams::kErrorVox * level_.header.frame.voxel;
@@ -208,11 +200,6 @@ MeshParams TileMaker::mesh_params(TileMeasures& measures) const {
   return mesh;
 }
 
-LatticeMesh TileMaker::mesh_cell(TileMeasures& measures, MeshCounts& counts) const {
-  ShelfSource source(header(), *solid_, closing_.get(), ShelfSource::Keep::solid);
-  return std::move(mesh_stream(source, context_, mesh_params(measures), counts).front());
-}
-
 StreamHeader TileMaker::header() const {
   StreamHeader header = level_.header;
   header.bricks = bricks_of(grown_);
@@ -224,27 +211,17 @@ StreamHeader TileMaker::header() const {
   return header;
 }
 
-/// `by`: lattice units by which the box is grown.
-Bounds3d TileMaker::world(const VoxelBox& box, std::int64_t by) const {
-  Bounds3d bounds;
-  for (const auto& [p, more] : {std::pair{box.min, -by}, std::pair{box.max, by}})
-    bounds.add(level_.header.frame.world({p.x * std::int64_t(kLatticePerVoxel) + more,
-                                          p.y * std::int64_t(kLatticePerVoxel) + more,
-                                          p.z * std::int64_t(kLatticePerVoxel) + more}));
-  return bounds;
-}
-
 /// Returns the cell, grown by a lattice unit and by twice the distance that triangles may be off: far more than a check
 /// grows it by, and less than a voxel.
 Bounds3d TileMaker::grown_world() const {
   const double off = params_.rounding.of(level_.header.bounds) * kLatticePerVoxel / level_.header.frame.voxel;
-  return world(cell_, 1 + std::int64_t(std::ceil(2 * off)));
+  return bounds_of(cell_, level_.header.frame, 1 + std::int64_t(std::ceil(2 * off)));
 }
 
 /// Returns the triangles that meet the box of reach(), in the scene's order.
 std::vector<TriangleD> TileMaker::scene_nearby() const {
   std::vector<std::pair<std::uint32_t, TriangleD>> found;
-  params_.scene->visit(world(reach()), [&](const TriangleBvh::Item& item) {
+  params_.scene->visit(bounds_of(reach(), level_.header.frame), [&](const TriangleBvh::Item& item) {
     found.emplace_back(item.id, item.corners);
     return false;
   });
@@ -275,13 +252,9 @@ VoxelBox TileMaker::reach() const {
 
 void TileMaker::measure(const LatticeMesh& mesh, TileMeasures& measures) const {
   measures.faces = mesh.triangles.size();
-  measures.min = measures.max = mesh.vertices.front();
-  for (const LatticeCoord& v : mesh.vertices) {
-    for (int i = 0; i < 3; ++i) {
-      measures.min[i] = std::min(measures.min[i], v[i]);
-      measures.max[i] = std::max(measures.max[i], v[i]);
-    }
-  }
+  const LatticeBox box = box_of(mesh.vertices);
+  measures.min = box.min;
+  measures.max = box.max;
   const GridFrame& frame = mesh.frame;
   const std::vector<TriangleD> triangles = world_triangles(mesh);
   if (params_.mode == MeshMode::bounding && !scene_.empty()) {

@@ -18,8 +18,8 @@ class TileMaker {
         grown_(cell_.grown(1)) {}
 
   /// Returns the key of the tile in the store of results. It covers everything that the tile depends on, so equal keys
-  /// mean equal tiles.
-  [[nodiscard]] ResultKey key() const;
+  /// mean equal tiles. `inputs`: of the tile's file (TileJobs::get()).
+  [[nodiscard]] ResultKey key(const ResultKey& inputs) const;
   /// Cuts out the cell's voxels. Returns false for a cell in a cavity that the closing filled: it holds no voxel of the
   /// scene, and nobody can see a face in it.
   [[nodiscard]] bool begin();
@@ -35,10 +35,8 @@ class TileMaker {
   void leave_out_fringes();
   void hold_stray_parts();
   void hold_beside_triangles();
-  [[nodiscard]] LatticeMesh mesh_cell(TileMeasures& measures, MeshCounts& counts) const;
   [[nodiscard]] MeshParams mesh_params(TileMeasures& measures) const;
   [[nodiscard]] StreamHeader header() const;
-  [[nodiscard]] Bounds3d world(const VoxelBox& box, std::int64_t by = 0) const;
   [[nodiscard]] Bounds3d grown_world() const;
   [[nodiscard]] std::vector<TriangleD> scene_nearby() const;
   [[nodiscard]] std::vector<TriangleD> shown() const;

@@ -1,8 +1,6 @@
 #include "lib/levels/tiles/level_tiles.h"
 
 #include <algorithm>
-#include <mutex>
-#include <numeric>
 
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
@@ -19,19 +17,6 @@ namespace {
 constexpr std::uint64_t kBytesPerDenseFace = 320, kBytesPerTile = std::uint64_t(4) << 20;
 constexpr std::uint64_t kBytesPerTriangle = 2 * sizeof(TriangleD) + EnclosedTriangles::kBytesEach;
 
-/// Returns the bytes that the store keeps of a tile.
-std::string packed(const LevelTile& tile) {
-  std::string bytes;
-  pack(bytes, tile.measures);
-  return bytes + tile.content;
-}
-
-bool unpack_tile(std::string_view bytes, LevelTile& tile) {
-  if (!unpack(bytes, tile.measures)) return false;
-  tile.content = bytes;
-  return true;
-}
-
 /// Returns the bytes of four copies of a tile's voxels, as leave_out_fringes() needs them.
 std::uint64_t voxel_bytes(const Cells& cells) {
   const auto edge = std::uint64_t(cells.edge_vox);
@@ -39,175 +24,119 @@ std::uint64_t voxel_bytes(const Cells& cells) {
   return 4 * (edge + 2 * brick) * (edge + 2) * (edge + 2) / 8 + kBytesPerTile;
 }
 
-/// A cell that holds voxels of the closing.
-struct Job {
-  CellCoord cell{};
-  std::uint64_t dense_faces = 0;  // an estimate: the closing's faces in the cell, without walls
-};
+void check_cells(const Cells& cells, const MemoryShare& memory) {
+  if (cells.edge_vox < kBrickEdge || cells.edge_vox % kBrickEdge != 0)
+    fail(ErrorCode::bad_argument, "a cell of {} voxels a side: must be a multiple of 64", cells.edge_vox);
+  const std::uint64_t bytes = voxel_bytes(cells);
+  if (bytes > memory.bytes)
+    throw NeedsMemory(fmt::format("a tile of {} voxels", cells.edge_vox), bytes, memory.bytes,
+                      memory.limit_with(bytes - memory.bytes), {Remedy::smaller_tiles});
+}
 
-/// Returns the cells that hold bricks of the closing, with an estimate of the work in each.
-std::vector<Job> jobs_of(const TileLevel& level, const std::function<bool(CellCoord)>& wanted) {
+/// Returns the wanted cells that hold bricks of the closing, each with the closing's faces in it.
+std::vector<std::pair<CellCoord, std::uint64_t>> cells_of(const TileLevel& level, const TileParams& params) {
   std::vector<BrickCoord> bricks = level.closing.coords();
-  if (wanted) std::erase_if(bricks, [&](BrickCoord c) { return !wanted(level.cells.of(first_voxel(c))); });
+  if (params.wanted)
+    std::erase_if(bricks, [&](BrickCoord c) { return !params.wanted->holds(level.cells.of(first_voxel(c))); });
   std::vector<std::pair<CellCoord, std::uint64_t>> parts(bricks.size());
   parallel_for(std::int64_t(bricks.size()), [&](std::int64_t i) {
     const BrickCoord brick = bricks[std::size_t(i)];
     parts[std::size_t(i)] = {level.cells.of(first_voxel(brick)), 2 * boundary_faces(level.closing, brick)};
   });
   std::sort(parts.begin(), parts.end());
-  std::vector<Job> jobs;
+  std::vector<std::pair<CellCoord, std::uint64_t>> cells;
   for (const auto& [cell, faces] : parts) {
-    if (jobs.empty() || jobs.back().cell != cell) jobs.push_back({cell, 0});
-    jobs.back().dense_faces += faces;
+    if (cells.empty() || cells.back().first != cell) cells.emplace_back(cell, 0);
+    cells.back().second += faces;
   }
-  return jobs;
+  return cells;
 }
-
-/// Makes the tiles of several levels.
-class TileMaking {
- public:
-  TileMaking(std::span<const TileTask> tasks, const PassContext& context) : tasks_(tasks), context_(context) {
-    for (const TileTask& task : tasks_) {
-      check_memory(task.level.cells);
-      for (const Job& job : jobs_of(task.level, task.params.wanted)) jobs_.push_back({&task, job, {}});
-    }
-  }
-
-  void operator()(const std::function<void(double)>& left) {
-    const double all = surface();
-    take_kept();
-    if (left && all > 0) left(surface() / all);
-    std::stable_sort(jobs_.begin(), jobs_.end(),
-                     [](const TileJob& a, const TileJob& b) { return a.job.dense_faces > b.job.dense_faces; });
-    const int n = in_flight();
-    of_each_.pieces = context_.pieces.split(std::uint64_t(n));
-    std::size_t next = 0;
-    run_jobs<std::size_t>(
-        n,
-        [&](std::size_t& i) {
-          i = next++;
-          return i < jobs_.size();
-        },
-        [&](const std::size_t& i) { make_beside(jobs_[i], n); });
-    for (const TileJob* job : alone_) make(*job, context_);
-  }
-
- private:
-  struct TileJob {
-    const TileTask* task;
-    Job job;
-    ResultKey key;  ///< if results are kept
-  };
-
-  void check_memory(const Cells& cells) const {
-    const std::uint64_t bytes = voxel_bytes(cells);
-    const MemoryShare& memory = context_.memory;
-    if (bytes > memory.bytes)
-      throw NeedsMemory(fmt::format("a tile of {} voxels", cells.edge_vox), bytes, memory.bytes,
-                        memory.limit_with(bytes - memory.bytes), {Remedy::smaller_tiles});
-  }
-
-  /// Returns the dense faces of all jobs in the list.
-  [[nodiscard]] double surface() const {
-    return std::accumulate(jobs_.begin(), jobs_.end(), 0.0,
-                           [](double sum, const TileJob& job) { return sum + double(job.job.dense_faces); });
-  }
-
-  /// Takes the jobs out of the list whose results are kept. The store keeps no bytes for a hidden tile.
-  void take_kept() {
-    total_ = jobs_.size();
-    std::vector<char> kept(jobs_.size());
-    parallel_for(std::int64_t(jobs_.size()), [&](std::int64_t i) {
-      TileJob& job = jobs_[std::size_t(i)];
-      if (context_.results == nullptr) return;
-      job.key = TileMaker(*job.task, job.job.cell, context_).key();
-      LevelTile tile;
-      std::string bytes;
-      tile.kept = context_.results->get(job.key, bytes) && (bytes.empty() || unpack_tile(bytes, tile));
-      if (!tile.kept) return;
-      kept[std::size_t(i)] = 1;
-      finish(job, std::move(tile), !bytes.empty());
-    });
-    std::size_t left = 0;
-    for (std::size_t i = 0; i < jobs_.size(); ++i) {
-      if (kept[i] == 0) jobs_[left++] = jobs_[i];
-    }
-    jobs_.resize(left);
-  }
-
-  /// Returns how many tiles fit into the memory at the same time. The first job must be the largest.
-  [[nodiscard]] int in_flight() const {
-    if (jobs_.empty()) return 1;
-    std::uint64_t largest = jobs_.front().job.dense_faces * kBytesPerDenseFace + kBytesPerTile, triangles = 0;
-    for (const TileTask& task : tasks_) {
-      largest = std::max(largest, voxel_bytes(task.level.cells));
-      if (task.params.scene != nullptr) triangles = std::max(triangles, std::uint64_t(task.params.scene->size()));
-    }
-    largest += std::min(triangles, std::uint64_t(TileParams::kMostTriangles)) * kBytesPerTriangle;
-    return int(std::clamp<std::uint64_t>(context_.memory.bytes / largest, 1, std::uint64_t(thread_count())));
-  }
-
-  /// A tile whose share does not suffice beside others is made after them, by itself.
-  void make_beside(const TileJob& job, int at_once) {
-    try {
-      make(job, of_each_);
-    } catch (const NeedsMemory&) {
-      if (at_once == 1) throw;
-      const std::lock_guard lock(mutex_);
-      alone_.push_back(&job);
-    }
-  }
-
-  void make(const TileJob& job, const PassContext& context) {
-    const TileTask& task = *job.task;
-    TileMaker maker(task, job.job.cell, context);
-    LevelTile tile;
-    if (!task.params.make) return finish(job, std::move(tile), true);  // it may be in a cavity
-    const bool there = maker.begin();
-    if (there) tile.content = task.encode(job.job.cell, maker.make(tile.measures));
-    if (context_.results != nullptr) context_.results->put(job.key, there ? packed(tile) : "");
-    finish(job, std::move(tile), there);
-  }
-
-  void finish(const TileJob& job, LevelTile&& tile, bool there) {
-    tile.cell = job.job.cell;
-    const std::lock_guard lock(mutex_);
-    context_.report("meshing", "tiles", ++done_, total_);
-    if (there) job.task->consume(std::move(tile));
-  }
-
-  const std::span<const TileTask> tasks_;
-  const PassContext& context_;
-  PassContext of_each_{context_};  // the context of one tile at work: less memory
-  std::vector<TileJob> jobs_;
-  std::vector<const TileJob*> alone_;  // refused beside others
-  std::mutex mutex_;
-  std::size_t done_ = 0, total_ = 0;
-};
 
 }  // namespace
 
-std::uint64_t tiles_limit(const TileLevel& level, const TileParams& params, PassContext context, std::uint64_t held,
-                          const std::function<std::uint64_t(CellCoord)>& triangles) {
-  std::uint64_t most = context.memory.limit_for(voxel_bytes(level.cells) + held);
-  context.pieces = context.pieces.without(held);
-  const TileTask task{level, params, {}, {}};
-  const std::uint64_t most_near = params.mode == MeshMode::fit ? UINT64_MAX : TileParams::kMostTriangles;
-  for (const Job& job : jobs_of(level, params.wanted)) {
-    TileMaker maker(task, job.cell, context);
-    const std::uint64_t near = triangles ? triangles(job.cell) : 0;
-    if (maker.begin()) most = std::max(most, maker.limit(std::min(near, most_near)));
+TileJobs::TileJobs(std::span<const TileTask> tasks, const PassContext& context) : context_(context) {
+  for (const TileTask& task : tasks) {
+    check_cells(task.level.cells, context.memory);
+    for (const auto& [cell, faces] : cells_of(task.level, task.params)) jobs_.push_back({&task, cell, faces});
   }
-  return most;
+  std::stable_sort(jobs_.begin(), jobs_.end(),
+                   [](const Job& a, const Job& b) { return a.dense_faces > b.dense_faces; });
 }
 
-void make_tiles(std::span<const TileTask> tasks, const PassContext& context, const std::function<void(double)>& left) {
-  for (const TileTask& task : tasks) {
-    const std::int32_t edge = task.level.cells.edge_vox;
-    if (edge < kBrickEdge || edge % kBrickEdge != 0)
-      fail(ErrorCode::bad_argument, "a cell of {} voxels a side: must be a multiple of 64", edge);
+bool TileJobs::get(std::size_t number, const ResultKey& inputs, std::optional<KeptTile>& tile) {
+  tile.reset();
+  if (context_.results == nullptr) return false;
+  Job& job = jobs_[number];
+  job.key = TileMaker(*job.task, job.cell, context_).key(inputs);
+  std::string bytes;
+  if (!context_.results->get(job.key, bytes)) return false;
+  if (!bytes.empty()) {  // else the job has no tile
+    std::string_view left = bytes;
+    if (!unpack(left, tile.emplace().measures)) return false;
+    tile->content = left;
   }
-  TileMaking(tasks, context)(left);
+  job.is_kept = true;
+  return true;
+}
+
+void TileJobs::put(std::size_t job, const std::optional<KeptTile>& tile) const {
+  if (context_.results == nullptr) return;
+  std::string bytes;
+  if (tile) {
+    pack(bytes, tile->measures);
+    bytes += tile->content;
+  }
+  context_.results->put(jobs_[job].key, bytes);
+}
+
+std::vector<std::size_t> TileJobs::left() const {
+  std::vector<std::size_t> left;
+  for (std::size_t i = 0; i < jobs_.size(); ++i) {
+    if (!jobs_[i].is_kept) left.push_back(i);
+  }
+  return left;
+}
+
+double TileJobs::surface(bool with_kept) const {
+  double sum = 0;
+  for (const Job& job : jobs_) sum += with_kept || !job.is_kept ? double(job.dense_faces) : 0;
+  return sum;
+}
+
+double TileJobs::share_left() const {
+  return surface(false) / std::max(surface(true), 1.0);
+}
+
+int TileJobs::at_once() const {
+  std::uint64_t largest = 0, triangles = 0;
+  for (const std::size_t i : left()) {
+    const TileTask& task = *jobs_[i].task;
+    largest =
+        std::max({largest, jobs_[i].dense_faces * kBytesPerDenseFace + kBytesPerTile, voxel_bytes(task.level.cells)});
+    if (task.params.scene != nullptr) triangles = std::max(triangles, std::uint64_t(task.params.scene->size()));
+  }
+  largest += std::min(triangles, std::uint64_t(TileParams::kMostTriangles)) * kBytesPerTriangle;
+  return int(std::clamp<std::uint64_t>(context_.memory.bytes / std::max<std::uint64_t>(largest, 1), 1,
+                                       std::uint64_t(thread_count())));
+}
+
+std::optional<LatticeMesh> TileJobs::make(std::size_t job, const PassContext& context, TileMeasures& measures) const {
+  TileMaker maker(*jobs_[job].task, jobs_[job].cell, context);
+  if (!maker.begin()) return std::nullopt;
+  return maker.make(measures);
+}
+
+std::uint64_t tiles_limit(const TileLevel& level, const TileParams& params, PassContext context, std::uint64_t held,
+                          const CellCounts& triangles) {
+  std::uint64_t most = context.memory.limit_for(voxel_bytes(level.cells) + held);
+  context.pieces = context.pieces.without(held);
+  const TileTask task{0, level, params};
+  const std::uint64_t most_near = params.mode == MeshMode::fit ? UINT64_MAX : TileParams::kMostTriangles;
+  for (const auto& [cell, faces] : cells_of(level, params)) {
+    TileMaker maker(task, cell, context);
+    if (maker.begin()) most = std::max(most, maker.limit(std::min(triangles.near(cell), most_near)));
+  }
+  return most;
 }
 
 }  // namespace bp

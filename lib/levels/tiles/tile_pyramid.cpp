@@ -1,7 +1,5 @@
 #include "lib/levels/tiles/tile_pyramid.h"
 
-#include <algorithm>
-
 #include "lib/core/error.h"
 #include "lib/volume/boundary_runs.h"
 #include "lib/volume/reduce.h"
@@ -16,30 +14,18 @@ TilePyramid::TilePyramid(const StreamHeader& header, std::unique_ptr<BrickShelf>
   boundary_layer(*solid_, *surface_);
 }
 
-std::unique_ptr<BrickShelf> TilePyramid::closing_at(double scale_world) {
-  CellClosing o;
-  o.cells = options_.cells;
-  o.closing = options_.closing;
-  o.context = options_.context;
+void TilePyramid::add_level(TileParams params) {
   auto closing = options_.context.make_shelf();
-  close_cells(header_, *solid_, backends_, scale_world, o, *closing);
-  return closing;
-}
-
-void TilePyramid::add_level(double scale_world, TileParams params, TileEncoder encode,
-                            std::function<void(LevelTile&&)> consume) {
-  waiting_.push_back({closing_at(scale_world), nullptr, nullptr});
-  params.scale_world = scale_world;
+  close_cells(header_, *solid_, backends_, params.scale_world,
+              {options_.cells, options_.closing, false, options_.context}, *closing);
+  waiting_.push_back({std::move(closing), nullptr, nullptr});
   params.element = options_.closing.element;
-  tasks_.push_back({{header_, *solid_, *surface_, *waiting_.back().closing, options_.cells},
-                    std::move(params),
-                    std::move(encode),
-                    std::move(consume)});
+  tasks_.push_back(
+      {level_, {header_, *solid_, *surface_, *waiting_.back().closing, options_.cells}, std::move(params)});
   added_ = true;
 }
 
-void TilePyramid::make_tiles(const std::function<void(double)>& left) {
-  bp::make_tiles(tasks_, options_.context, left);
+void TilePyramid::drop_tasks() {
   tasks_.clear();
   waiting_.clear();
   added_ = false;

@@ -1,7 +1,6 @@
 #pragma once
 #include "lib/device/backend.h"
 #include "lib/levels/tiles/level_tiles.h"
-#include "lib/levels/tiles/tile_plan.h"
 #include "lib/pass/close/cell_closing.h"
 #include "lib/pass/context.h"
 
@@ -27,20 +26,19 @@ class TilePyramid {
   [[nodiscard]] BrickShelf& solid() { return *solid_; }
   [[nodiscard]] std::size_t level() const { return level_; }
   [[nodiscard]] const std::vector<TileTask>& tasks() const { return tasks_; }  ///< of levels that were added
+  [[nodiscard]] const PassContext& context() const { return options_.context; }
 
-  /// Closes the current level, and adds it to the levels whose tiles make_tiles() makes. Sets scale and element of
-  /// `params`. Call it at most once for each level. Throws as close_cells().
-  void add_level(double scale_world, TileParams params, TileEncoder encode, std::function<void(LevelTile&&)> consume);
-  /// Makes the tiles of all added levels, and frees their voxels. `left`: as in bp::make_tiles().
-  void make_tiles(const std::function<void(double)>& left = {});
-  void reduce();  ///< goes on to the next level
+  /// Closes the current level at params.scale_world, and adds it to tasks(). Sets the element of `params`. Call it at
+  /// most once for each level. Throws as close_cells().
+  void add_level(TileParams params);
+  void drop_tasks();  ///< frees the voxels of all added levels
+  void reduce();      ///< goes on to the next level
 
   /// Return the layers from which a LodChain goes on. The pyramid must not be used afterwards.
   [[nodiscard]] std::unique_ptr<BrickShelf> take_solid() { return std::move(solid_); }
   [[nodiscard]] std::unique_ptr<BrickShelf> take_surface() { return std::move(surface_); }
 
  private:
-  [[nodiscard]] std::unique_ptr<BrickShelf> closing_at(double scale_world);
   /// The voxels of an added level whose tiles are not made yet.
   struct Waiting {
     std::unique_ptr<BrickShelf> closing;

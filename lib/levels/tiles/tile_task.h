@@ -1,13 +1,14 @@
 #pragma once
-#include <functional>
+#include <optional>
 #include <string>
 
-#include "lib/grid/cells.h"
+#include "lib/levels/tiles/tile_plan.h"
 #include "lib/pass/mesh/mesh_params.h"
-#include "lib/store/result_key.h"
 
-/// A level that is made in tiles (level_tiles.h): its voxels, the parameters of its tiles, and what is told of each.
+/// A level that is made in tiles (level_tiles.h): its voxels, and the parameters of its tiles.
 namespace bp {
+
+class TriangleBvh;
 
 /// The voxels of one level. The cells consist of whole bricks.
 struct TileLevel {
@@ -26,24 +27,27 @@ struct TileShape {
   Enclose enclose = Enclose::input;
   double scale_world = 0;  ///< scale of the closing
   StructuringElement element = StructuringElement::cube;
-  std::uint64_t faces = 0;  ///< budget of each tile; 0: kDenseFacesPerFace decides
+  std::uint64_t faces = 0;  ///< budget of each tile; 0: kDensePerFace decides
   /// Largest distance of a tile to what it encloses; 0: none. It replaces the budget of faces.
   double error_world = 0;
-  std::string encoding;  ///< all that encode() puts into a file, except the cell and the mesh
+  std::string encoding;  ///< everything in a tile's file that does not follow from the cell and the mesh
 };
 
-/// How tiles are made and kept.
+/// The tiles of a level whose jobs are wanted.
+struct WantedTiles {
+  CutLevel level;
+  JobRange jobs;
+  [[nodiscard]] bool holds(CellCoord cell) const { return jobs.meets(level.number_of(cell), 1); }
+};
+
+/// How the tiles of a level are made.
 struct TileParams : TileShape {
   /// The triangles that vertices of a fit move to; null: they move to the closing. With Enclose::scene, the triangles
   /// that stay inside; null: the solid stays inside.
   const TriangleBvh* scene = nullptr;
-  Rounding rounding;                      ///< of the scene's triangles
-  std::function<bool(CellCoord)> wanted;  ///< tells which tiles are made; empty: all
-  bool make = true;                       ///< false: tiles that are not kept are passed on without measures and content
-  std::function<void(CellCoord, KeyHash&)>
-      add_to_key;  ///< adds further inputs of a tile to its cache key; may be empty
-
-  static constexpr std::uint64_t kDenseFacesPerFace = 100, kLeastTileFaces = 60;  ///< for tiles without a budget
+  Rounding rounding;                                    ///< of the scene's triangles
+  std::optional<WantedTiles> wanted;                    ///< the tiles that are made; empty: all
+  static constexpr std::uint64_t kLeastTileFaces = 60;  ///< the least faces of a tile without a budget
   /// A bounding tile without a budget gets more faces if it would lie farther than this from what it encloses. Thin
   /// parts that lie apart in one tile need that: the voxels' surface is small, so the budget is, too. It is done only
   /// for a surface of at most kMostFacesForError faces, which is whole in memory (16 MiB), as a limit on distances
@@ -52,6 +56,16 @@ struct TileParams : TileShape {
   static constexpr std::uint64_t kMostFacesForError = std::uint64_t(1) << 16;
   static constexpr std::size_t kMostTriangles = std::size_t(1) << 18;  ///< a tile with more triangles encloses voxels
 };
+
+/// The options that the tiles of all cut levels share.
+struct CutOptions {
+  Cells cells;
+  TileParams tile;               ///< without what tile_params() sets
+  std::optional<JobRange> jobs;  ///< empty: all
+};
+
+/// Returns what decides the tiles of a level, besides the names of files.
+[[nodiscard]] TileParams tile_params(const TilesetPlan& plan, std::size_t level, const CutOptions& options);
 
 struct TileMeasures {
   LatticeCoord min{}, max{};                 ///< box around its vertices, in the frame of the level
@@ -65,26 +79,16 @@ struct TileMeasures {
   double error_world = 0;
 };
 
-struct LevelTile {
-  CellCoord cell{};
-  TileMeasures measures;
-  std::string content;  ///< what encode() returned
-  bool kept = false;    ///< its result was kept by an earlier run
-};
-
-/// Makes the file of a tile. The mesh is in the frame of the level. Called on any thread.
-using TileEncoder = std::function<std::string(CellCoord, const LatticeMesh&)>;
-
-/// A level that make_tiles() makes.
+/// A level that TileJobs makes.
 struct TileTask {
+  std::size_t number = 0;  ///< number of the level; 0: the finest
   TileLevel level;
   TileParams params;
-  TileEncoder encode;
-  /// Receives the tiles of all levels: in no order, one at a time, on any thread.
-  std::function<void(LevelTile&&)> consume;
 };
 
 /// Returns how many voxels beyond its cell a tile of this scale looks for triangles of the scene.
 [[nodiscard]] std::int32_t tile_reach(double scale_world, double voxel);
+/// Returns the origin of the vertices of a tile: the middle of its cell.
+[[nodiscard]] LatticeCoord tile_origin(const Cells& cells, CellCoord cell);
 
 }  // namespace bp

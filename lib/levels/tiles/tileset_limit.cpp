@@ -1,6 +1,7 @@
 #include "lib/levels/tiles/tileset_limit.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "lib/volume/reduce.h"
 
@@ -12,21 +13,33 @@ std::uint64_t closing_limit(const TilesetCount& count, const CutLevel& cut) {
   return count.context.memory.limit_for(least_cell_bytes(count.cut.cells, cut.halo.total_vox()) + count.held_bytes);
 }
 
-/// Returns the triangles near the cells of a cut level.
-std::function<std::uint64_t(CellCoord)> near_cells(const TilesetCount& count, std::size_t level) {
-  if (count.triangles == 0) return {};
-  return [&count, level](CellCoord cell) { return count.near ? count.near(level, cell) : count.triangles; };
-}
-
 std::uint64_t limit_of_tiles(const TilesetCount& count, std::size_t level, const StreamHeader& header,
                              const BrickShelf& solid) {
   const TileLevel uncut{header, solid, solid, solid, count.cut.cells};
-  TileParams params = tile_params(count.plan, level, count.cut);
-  params.scale_world = count.plan.cut[level].scale_world;
-  return tiles_limit(uncut, params, count.context, count.held_bytes, near_cells(count, level));
+  return tiles_limit(uncut, tile_params(count.plan, level, count.cut), count.context, count.held_bytes,
+                     count.near.empty() ? CellCounts{{}, count.triangles} : count.near[level]);
 }
 
 }  // namespace
+
+void add_near(const CutLevel& level, const Cells& cells, const Bounds3d& triangle, CellCounts& counts) {
+  constexpr std::uint64_t kVeryMany = 512;  // cells that a triangle is counted for one by one
+  const std::int32_t reach = tile_reach(level.scale_world, level.frame.voxel) + 1;  // and a voxel for rounding
+  const auto cell_of = [&](const Vec3d& p, std::int32_t by) {
+    const Vec3d at = level.frame.to_voxels(p);
+    VoxelCoord v;
+    for (int i = 0; i < 3; ++i) v[i] = std::int32_t(std::clamp(std::floor(at[std::size_t(i)]), -1e9, 1e9)) + by;
+    return cells.of(v);
+  };
+  const CellSpan span{cell_of(triangle.min, -reach), cell_of(triangle.max, reach)};
+  if (span.count() > kVeryMany) {
+    ++counts.everywhere;
+    return;
+  }
+  for (std::int32_t z = span.first.z; z <= span.last.z; ++z)
+    for (std::int32_t y = span.first.y; y <= span.last.y; ++y)
+      for (std::int32_t x = span.first.x; x <= span.last.x; ++x) ++counts.of_cell[{x, y, z}];
+}
 
 std::uint64_t tileset_limit(const TilesetCount& count, const StreamHeader& header, BrickShelf& solid,
                             std::size_t level) {
@@ -41,7 +54,7 @@ std::uint64_t tileset_limit(const TilesetCount& count, const StreamHeader& heade
 
 std::uint64_t tileset_limit(const TilesetCount& count, TilePyramid& pyramid) {
   std::uint64_t most = tileset_limit(count, pyramid.header(), pyramid.solid(), pyramid.level());
-  const auto all = [&](CellCoord) { return count.triangles; };  // tasks have their scene, and count what is near
+  const CellCounts all{{}, count.triangles};  // tasks have their scene, and count what is near
   for (const TileTask& task : pyramid.tasks())
     most = std::max(most, tiles_limit(task.level, task.params, count.context, count.held_bytes, all));
   return most;

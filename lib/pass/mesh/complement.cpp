@@ -104,9 +104,14 @@ void ComplementSink::write_turned() {
   solid_.layer = Layer::solid;
 }
 
-BrickBox bricks_around(const BrickShelf& shelf) {
+BrickBox box_of_bricks(const BrickShelf& shelf) {
   BrickBox box;
   for (const BrickCoord& c : shelf.coords()) box = hull(box, {c, {c.x + 1, c.y + 1, c.z + 1}});
+  return box;
+}
+
+BrickBox bricks_around(const BrickShelf& shelf) {
+  const BrickBox box = box_of_bricks(shelf);
   return box.empty() ? box : box.grown(1);
 }
 

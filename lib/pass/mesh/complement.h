@@ -46,7 +46,9 @@ class ComplementSink final : public BrickSink {
   Brick solid_, closing_;
 };
 
-/// Returns the box around the bricks of a shelf, grown by one brick on each side.
+/// Returns the box around the bricks of a shelf.
+[[nodiscard]] BrickBox box_of_bricks(const BrickShelf& shelf);
+/// Returns the same, grown by one brick on each side.
 [[nodiscard]] BrickBox bricks_around(const BrickShelf& shelf);
 
 /// Puts every voxel of `box` that is not in `shelf` into `out`.

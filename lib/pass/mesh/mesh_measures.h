@@ -37,5 +37,8 @@ struct MeshMeasures {
 [[nodiscard]] MeshMeasures measure(const LatticeMesh& mesh);
 /// Sums the areas of all triangles, scene units squared.
 [[nodiscard]] double area_world(const LatticeMesh& mesh);
+/// Measures the distances between `mesh` and the surface that it encloses. `tree` is over the triangles of `enclosed`.
+void measure_distances(const LatticeMesh& mesh, const std::vector<TriangleD>& enclosed, const TriangleBvh& tree,
+                       MeshMeasures& measures);
 
 }  // namespace bp

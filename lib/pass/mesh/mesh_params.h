@@ -80,6 +80,9 @@ struct MeshParams {
   bool tighten = true;  ///< afterwards, lower the volume without uncovering what is enclosed
   /// inside: at each level, parts whose volume is below this share of the largest part's are left out; 0: none.
   double least_part = 0;
+  /// The usual share. Such a part is a tenth as wide as the largest one: it hides a hundredth of what that one hides,
+  /// and costs as many triangles.
+  static constexpr double kLeastPart = 1e-3;
   bool quads = false;              ///< join pairs of triangles to quads (quads.h)
   std::optional<CageParams> cage;  ///< makes one level of quads only (quad_cage.h) around what is enclosed
   bool distances = false;          ///< measure the distances between the proxies and what they enclose

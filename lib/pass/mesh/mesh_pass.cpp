@@ -13,7 +13,6 @@
 #include "lib/pass/mesh/detail/fit_target.h"
 #include "lib/pass/mesh/detail/ground.h"
 #include "lib/pass/mesh/detail/make_level.h"
-#include "lib/pass/mesh/detail/mesh_measures.h"
 #include "lib/pass/mesh/detail/params_check.h"
 #include "lib/pass/mesh/detail/proxy_limits.h"
 #include "lib/pass/mesh/detail/scaled_edges.h"

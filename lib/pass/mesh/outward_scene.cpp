@@ -23,7 +23,6 @@ constexpr double kStep = 2;
 /// vanish when corners are rounded to it.
 constexpr std::array<double, 2> kUnits{1, 4};
 constexpr double kFarthest = 2 * kLatticePerVoxel;  // largest step of a vertex; sharp tips need far steps
-constexpr std::int64_t kVerticesAtOnce = 256;
 
 /// A closed mesh on the lattice in which the faces at each vertex form one fan. If two fans touch in a place, there are
 /// two vertices at that place.
@@ -117,7 +116,7 @@ LatticeMesh moved_outwards(const Fans& fans, const GridFrame& frame, double dist
   mesh.frame = frame;
   mesh.vertices = fans.places;
   mesh.triangles = fans.triangles;
-  parallel_ranges(std::int64_t(mesh.vertices.size()), kVerticesAtOnce, [&](std::int64_t begin, std::int64_t end) {
+  parallel_ranges(std::int64_t(mesh.vertices.size()), kItemsAtOnce, [&](std::int64_t begin, std::int64_t end) {
     for (auto v = VertexId(begin); v < VertexId(end); ++v) {
       Planes planes;
       before.for_each_outgoing(v, [&](HalfEdgeId h) { add_plane(before, HalfEdgeMesh::face(h), distance, planes); });

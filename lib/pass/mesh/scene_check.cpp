@@ -8,6 +8,7 @@
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/geometry/triangle_bvh.h"
+#include "lib/pass/mesh/complement.h"
 #include "lib/voxel/voxelize.h"
 
 namespace bp {
@@ -16,32 +17,19 @@ namespace {
 
 constexpr std::int64_t kTrianglesAtOnce = 1 << 14;
 
-/// A box of bricks from `low` to `high`, both included.
-struct Bricks {
-  BrickCoord low, high;
-};
-
-Bricks box_around(std::span<const BrickCoord> coords) {
-  Bricks all{coords[0], coords[0]};
-  for (const BrickCoord& c : coords) {
-    for (int i = 0; i < 3; ++i) all.low[i] = std::min(all.low[i], c[i]), all.high[i] = std::max(all.high[i], c[i]);
-  }
-  return all;
-}
-
 /// Returns false for a point outside the box of bricks, or so near to its boundary that voxelization would set a voxel
 /// outside.
-bool is_among(const GridFrame& frame, std::int64_t slack, const Vec3d& p, const Bricks& all) {
+bool is_among(const GridFrame& frame, std::int64_t slack, const Vec3d& p, const BrickBox& all) {
   const Vec3d v = frame.to_voxels(p);
   for (int i = 0; i < 3; ++i) {
     const double x = v[std::size_t(i)] / kBrickEdge;
-    if (!(x > all.low[i] - 1 && x < all.high[i] + 2)) return false;  // far away, or not a number
+    if (!(x > all.min[i] - 1 && x < all.max[i] + 1)) return false;  // far away, or not a number
   }
   const FixedPoint f = to_fixed(frame, p);
   const std::array<std::int64_t, 3> x = {f.x, f.y, f.z};
   for (int i = 0; i < 3; ++i) {
-    if (x[std::size_t(i)] <= all.low[i] * kBrickEdge * kFixedOne + slack) return false;
-    if (x[std::size_t(i)] >= (all.high[i] + 1) * kBrickEdge * kFixedOne - slack) return false;
+    if (x[std::size_t(i)] <= all.min[i] * kBrickEdge * kFixedOne + slack) return false;
+    if (x[std::size_t(i)] >= all.max[i] * kBrickEdge * kFixedOne - slack) return false;
   }
   return true;
 }
@@ -51,15 +39,15 @@ using Items = std::vector<std::pair<TileCoord, std::uint32_t>>;
 
 /// Lists the triangles that each brick meets, sorted by brick. Returns false if a corner lies outside all bricks.
 bool sort_into_bricks(std::span<const TriangleD> triangles, const GridFrame& frame, std::int64_t slack,
-                      const Bricks& all, Items& items) {
+                      const BrickBox& all, Items& items) {
   TileCoord count;
-  for (int i = 0; i < 3; ++i) count[i] = all.high[i] - all.low[i] + 1;
+  for (int i = 0; i < 3; ++i) count[i] = all.max[i] - all.min[i];
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     for (const Vec3d& p : triangles[t]) {
       if (!is_among(frame, slack, p, all)) return false;
     }
     for_each_tile(
-        to_fixed(frame, triangles[t]), first_voxel(all.low), kBrickEdge, count,
+        to_fixed(frame, triangles[t]), first_voxel(all.min), kBrickEdge, count,
         [&](TileCoord tile) { items.emplace_back(tile, std::uint32_t(t)); }, slack);
   }
   std::sort(items.begin(), items.end());
@@ -80,7 +68,7 @@ bool holds(const BrickShelf& shelf, const BrickCoord& brick, std::span<const Fix
 }
 
 bool lie_within(std::span<const TriangleD> triangles, const GridFrame& frame, std::int64_t slack,
-                const BrickShelf& shelf, const Bricks& all) {
+                const BrickShelf& shelf, const BrickBox& all) {
   Items items;
   if (!sort_into_bricks(triangles, frame, slack, all, items)) return false;
   std::vector<FixedTriangle> fixed;
@@ -88,7 +76,7 @@ bool lie_within(std::span<const TriangleD> triangles, const GridFrame& frame, st
     const TileCoord tile = items[i].first;
     fixed.push_back(to_fixed(frame, triangles[items[i].second]));
     if (i + 1 < items.size() && items[i + 1].first == tile) continue;
-    if (!holds(shelf, {all.low.x + tile.x, all.low.y + tile.y, all.low.z + tile.z}, fixed, slack)) return false;
+    if (!holds(shelf, {all.min.x + tile.x, all.min.y + tile.y, all.min.z + tile.z}, fixed, slack)) return false;
     fixed.clear();
   }
   return true;
@@ -98,11 +86,10 @@ bool lie_within(std::span<const TriangleD> triangles, const GridFrame& frame, st
 
 bool lies_within(std::span<const TriangleD> triangles, const Rounding& rounding, const GridFrame& frame,
                  const BrickShelf& shelf) {
-  const std::vector<BrickCoord> coords = shelf.coords();
   if (triangles.empty()) return true;
   const std::int64_t slack = fixed_slack(frame, rounding.any() ? rounding.of(bounds_of(triangles)) : 0);
-  if (coords.empty() || slack > kMostFixedSlack) return false;
-  const Bricks all = box_around(coords);
+  const BrickBox all = box_of_bricks(shelf);
+  if (all.empty() || slack > kMostFixedSlack) return false;
   std::atomic<bool> within = true;
   parallel_ranges(std::int64_t(triangles.size()), kTrianglesAtOnce, [&](std::int64_t begin, std::int64_t end) {
     if (within &&

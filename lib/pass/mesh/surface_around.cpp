@@ -3,6 +3,7 @@
 #include "lib/core/error.h"
 #include "lib/grid/shelf_stream.h"
 #include "lib/pass/mesh/complement.h"
+#include "lib/pass/voxelize/triangle_list.h"
 #include "lib/pass/voxelize/voxelize_pass.h"
 #include "lib/quads/quads.h"
 #include "lib/simplify/surface_tree.h"
@@ -13,27 +14,6 @@
 namespace bp {
 
 namespace {
-
-class MeshSource final : public TriangleSource {
- public:
-  explicit MeshSource(const LatticeMesh& mesh) : triangles_(drawable_world_triangles(mesh)) {}
-  // There are two copies: here, and as they are read.
-  [[nodiscard]] std::uint64_t bytes() const { return 2 * triangles_.size() * sizeof(TriangleD); }
-  bool read(std::vector<TriangleD>& out) override {
-    out.clear();
-    if (counts_.triangles > 0) return false;
-    out = triangles_;
-    counts_.triangles = out.size();
-    return true;
-  }
-  void rewind() override { counts_ = {}; }
-  [[nodiscard]] const SceneCounts& counts() const override { return counts_; }
-  [[nodiscard]] std::string name() const override { return "level"; }
-
- private:
-  std::vector<TriangleD> triangles_;
-  SceneCounts counts_;
-};
 
 std::vector<TriangleD> in_world(const LatticeMesh& mesh, const std::vector<std::array<std::uint32_t, 3>>& triangles) {
   std::vector<TriangleD> out;
@@ -60,13 +40,15 @@ namespace {
 /// Makes the voxels of a mesh as bpvox does. Returns their frame.
 GridFrame voxelize_mesh(const LatticeMesh& mesh, double voxel, FillMode fill, const ShelfFactory& make_shelf,
                         const PieceMemory& memory, BrickShelf& shelf) {
-  MeshSource source(mesh);
+  const std::vector<TriangleD> triangles = drawable_world_triangles(mesh);
+  TriangleList source("level", triangles);
   ShelfSink sink(&shelf);
   VoxelizeOptions options;
   options.voxel_size = [voxel](const Bounds3d&) { return voxel; };
   options.fill = fill;
   options.up = mesh.frame.up;
-  const PieceMemory left = memory.without(source.bytes());
+  const PieceMemory left =
+      memory.without(2 * triangles.size() * sizeof(TriangleD));  // as they are read, there are two copies
   options.context.memory.bytes = left.waiting_bytes;
   options.tile_memory_bytes = left.work_bytes;
   options.context.make_shelf = make_shelf;

@@ -11,13 +11,13 @@
 #include "lib/mesh/lattice_geometry.h"
 #include "lib/mesh/space_order.h"
 #include "lib/simplify/waves.h"
+#include "lib/tighten/fan_fit.h"
 
 namespace bp {
 
 namespace {
 
-constexpr double kJointMargin = 0.6;  // lattice units over a point: rounding a corner moves it by up to 0.87
-constexpr double kDeepest = 2;        // lattice units: a point that is so much above its face lies under another one
+constexpr double kDeepest = 2;  // lattice units: a point that is so much above its face lies under another one
 constexpr double kRim = 8;      // lattice units: a point so near to the rim of its face lies under the neighbours, too
 constexpr double kLongest = 2;  // times the unhindered step: the largest shift that forces may cause
 constexpr int kRounds = 8;      // over all rows
@@ -218,7 +218,7 @@ void JointFit::add_row(const Facet& facet, std::uint32_t point, std::vector<Bloc
   const std::array<Vec3d, 3> gradient = {cross(v, w), cross(w, u), cross(u, v)};
   const double height = dot(u, gradient[0]) / facet.area;
   if (height < -kDeepest || height > kLongest * facet.reach) return;
-  double least = kJointMargin - height;
+  double least = kFitMargin - height;
   if (facet.held) least = std::min(least, 0.0);  // a locked corner would send the others far for a margin
   std::array<Vec3d, 3> g;
   double give = 0;  // rise of the height by a unit of force

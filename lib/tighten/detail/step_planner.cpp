@@ -4,13 +4,6 @@
 
 namespace bp {
 
-namespace {
-
-constexpr double kReach = 0.5;  // of the mean spoke: the largest step of a vertex that moves alone
-constexpr int kAvoidRounds = 4;
-
-}  // namespace
-
 StepPlanner::StepPlanner(const ProxyEditor& editor, bool any_limits)
     : editor_(editor), mesh_(editor.mesh()), any_limits_(any_limits), check_(editor.new_check()) {}
 
@@ -44,13 +37,13 @@ void StepPlanner::approach(VertexId v, const Vec3d& x, StepPlan& plan) {
 
 void StepPlanner::find_place(VertexId v, StepPlan& plan) {
   begin(v, plan);
-  const double reach = kReach * gather_rim();
+  const double reach = kFanReach * gather_rim();
   if (!fit_.close()) return;
   gather_points();
   for (int round = 0;; ++round) {
     const std::optional<Vec3d> x = fit_.least_volume({}, reach);
     if (!x || !worth_trying(*x) || try_move(*x)) return;
-    if (round < kAvoidRounds && check_.blocker() != nullptr && learns(*x)) continue;
+    if (round < kFanRounds && check_.blocker() != nullptr && learns(*x)) continue;
     return shorten(*x, reach);
   }
 }

@@ -13,9 +13,6 @@ namespace bp {
 
 namespace {
 
-// The largest distance of the merged vertex from the edge's middle, in mean spokes.
-constexpr double kMergeReach = 0.5;
-constexpr int kMergeRounds = 4;
 // Faces of small meshes have hundreds of contact points each, so that a single cost is worth another thread.
 constexpr std::size_t kCostsPerThread = 8, kCostsOfFewPerThread = 1;
 
@@ -90,10 +87,10 @@ class ThinPlanner {
       plan.cost = cost;
       return true;
     };
-    for (int round = 0; round < kMergeRounds; ++round) {
+    for (int round = 0; round < kFanRounds; ++round) {
       if (try_at(h, p + rounded(c.offset), plan)) return;
       if (check_.blocker() == nullptr || !fit_.avoid(c.offset, *check_.blocker(), shift)) break;
-      const auto x = fit_.least_volume(middle_, kMergeReach * size_);
+      const auto x = fit_.least_volume(middle_, kFanReach * size_);
       if (!x) return;
       c = {*x, fit_.volume(*x) - before};
       if (is_too_dear(c.cost)) return;
@@ -120,7 +117,7 @@ class ThinPlanner {
     ++counts_.solved;
     const double before = gather(h);
     if (!fit_.close()) return std::nullopt;
-    const auto x = fit_.least_volume(middle_, kMergeReach * size_);
+    const auto x = fit_.least_volume(middle_, kFanReach * size_);
     if (!x) {
       ++counts_.refused[Refusal::constraints];
       return std::nullopt;

@@ -3,8 +3,6 @@
 #include "lib/check/check_proxy.h"
 #include "lib/geometry/surface_distance.h"
 #include "lib/levels/detail/convex_levels.h"
-#include "lib/levels/detail/hull_level.h"
-#include "lib/levels/detail/prism_level.h"
 #include "lib/levels/lod_chain.h"
 #include "tests/catch.h"
 #include "tests/support/memory_store.h"

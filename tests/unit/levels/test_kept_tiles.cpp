@@ -20,10 +20,23 @@ TEST_CASE("before tiles are made, it is told how much of them is not kept", "[qu
     options.context.make_shelf = memory_shelves();
     options.context.results = &results;
     TilePyramid pyramid(solid.header, std::move(solid.shelf), backends, options);
-    pyramid.add_level(
-        2, {}, [](CellCoord, const LatticeMesh&) { return ""; }, [](LevelTile&&) {});
-    double share = -1;
-    pyramid.make_tiles([&](double s) { share = s; });
+    TileParams params;
+    params.scale_world = 2;
+    pyramid.add_level(params);
+    TileJobs jobs(pyramid.tasks(), pyramid.context());
+    for (std::size_t i = 0; i < jobs.count(); ++i) {
+      std::optional<KeptTile> tile;
+      if (!jobs.get(i, {}, tile)) continue;
+      REQUIRE(tile);
+      CHECK(tile->content == "tile");
+      CHECK(tile->measures.faces > 0);
+    }
+    const double share = jobs.share_left();
+    for (const std::size_t i : jobs.left()) {
+      KeptTile tile{{}, "tile"};
+      REQUIRE(jobs.make(i, pyramid.context(), tile.measures));
+      jobs.put(i, tile);
+    }
     return share;
   };
   CHECK(left(40) == 1);

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <atomic>
+#include <string_view>
 
 #include "lib/check/check_proxy.h"
 #include "lib/core/error.h"
@@ -12,20 +14,37 @@ namespace bp::test {
 
 namespace {
 
-LodChain chain_of(const Triangles& scene, Backends& backends, std::uint64_t bytes) {
+LodOptions options_within(std::uint64_t bytes) {
   LodOptions options;
   options.context.make_shelf = memory_shelves();
   options.context.memory.bytes = bytes;
   options.context.pieces.waiting_bytes = options.context.pieces.work_bytes = bytes / 2;
+  return options;
+}
+
+LodChain chain_of(const Triangles& scene, Backends& backends, LodOptions options) {
   Voxelized solid = voxelized(scene, 0.25);
   return {solid.header, std::move(solid.shelf), backends, std::move(options)};
 }
 
 std::vector<LodLevel> levels_of(const Triangles& scene, const std::vector<LodTarget>& targets, int threads,
-                                std::uint64_t bytes) {
+                                LodOptions options) {
   const ThreadLimit limit(threads);
   Backends backends = plain_backends(2);
-  return chain_of(scene, backends, bytes).make(targets);
+  return chain_of(scene, backends, std::move(options)).make(targets);
+}
+
+std::vector<LodLevel> levels_of(const Triangles& scene, const std::vector<LodTarget>& targets, int threads,
+                                std::uint64_t bytes) {
+  return levels_of(scene, targets, threads, options_within(bytes));
+}
+
+std::vector<LodLevel> one_by_one(const Triangles& scene, const std::vector<LodTarget>& targets, LodOptions options) {
+  Backends backends = plain_backends(2);
+  LodChain chain = chain_of(scene, backends, std::move(options));
+  std::vector<LodLevel> levels;
+  for (const LodTarget& target : targets) levels.push_back(chain.make(target));
+  return levels;
 }
 
 void check_same(const std::vector<LodLevel>& a, const std::vector<LodLevel>& b) {
@@ -70,17 +89,74 @@ TEST_CASE("levels made at the same time do not depend on threads or memory", "[q
 TEST_CASE("levels made at the same time, and one by one, are the same", "[quick][pass][lod]") {
   const Triangles scene = turned_boxes();
   const std::vector<LodTarget> targets{{600, 0, {}}, {110, 0, {}}, {30, 0, {}}};
-  Backends backends = plain_backends(2);
-  LodChain chain = chain_of(scene, backends, kPlenty);
-  std::vector<LodLevel> one_by_one;
-  for (const LodTarget& target : targets) one_by_one.push_back(chain.make(target));
-  check_same(one_by_one, levels_of(scene, targets, 2, kPlenty));
+  check_same(one_by_one(scene, targets, options_within(kPlenty)), levels_of(scene, targets, 2, kPlenty));
+}
+
+TEST_CASE("levels around triangles, fits, and levels by rules are the same at once and one by one",
+          "[quick][pass][lod]") {
+  const Triangles scene = turned_boxes();
+  const std::vector<LodTarget> targets{{300, 0, {}}, {110, 0, {}}, {30, 0, {}}};
+  LodOptions options = options_within(kPlenty);
+  SECTION("around triangles") {
+    options.enclose = Enclose::scene, options.scene = scene;
+  }
+  SECTION("fits") {
+    options.mode = MeshMode::fit, options.scene = scene;
+  }
+  SECTION("by rules") {
+    ScaleField field;
+    field.base = 1;
+    field.rules = {box_rule({-10, -10, -10}, {8, 20, 20}, 0.5)};
+    options.field = ScalePlan{field, std::vector<RuleEntry>(1)};
+  }
+  check_same(one_by_one(scene, targets, options), levels_of(scene, targets, 4, options));
+}
+
+TEST_CASE("a level whose share of the memory does not suffice is made once more, alone", "[quick][pass][lod]") {
+  const Triangles scene = turned_boxes();
+  const std::vector<LodTarget> targets{{600, 0, {}}, {300, 0, {}}, {110, 0, {}}, {30, 0, {}}, {12, 0, {}}};
+  const std::vector<LodLevel> plenty = levels_of(scene, targets, 4, kPlenty);
+  int alone = 0;
+  for (std::uint64_t bytes = std::uint64_t(16) << 20; alone == 0 && bytes >= std::uint64_t(1) << 16;
+       bytes -= bytes / 8) {
+    LodOptions options = options_within(bytes);
+    bool at_once = false;
+    options.context.progress = [&](const char*, const char* unit, std::uint64_t, std::uint64_t total) {
+      if (std::string_view(unit) != "levels") return;
+      if (total == targets.size())
+        at_once = true;  // of levels that are made at the same time, only their number is told
+      if (total == 1 && at_once) ++alone;
+    };
+    try {
+      check_same(plenty, levels_of(scene, targets, 4, std::move(options)));
+    } catch (const Error& e) {
+      CHECK(e.code() == ErrorCode::out_of_resource);
+      break;  // less memory does not suffice either
+    }
+  }
+  CHECK(alone > 0);
+}
+
+TEST_CASE("levels that are made at the same time stop when they are asked to", "[quick][pass][lod]") {
+  const Triangles scene = turned_boxes();
+  const std::vector<LodTarget> targets{{600, 0, {}}, {300, 0, {}}, {110, 0, {}}, {30, 0, {}}};
+  std::atomic<bool> stop{false};
+  LodOptions options = options_within(kPlenty);
+  options.context.stop = &stop;
+  std::uint64_t told = 0;
+  options.context.progress = [&](const char*, const char*, std::uint64_t done, std::uint64_t total) {
+    if (total != targets.size()) return;
+    told = done;
+    stop = true;  // the first level is there, and none of the others
+  };
+  CHECK_THROWS_AS(levels_of(scene, targets, 4, std::move(options)), Cancelled);
+  CHECK(told == 1);
 }
 
 TEST_CASE("a sequence makes the first level alone only where the others follow from it", "[quick][pass][lod]") {
   const Triangles scene = turned_boxes();
   Backends backends = plain_backends(2);
-  LodChain chain = chain_of(scene, backends, kPlenty);
+  LodChain chain = chain_of(scene, backends, options_within(kPlenty));
   LevelRequest request;
   request.faces = {600};
   request.levels = 3;

@@ -1,6 +1,6 @@
 #include "lib/check/check_proxy.h"
+#include "lib/levels/cage_voxels.h"
 #include "lib/levels/lod_chain.h"
-#include "lib/levels/margin.h"
 #include "lib/quads/quads.h"
 #include "lib/volume/dilate_ball.h"
 #include "tests/catch.h"

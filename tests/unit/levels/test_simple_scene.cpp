@@ -35,8 +35,7 @@ LevelAndScale level_of(const Triangles& scene, const LodTarget& target, double v
   options.context.make_shelf = memory_shelves();
   options.enclose = Enclose::scene, options.scene = scene;
   LodChain chain(solid.header, std::move(solid.shelf), backends, options);
-  const double first =
-      first_scale({solid.header.frame.voxel, diagonal, chain.dense_faces(), chain.longest_side_vox()}, target, 0);
+  const double first = first_scale({solid.header.frame.voxel, diagonal, chain.dense_faces()}, target, 0);
   return {chain.make(target), first};
 }
 

@@ -6,6 +6,7 @@
 #include "lib/check/tile_cover.h"
 #include "lib/core/parallel.h"
 #include "lib/levels/tiles/tile_pyramid.h"
+#include "lib/levels/voxel_choice.h"
 #include "lib/pass/mesh/surface_around.h"
 #include "tests/catch.h"
 #include "tests/support/each_member.h"
@@ -40,23 +41,22 @@ TilePyramid pyramid(const Triangles& scene, Backends& backends, const Cells& cel
   return TilePyramid(solid.header, std::move(solid.shelf), backends, options);
 }
 
-Level make(TilePyramid& pyramid, const TileParams& params, double scale = 0) {
+/// Makes the tiles of the present level, several at the same time.
+Level make(TilePyramid& pyramid, TileParams params, double scale = 0) {
+  params.scale_world = scale > 0 ? scale : 2 * pyramid.header().frame.voxel;
+  pyramid.add_level(params);
+  const TileJobs jobs(pyramid.tasks(), pyramid.context());
+  std::vector<std::optional<Made>> tiles(jobs.count());
+  parallel_for(std::int64_t(jobs.count()), [&](std::int64_t i) {
+    TileMeasures measures;
+    std::optional<LatticeMesh> mesh = jobs.make(std::size_t(i), pyramid.context(), measures);
+    if (mesh) tiles[std::size_t(i)] = Made{*std::move(mesh), measures};
+  });
   Level level;
-  std::map<CellCoord, LatticeMesh> meshes;
-  std::mutex mutex;
-  pyramid.add_level(
-      scale > 0 ? scale : 2 * pyramid.header().frame.voxel, params,
-      [&](CellCoord cell, const LatticeMesh& mesh) {
-        const std::lock_guard lock(mutex);
-        meshes[cell] = mesh;
-        return std::to_string(cell.x);
-      },
-      [&](LevelTile&& tile) {
-        CHECK(tile.content == std::to_string(tile.cell.x));
-        level[tile.cell].measures = tile.measures;
-      });
-  pyramid.make_tiles();
-  for (auto& [cell, made] : level) made.mesh = std::move(meshes.at(cell));
+  for (std::size_t i = 0; i < tiles.size(); ++i) {
+    if (tiles[i]) level[jobs.cell(i)] = *std::move(tiles[i]);
+  }
+  pyramid.drop_tasks();
   return level;
 }
 
@@ -69,13 +69,6 @@ double volume_of(const Level& level) {
   double volume = 0;
   for (const auto& [cell, made] : level) volume += made.measures.volume;
   return volume;
-}
-
-Bounds3d bounds_of(const VoxelBox& box, const GridFrame& frame) {
-  Bounds3d bounds;
-  for (const VoxelCoord p : {box.min, box.max})
-    bounds.add(frame.world({std::int64_t(p.x) * 64, std::int64_t(p.y) * 64, std::int64_t(p.z) * 64}));
-  return bounds;
 }
 
 /// With a slit in its roof, and a post in it, 26 below the roof; and a plate over several cells.
@@ -253,12 +246,13 @@ TEST_CASE("a tile's key depends on all that decides the tile", "[quick][pass][lo
   add_box(scene, {3, 3, 3}, {40, 30, 20});
   Backends backends = cpu_backends();
   const TriangleBvh* triangles = nullptr;
+  ResultKey inputs;
   const auto keys = [&](const TileShape& shape, double scale = 2, const Cells& cells = kTileCells) {
     Keys store;
     TileParams params;
     params.scene = triangles;
     static_cast<TileShape&>(params) = shape;
-    params.make = false;
+    params.scale_world = scale;
     Voxelized solid = voxelized(scene, 1, cells.edge_vox);
     PyramidOptions options;
     options.cells = cells;
@@ -266,10 +260,11 @@ TEST_CASE("a tile's key depends on all that decides the tile", "[quick][pass][lo
     options.context.make_shelf = memory_shelves();
     options.context.results = &store;
     TilePyramid from(solid.header, std::move(solid.shelf), backends, options);
-    from.add_level(
-        scale, params, [](CellCoord, const LatticeMesh&) { return ""; }, [](LevelTile&&) {});
+    from.add_level(params);
     store.asked.clear();  // of closings
-    from.make_tiles();
+    TileJobs jobs(from.tasks(), from.context());
+    std::optional<KeptTile> none;
+    for (std::size_t i = 0; i < jobs.count(); ++i) CHECK_FALSE(jobs.get(i, inputs, none));
     CHECK_FALSE(store.asked.empty());
     return store.asked;
   };
@@ -278,7 +273,7 @@ TEST_CASE("a tile's key depends on all that decides the tile", "[quick][pass][lo
   const std::set<ResultKey> again = keys(shape);
   CHECK(again == all.front());
   for_each_field(shape, [&](auto& member) {
-    if (static_cast<void*>(&member) == &shape.scale_world) return;  // add_level() sets it
+    if (static_cast<void*>(&member) == &shape.scale_world) return;  // the parameter of keys() is it
     change_each_member(member, [&] { all.push_back(keys(shape)); });
   });
   all.push_back(keys(shape, 3));
@@ -292,6 +287,9 @@ TEST_CASE("a tile's key depends on all that decides the tile", "[quick][pass][lo
     all.push_back(keys(shape));
   }
   triangles = nullptr;
+  inputs.words[1] = 1;
+  all.push_back(keys(shape));
+  inputs = {};
   scene[0][0][0] += 2;
   all.push_back(keys(shape));
   std::size_t sum = 0;
@@ -300,7 +298,7 @@ TEST_CASE("a tile's key depends on all that decides the tile", "[quick][pass][lo
     sum += some.size();
     distinct.insert(some.begin(), some.end());
   }
-  CHECK(all.size() == 1 + (kFieldCount<TileShape> - 1) + 5);
+  CHECK(all.size() == 1 + (kFieldCount<TileShape> - 1) + 6);
   CHECK(distinct.size() == sum);
 }
 

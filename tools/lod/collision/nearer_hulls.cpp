@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <utility>
 
-#include "io/store/scratch.h"
 #include "io/stream/brick_shelf.h"
 #include "lib/grid/shelf_stream.h"
 #include "lib/hulls/convex_budget.h"
 #include "lib/hulls/convex_scene.h"
 #include "lib/hulls/outward_hull.h"
 #include "lib/levels/lod_chain.h"
+#include "lib/pass/voxelize/triangle_list.h"
 #include "tools/lod/choices.h"
 #include "tools/lod/collision/collision_files.h"
 
@@ -19,29 +19,6 @@ namespace {
 
 // The least share of the body's volume: convex parts with less are not worth another body around the rest.
 constexpr double kCounts = 0.05;
-
-class RestSource final : public TriangleSource {
- public:
-  RestSource(const std::vector<TriangleD>& triangles, const Rounding& rounding) : triangles_(triangles) {
-    counts_.rounding = rounding;
-  }
-  bool read(std::vector<TriangleD>& out) override {
-    constexpr std::size_t kAtOnce = 16384;
-    const std::size_t end = std::min(next_ + kAtOnce, triangles_.size());
-    out.assign(triangles_.begin() + std::ptrdiff_t(next_), triangles_.begin() + std::ptrdiff_t(end));
-    next_ = end;
-    counts_.triangles = end;
-    return !out.empty();
-  }
-  void rewind() override { next_ = 0, counts_.triangles = 0; }
-  [[nodiscard]] const SceneCounts& counts() const override { return counts_; }
-  [[nodiscard]] std::string name() const override { return "the rest of the scene"; }
-
- private:
-  const std::vector<TriangleD>& triangles_;
-  std::size_t next_ = 0;
-  SceneCounts counts_;
-};
 
 /// Moves the mesh from the frame of reduced voxels into the frame before `reductions` doublings.
 LatticeMesh in_finer_frame(LatticeMesh mesh, int reductions) {
@@ -55,14 +32,9 @@ LatticeMesh in_finer_frame(LatticeMesh mesh, int reductions) {
 /// Makes a body around the scene's remaining triangles as the chain made the scene's: with the same voxels and the same
 /// target.
 LatticeMesh body_of_rest(Build& build, const MadeChain& chain, std::vector<TriangleD> rest, LodOptions lod) {
-  RestSource source(rest, lod.rounding);
-  VoxelizeOptions v;
-  v.fill = build.options.voxels.fill;
+  TriangleList source("the rest of the scene", rest, lod.rounding);
+  VoxelizeOptions v = voxelize_options(build, {});
   v.up = chain.scene.voxels.header.frame.up;
-  v.context = build.context();
-  v.context.memory.bytes = build.budget.waiting;
-  v.context.make_scratch = [&] { return make_scratch(build.budget.store, build.options.common.temp); };
-  v.tile_memory_bytes = build.budget.tiles;
   v.voxel_size = [&](const Bounds3d&) { return chain.scene.voxels.header.frame.voxel; };
   std::unique_ptr<BrickShelf> solid = build.make_shelf();
   ShelfSink sink(solid.get());
@@ -117,7 +89,7 @@ ConvexParts nearest_hulls(Build& build, const MadeChain& chain) {
   if (!asks_for_faces(request_of(build.options))) limits.loose_faces = kMostCollisionFaces;
   ConvexParts of_body = convex_parts(body, limits);
   if (chain.scene.enclosed != Enclose::scene) return of_body;
-  LodOptions lod = lod_options(build, chain.scene, chain.room);
+  LodOptions lod = complete_options(build, chain.scene, chain.room);
   ConvexScene scene = convex_scene(lod.scene);
   const std::size_t most = most_hulls(limits, of_body.solids);
   const bool counts = scene.rest.empty() || scene.volume > kCounts * chain.made.facts.front().volume;

@@ -40,18 +40,22 @@ double parse_share(const std::string& text) {
   return percent / 100;
 }
 
-Symmetry parse_symmetry(const std::string& text) {
-  for (const Symmetry s : {Symmetry::x, Symmetry::y, Symmetry::z, Symmetry::off, Symmetry::automatic}) {
-    if (text == name_of(s)) return s;
+/// Returns the value that has this name.
+template <class T>
+T parse_named(const std::string& text, std::initializer_list<T> values, const char* names) {
+  for (const T value : values) {
+    if (text == name_of(value)) return value;
   }
-  fail(ErrorCode::bad_argument, "{}: must be auto, x, y, z or off", text);
+  fail(ErrorCode::bad_argument, "{}: must be {}", text, names);
+}
+
+Symmetry parse_symmetry(const std::string& text) {
+  return parse_named(text, {Symmetry::x, Symmetry::y, Symmetry::z, Symmetry::off, Symmetry::automatic},
+                     "auto, x, y, z or off");
 }
 
 HullFiles parse_hull_files(const std::string& text) {
-  for (const HullFiles f : {HullFiles::obj, HullFiles::stl}) {
-    if (text == name_of(f)) return f;
-  }
-  fail(ErrorCode::bad_argument, "{}: must be obj or stl", text);
+  return parse_named(text, {HullFiles::obj, HullFiles::stl}, "obj or stl");
 }
 
 /// Returns numbers as numbers, and percentages as text.
@@ -79,19 +83,10 @@ void take_obj_name(const Args& args, BuildOptions& o) {
 
 /// Tells the files that the profile writes into the folder.
 const char* files_of_profile(LodProfile profile) {
-  switch (profile) {
-    case LodProfile::gltf:
-      return "levels as GLB, or as OBJ with -o DIR/NAME.obj";
-    case LodProfile::tiles:
-      return "tileset.json, and tiles as GLB";
-    case LodProfile::collision:
-      return "bodies as GLB, and hulls as OBJ or STL";
-    case LodProfile::occluder:
-      return "an occluder as GLB";
-    case LodProfile::cage:
-      break;
-  }
-  return "a cage as OBJ and GLB";
+  constexpr const char* kFiles[] = {"levels as GLB, or as OBJ with -o DIR/NAME.obj", "tileset.json, and tiles as GLB",
+                                    "bodies as GLB, and hulls as OBJ or STL", "an occluder as GLB",
+                                    "a cage as OBJ and GLB"};
+  return kFiles[std::size_t(profile)];
 }
 
 void check_output(const BuildOptions& o) {

@@ -7,8 +7,8 @@
 
 #include "io/files/file.h"
 #include "lib/core/error.h"
+#include "lib/levels/cage_voxels.h"
 #include "lib/levels/lod_chain.h"
-#include "lib/levels/margin.h"
 #include "lib/pass/color/vertex_colors.h"
 #include "tools/cli/names.h"
 #include "tools/lod/bake_levels.h"
@@ -103,7 +103,7 @@ void make_levels(Build& build, MadeChain& chain) {
   if (o.proxy.visual) {
     naming_limit([] { check_outputs(); },
                  [&] {
-                   return std::max(levels_limit(build, chain.scene, chain.room),
+                   return std::max(levels_limit(chain.scene, lod_options(build, chain.scene, chain.room)),
                                    SceneLevels::limit(build, chain.scene, targets_of(request)));
                  });
     own.emplace(build, chain.scene, targets_of(request));
@@ -113,7 +113,7 @@ void make_levels(Build& build, MadeChain& chain) {
   }
   if (level_count(request) > 0) {
     build.report.begin("measure the scene");
-    LodOptions options = lod_options(build, chain.scene, chain.room);
+    LodOptions options = complete_options(build, chain.scene, chain.room);
     LodChain levels(header, std::move(voxels.solid), build.backends, std::move(options));
     const ChainRange range{request, 0, level_count(request), diagonal, is_named(voxel_request(o, diagonal))};
     chain.made = make_levels(build, levels, range, {chain.scene, chain.room, nullptr, voxels.counts.input_hash});

@@ -15,8 +15,7 @@
 #include "lib/geometry/triangle_bvh.h"
 #include "lib/geometry/triangle_totals.h"
 #include "lib/grid/shelf_stream.h"
-#include "lib/levels/margin.h"
-#include "lib/levels/symmetry.h"
+#include "lib/levels/cage_voxels.h"
 #include "lib/pass/mesh/scene_check.h"
 #include "lib/quads/limbs.h"
 #include "lib/volume/boundary_runs.h"
@@ -98,18 +97,6 @@ std::unique_ptr<SceneColors> gathered_colors(Build& build, TriangleSource& sourc
   return gather_colors(source, scene.header.frame, *scene.solid, context);
 }
 
-VoxelizeOptions voxelize_options(const Build& build, const ReadOptions& read) {
-  VoxelizeOptions v;
-  v.cell_vox = read.cell_vox;
-  v.fill = build.options.voxels.fill;
-  v.up = build.options.voxels.up;
-  v.context = build.context(read.results);
-  v.context.memory.bytes = build.budget.waiting;
-  v.context.make_scratch = [&] { return make_scratch(build.budget.store, build.options.common.temp); };
-  v.tile_memory_bytes = build.budget.tiles;
-  return v;
-}
-
 /// Reads the scene's triangles again. Returns none if the scene comes from a pipe, or if a fit has too many.
 std::vector<TriangleD> scene_triangles(const Build& build, std::uint64_t triangles) {
   // Independent of the memory, which must not decide what is made.
@@ -148,6 +135,18 @@ LodTarget first_target(const BuildOptions& o, const LodScene& scene, std::size_t
 }
 
 }  // namespace
+
+VoxelizeOptions voxelize_options(const Build& build, const ReadOptions& read) {
+  VoxelizeOptions v;
+  v.cell_vox = read.cell_vox;
+  v.fill = build.options.voxels.fill;
+  v.up = build.options.voxels.up;
+  v.context = build.context(read.results);
+  v.context.memory.bytes = build.budget.waiting;
+  v.context.make_scratch = [&] { return make_scratch(build.budget.store, build.options.common.temp); };
+  v.tile_memory_bytes = build.budget.tiles;
+  return v;
+}
 
 LodScene read_scene(Build& build, const ReadOptions& read) {
   const BuildOptions& o = build.options;
@@ -229,47 +228,39 @@ CageRoom make_room(Build& build, LodScene& scene) {
   return room;
 }
 
-namespace {
-
-/// Returns the options without the scene's triangles.
-LodOptions options_of_chain(const Build& build, const LodScene& scene, const CageRoom& room,
-                            const TilesetSteps& tileset) {
+LodOptions lod_options(const Build& build, const LodScene& scene, const CageRoom& room, double share, std::size_t cut) {
   const BuildOptions& o = build.options;
   LodOptions lod;
   lod.closing.element = o.closing.element;
   lod.mode = o.proxy.mode;
   lod.enclose = scene.enclosed;
-  lod.context = build.context(nullptr, tileset.share);
+  lod.rounding = scene.voxels.counts.scene.rounding;
+  lod.context = build.context(nullptr, share);
   lod.context.progress = refused_with_outputs(std::move(lod.context.progress));
-  if (scene.voxels.solid != nullptr) lod.first = first_target(o, scene, tileset.cut);
+  if (scene.voxels.solid != nullptr) lod.first = first_target(o, scene, cut);
   lod.field = scene.field;
   if (o.is_cage()) lod.cage = CageParams{room.plane, room.limbs};
   return lod;
 }
 
-}  // namespace
-
-std::uint64_t levels_limit(const Build& build, const LodScene& scene, const CageRoom& room,
-                           const TilesetSteps& tileset) {
-  const LodOptions lod = options_of_chain(build, scene, room, tileset);
-  if (tileset.limit) return tileset.limit(lod);
-  BrickShelf* const solid = scene.voxels.solid.get();
-  if (solid == nullptr) return 0;
-  return chain_limit(scene.voxels.header, *solid, lod, lod.context, scene.size.triangles);
-}
-
-LodOptions lod_options(const Build& build, const LodScene& scene, const CageRoom& room, const TilesetSteps& tileset) {
-  const BuildOptions& o = build.options;
-  LodOptions lod = options_of_chain(build, scene, room, tileset);
-  if (o.proxy.mode == MeshMode::fit || scene.enclosed == Enclose::scene)
-    lod.scene = naming_limit([&] { return scene_triangles(build, scene.size.triangles); },
-                             [&] { return levels_limit(build, scene, room, tileset); });
-  lod.rounding = scene.voxels.counts.scene.rounding;
+void take_triangles(const Build& build, const LodScene& scene, LodOptions& lod) {
+  if (lod.mode == MeshMode::fit || lod.enclose == Enclose::scene)
+    lod.scene = scene_triangles(build, scene.size.triangles);
   const bool encloses = lod.mode == MeshMode::bounding && lod.enclose == Enclose::scene;
   if (encloses && scene.voxels.solid != nullptr) {  // else an earlier chain took the voxels, after this test
     require_within(lod.scene, lod.rounding, scene.voxels.header.frame, *scene.voxels.solid);
     lod.is_within = true;
   }
+}
+
+std::uint64_t levels_limit(const LodScene& scene, const LodOptions& lod) {
+  BrickShelf* const solid = scene.voxels.solid.get();
+  return solid == nullptr ? 0 : chain_limit(scene.voxels.header, *solid, lod, lod.context, scene.size.triangles);
+}
+
+LodOptions complete_options(const Build& build, const LodScene& scene, const CageRoom& room) {
+  LodOptions lod = lod_options(build, scene, room);
+  naming_limit([&] { take_triangles(build, scene, lod); }, [&] { return levels_limit(scene, lod); });
   return lod;
 }
 

@@ -1,5 +1,4 @@
 #pragma once
-#include <functional>
 #include <memory>
 #include <optional>
 
@@ -41,6 +40,8 @@ struct ReadOptions {
   bool ground = false;  ///< the scene stands on the ground (tools/run/grounded_source.h); it was read before without
   bool tells_time = false;  ///< tells how long the work will take, since no part of it may have been done before
 };
+/// Returns how a scene of the options is voxelized, but for the size of its voxels.
+[[nodiscard]] VoxelizeOptions voxelize_options(const Build& build, const ReadOptions& read);
 /// Reads and voxelizes the scene of the options. Notes tell about the scene, unless it is read again for the ground.
 [[nodiscard]] LodScene read_scene(Build& build, const ReadOptions& read);
 
@@ -56,20 +57,15 @@ struct CageRoom {
 /// Makes the voxels symmetric if that is wanted, and grows them by the margin of a cage.
 [[nodiscard]] CageRoom make_room(Build& build, LodScene& scene);
 
-/// The levels in one mesh as a part of a whole tileset.
-struct TilesetSteps {
-  double share = 1;     ///< part of the memory for work that they have
-  std::size_t cut = 0;  ///< number of levels before them that are cut
-  /// Returns a limit on memory at which all steps of the tileset fit, for these options; called after a refusal.
-  std::function<std::uint64_t(const LodOptions&)> limit;
-};
-
-/// Returns a limit on memory at which the levels fit, with the steps of `tileset`.
-[[nodiscard]] std::uint64_t levels_limit(const Build& build, const LodScene& scene, const CageRoom& room = {},
-                                         const TilesetSteps& tileset = {});
-
-/// Returns the options of LodChain. Reads the scene once more if levels enclose its triangles or follow them.
-[[nodiscard]] LodOptions lod_options(const Build& build, const LodScene& scene, const CageRoom& room = {},
-                                     const TilesetSteps& tileset = {});
+/// Returns the options of a LodChain, without the scene's triangles. `share`: part of the memory for work that its
+/// levels have. `cut`: number of a tileset's levels before them, which are cut.
+[[nodiscard]] LodOptions lod_options(const Build& build, const LodScene& scene, const CageRoom& room, double share = 1,
+                                     std::size_t cut = 0);
+/// Reads the scene once more, into the options, if levels enclose its triangles or follow them. Throws NeedsMemory.
+void take_triangles(const Build& build, const LodScene& scene, LodOptions& options);
+/// Returns a limit on memory at which the levels of such options fit. 0: not known.
+[[nodiscard]] std::uint64_t levels_limit(const LodScene& scene, const LodOptions& options);
+/// Returns the options with the triangles. A refusal names levels_limit().
+[[nodiscard]] LodOptions complete_options(const Build& build, const LodScene& scene, const CageRoom& room);
 
 }  // namespace bp

@@ -1,9 +1,6 @@
 #include "tools/lod/scene/tileset_memory.h"
 
 #include <algorithm>
-#include <cmath>
-#include <map>
-#include <memory>
 #include <utility>
 
 #include "io/scene/scene_reader.h"
@@ -20,65 +17,17 @@ std::uint64_t bytes_beside_tiles(std::uint64_t triangles) {
 
 namespace {
 
-/// The number of triangles near each cell of the cut levels, by the bounds of the triangles.
-class NearCells {
- public:
-  NearCells(const TilesetPlan& plan, const Cells& cells) : plan_(plan), cells_(cells), counts_(plan.cut.size()) {}
-
-  void add(const TriangleD& triangle) {
-    const Bounds3d bounds = bounds_of(triangle);
-    for (std::size_t level = 0; level < counts_.size(); ++level) add(bounds, plan_.cut[level], counts_[level]);
-  }
-  [[nodiscard]] std::uint64_t operator()(std::size_t level, CellCoord cell) const {
-    const Counts& counts = counts_[level];
-    const auto found = counts.of_cell.find(cell);
-    return counts.everywhere + (found != counts.of_cell.end() ? found->second : 0);
-  }
-
- private:
-  struct Counts {
-    std::map<CellCoord, std::uint64_t> of_cell;
-    std::uint64_t everywhere = 0;  // triangles that lie near very many cells
-  };
-
-  void add(const Bounds3d& bounds, const CutLevel& level, Counts& counts) const {
-    constexpr std::int64_t kVeryMany = 512;
-    const double voxel = level.frame.voxel;
-    const Vec3d origin = level.frame.world_origin();
-    const std::int32_t reach = tile_reach(level.scale_world, voxel) + 1;  // and a voxel for rounding
-    const auto cell_of = [&](const Vec3d& p, std::int32_t by) {
-      VoxelCoord v;
-      for (int i = 0; i < 3; ++i)
-        v[i] =
-            std::int32_t(std::clamp(std::floor((p[std::size_t(i)] - origin[std::size_t(i)]) / voxel), -1e9, 1e9)) + by;
-      return cells_.of(v);
-    };
-    const CellCoord first = cell_of(bounds.min, -reach), last = cell_of(bounds.max, reach);
-    const std::int64_t many = (std::int64_t(last.x) - first.x + 1) * (std::int64_t(last.y) - first.y + 1) *
-                              (std::int64_t(last.z) - first.z + 1);
-    if (many > kVeryMany) {
-      ++counts.everywhere;
-      return;
-    }
-    for (std::int32_t z = first.z; z <= last.z; ++z)
-      for (std::int32_t y = first.y; y <= last.y; ++y)
-        for (std::int32_t x = first.x; x <= last.x; ++x) ++counts.of_cell[{x, y, z}];
-  }
-
-  const TilesetPlan& plan_;
-  const Cells cells_;
-  std::vector<Counts> counts_;
-};
-
 /// Reads the scene once more, without holding it. Returns nothing if it cannot be read again.
-std::function<std::uint64_t(std::size_t, CellCoord)> near_cells(const Build& build, const TilesetPlan& plan,
-                                                                const Cells& cells) {
+std::vector<CellCounts> near_cells(const Build& build, const TilesetPlan& plan, const Cells& cells) {
   if (!can_read_again(build.options)) return {};
-  const auto near = std::make_shared<NearCells>(plan, cells);
+  std::vector<CellCounts> near(plan.cut.size());
   const auto source = open_scenes(build.options.voxels.scenes, build.scene_options(true));
-  for (std::vector<TriangleD> chunk; source->read(chunk);)
-    for (const TriangleD& triangle : chunk) near->add(triangle);
-  return [near](std::size_t level, CellCoord cell) { return (*near)(level, cell); };
+  for (std::vector<TriangleD> chunk; source->read(chunk);) {
+    for (const TriangleD& triangle : chunk) {
+      for (std::size_t i = 0; i < near.size(); ++i) add_near(plan.cut[i], cells, bounds_of(triangle), near[i]);
+    }
+  }
+  return near;
 }
 
 }  // namespace

@@ -13,6 +13,11 @@
 
 namespace bp {
 
+/// Returns bytes as a text, as files are written.
+[[nodiscard]] inline std::string text_of(const std::vector<std::byte>& bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
 /// The image files that contents of a tileset share: those of the scene, byte for byte, and smaller ones of them for
 /// contents that are seen from afar. Names are hashes of the contents, so that a changed image gets another name.
 /// Thread-safe.

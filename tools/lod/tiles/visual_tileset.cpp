@@ -5,8 +5,7 @@
 #include <cmath>
 
 #include "io/files/file.h"
-#include "io/store/scratch.h"
-#include "io/tiles/tileset_file.h"
+#include "lib/pass/leaf/scene_tiles.h"
 #include "tools/lod/bake_levels.h"
 #include "tools/lod/explain.h"
 #include "tools/lod/kept_results.h"
@@ -23,20 +22,11 @@ void build_visual_tileset(const BuildOptions& o) {
   const LodScene scene = measure_scene(build);
   build.report.begin("looks");
   const std::unique_ptr<SceneLooks> looks = read_looks(build, scene, part_of(build.budget.work, kLooksBeside));
-  build.report.begin("tiles");
-  const std::unique_ptr<Scratch> files = make_scratch(build.budget.store, o.common.temp);
-  VisualTiles tiles(build, scene, *looks, *files, results.get());
-  tiles.make();
-  build.progress.end();
-  if (!fault.empty()) build.note(fault + "; what is not in the cache was made, and is not kept");
-  for (const std::string& text : tiles.notes()) build.note(text);
-  build.report.begin("write");
-  tiles.write_to(folder);
-  folder.write("tileset.json", tileset_text(tiles.tileset(), tiles.provenance()));
+  const std::vector<LevelRow> rows = write_visual_tiles(build, scene, *looks, results.get(), fault, folder);
   folder.commit();
   if (!folder.complaint().empty())
     build.note(folder.complaint() + "; tiles of the tileset that was there before are not known, and stay");
-  finish(build, scene.told(), tiles.rows(), folder.bytes());
+  finish(build, scene.told(), rows, folder.bytes());
 }
 
 void explain_visual_tileset(const BuildOptions& o) {

@@ -1,6 +1,5 @@
 #include "lib/pass/mesh/detail/fit_target.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "lib/core/vec3.h"

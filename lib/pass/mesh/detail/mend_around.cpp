@@ -22,7 +22,6 @@ namespace bp {
 
 namespace {
 
-constexpr std::int64_t kGrain = 256;
 constexpr double kKept = 0x1p-24;  // part of a voxel
 // Distance from an apex to the planes around it, lattice units: more than rounding moves it.
 constexpr double kAbove = 2;
@@ -55,7 +54,7 @@ class SceneBoxes {
   SceneBoxes(std::span<const TriangleD> triangles, const Rounding& rounding, const GridFrame& frame)
       : triangles_(triangles), rounding_(rounding), kept_(rounding.any() ? kKept * frame.voxel : 0) {
     boxes_.resize(triangles.size());
-    parallel_ranges(std::int64_t(boxes_.size()), kGrain, [&](std::int64_t begin, std::int64_t end) {
+    parallel_ranges(std::int64_t(boxes_.size()), kItemsAtOnce, [&](std::int64_t begin, std::int64_t end) {
       for (auto i = std::size_t(begin); i < std::size_t(end); ++i)
         boxes_[i] = lattice_box(triangles[i], frame, kept_from(triangles[i]) * kLatticePerVoxel / frame.voxel);
     });
@@ -116,7 +115,7 @@ void mark_faults(const LatticeMesh& mesh, const FaceTree& tree, const SceneBoxes
     const TriangleD face = world_face(mesh, f);
     if (!scene.tree().query(box, [&](std::uint32_t t) { return !scene.touches(t, face); })) faulty[f] = 1;
   };
-  parallel_ranges(std::int64_t(mesh.triangles.size()), kGrain, [&](std::int64_t begin, std::int64_t end) {
+  parallel_ranges(std::int64_t(mesh.triangles.size()), kItemsAtOnce, [&](std::int64_t begin, std::int64_t end) {
     for (auto f = std::uint32_t(begin); f < std::uint32_t(end); ++f) {
       if (doubtful[f] != 0) mark(f);
     }

@@ -1,4 +1,4 @@
-#include "lib/pass/mesh/detail/mesh_measures.h"
+#include "lib/pass/mesh/mesh_measures.h"
 
 #include <algorithm>
 #include <cmath>
@@ -72,7 +72,8 @@ MeshMeasures measure(const LatticeMesh& mesh) {
   m.shells = shells_in(mesh);
   // Euler's formula: V - E + F = 2 (shells - handles), with E = 3 F / 2.
   m.handles = (2 * m.shells + mesh.triangles.size() / 2 - mesh.vertices.size()) / 2;
-  double shortest = HUGE_VAL, longest = 0, sum = 0, angle = M_PI;
+  m.angle_min_degrees = 180;
+  double shortest = HUGE_VAL, longest = 0, sum = 0;
   for (const auto& t : mesh.triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
       const LatticeCoord &a = mesh.vertices[t[k]], &b = mesh.vertices[t[(k + 1) % 3]],
@@ -81,15 +82,13 @@ MeshMeasures measure(const LatticeMesh& mesh) {
       shortest = std::min(shortest, edge);
       longest = std::max(longest, edge);
       sum += edge;
-      angle =
-          std::min(angle, std::atan2(length(to_double(normal_of(a, b, c))), dot(to_double(b - a), to_double(c - a))));
+      m.angle_min_degrees = std::min(m.angle_min_degrees, angle_degrees(a, b, c));
     }
   }
   const double unit = mesh.frame.voxel / kLatticePerVoxel;
   m.edge_min = shortest * unit;
   m.edge_max = longest * unit;
   m.edge_mean = sum / (3 * double(mesh.triangles.size())) * unit;
-  m.angle_min_degrees = angle * 180 / M_PI;
   if (!mesh.quads.empty()) m.quads = measure_quads(mesh, m.volume);
   return m;
 }
