@@ -171,6 +171,8 @@ BuiltOccluder make(Build& build) {
   const LevelRequest levels = request_of(o, header.bounds.diagonal(), header.frame.voxel);
   const OccluderRequest request{
       levels.faces.empty() ? 0 : levels.faces.front(), levels.scale_world, {0, o.closing.element, build.context()}};
+  naming_limit([] { check_outputs(); },
+               [&] { return occluder_limit_before(header, *built.scene.voxels.solid, request); });
   const auto hidden_of = [&](const VoxelizedScene& scene, const char* pass) {
     build.report.begin("close openings");
     return hidden_scene(scene.header, *scene.solid, build.backends, request, pass);
