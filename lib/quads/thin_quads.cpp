@@ -58,6 +58,7 @@ class Thinner {
         left_(quads_.size()),
         mesh_(cage.mesh),
         kept_(mesh_, enclosed),
+        is_target_(mesh_.vertex_capacity(), 0),
         changed_(mesh_.vertex_capacity(), 0) {
     kept_.give_contacts(false);
     kept_.allow_flips(true);
@@ -128,6 +129,7 @@ class Thinner {
       if (!alive_[q] || std::any_of(quads_[q].begin(), quads_[q].end(), [&](VertexId v) { return touched_[v] != 0; }))
         return false;
     }
+    for (const auto& [from, to] : into_) is_target_[to] = 0;
     into_.clear();
     renamed_.clear();
     editor_->begin_undo();
@@ -248,13 +250,15 @@ class Thinner {
   }
 
   bool merge_at(VertexId a, VertexId d, const LatticeCoord& to) {
-    if (!mesh_.vertex_alive(a) || !mesh_.vertex_alive(d)) return false;
+    // A strip may cross its image. A vertex that another one was merged into must stay, since into_ names it.
+    if (!mesh_.vertex_alive(a) || !mesh_.vertex_alive(d) || is_target_[d]) return false;
     HalfEdgeId edge = kNoId;
     mesh_.for_each_outgoing(a, [&](HalfEdgeId h) {
       if (mesh_.to(h) == d) edge = h;
     });
     if (edge == kNoId || !kept_.allows_corner(d, to) || !editor_->collapse(edge, to)) return false;
     into_.push_back({d, a});
+    is_target_[a] = 1;
     return true;
   }
 
@@ -300,8 +304,9 @@ class Thinner {
   HalfEdgeMesh mesh_;
   EnclosedByPairs kept_;
   std::optional<ProxyEditor> editor_;
-  // The next two belong to the strip that is being removed.
+  // The next three belong to the strip that is being removed.
   std::vector<std::array<VertexId, 2>> into_;                 // what merged into what
+  std::vector<char> is_target_;                               // by vertex: another one was merged into it
   std::vector<std::pair<std::uint32_t, Quad>> renamed_;       // quads as they were
   std::map<std::vector<std::uint32_t>, std::size_t> failed_;  // by quads of a strip: changes_ when it failed
   std::size_t changes_ = 0;                                   // strips that were removed
