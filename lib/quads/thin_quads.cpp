@@ -69,10 +69,13 @@ class Thinner {
 
   /// Removes strips until `goal` quads are left, or as many as are possible. `last`: the number for the whole cage.
   CellQuads run(std::size_t goal, std::size_t last, int most_worse) {
-    std::size_t before = left_ + 1;
-    while (left_ > goal && left_ < before) {
-      before = left_;
+    while (left_ > goal) {
+      const std::size_t before = left_;
+      const bool anew = failed_.empty();
       round(goal, last, most_worse);
+      if (left_ < before) continue;
+      if (anew) break;
+      failed_.clear();  // what was in the way of a strip may have gone elsewhere
     }
     return result();
   }
