@@ -259,6 +259,7 @@ bp::WallVoxels stream_walls(const Options& o, const std::string& in, const bp::L
   if (walls.header.fill == bp::FillMode::inside)
     bp::fail(bp::ErrorCode::bad_input, "{}: holds the inside without its walls (--fill inside); give --leaks the scene",
              in == "-" ? "stdin" : in);
+  bp::require_leak_memory(walls.header, memory.search);
   bp::CoarseView cells(walls.header.bricks);
   for (bp::Brick brick; source.read(brick);) {
     if (picture.wanted()) cells.add(brick);
@@ -295,7 +296,7 @@ void show_leaks(const Options& o, const std::string& in, bp::Picture& picture) {
     bp::fail(bp::ErrorCode::bad_argument, "a scene from stdin is read once; --leaks with --image takes a file");
   const bp::LeakMemory memory(o.common.memory_bytes);
   const bp::WallVoxels walls = stream ? stream_walls(o, in, memory, picture) : bp::wall_voxels(o.voxels, o.common);
-  const bp::BitBox voxels = bp::dense_voxels(walls, memory.search);
+  const bp::BitBox voxels = bp::dense_voxels(walls);
   bp::LeakInfo info = bp::leak_info(walls.header, voxels, memory.search);
   bp::SceneOptions how;
   how.temp_dir = o.common.temp;

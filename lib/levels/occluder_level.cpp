@@ -1,5 +1,6 @@
 #include "lib/levels/occluder_level.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -18,6 +19,7 @@ namespace {
 constexpr double kAsMuch = 0.95;
 // Standing on the ground must multiply what is hidden by more than this.
 constexpr double kGroundGains = 1.25;
+constexpr double kSidesOfWall = 2;    // the surface of walls, over that of what they hide
 constexpr double kLeastTriedVox = 2;  // the least scale that is tried
 // The largest scales that are tried, as parts of the scene's diagonal.
 constexpr double kMostScale = 1.0 / 16, kMostOpening = 1.0 / 8;
@@ -259,6 +261,18 @@ bool may_gain_on_ground(const StreamHeader& header, std::uint64_t without) {
 std::uint64_t occluder_limit(const StreamHeader& header, const HiddenScene& hidden, const OccluderRequest& request) {
   ShelfSource shelf(header_of(header, hidden, 0), *hidden.voxels.voxels, nullptr, ShelfSource::Keep::all);
   return mesh_limit(shelf, request.hidden.context, params_of(request.faces, MeshParams::kLeastPart), 0);
+}
+
+std::uint64_t occluder_limit_before(const StreamHeader& header, BrickShelf& touched, const OccluderRequest& request) {
+  StreamHeader around = header;
+  around.bricks = bricks_around(touched);
+  around.fill = FillMode::inside;
+  ShelfSource shelf(around, touched, nullptr, ShelfSource::Keep::all);
+  const double scale = request.scale_world ? *request.scale_world : largest_scale(header);
+  const std::uint64_t both = mesh_limit(shelf, request.hidden.context, params_of(request.faces, kLeastPart), 0);
+  const MemoryLimit& limit = request.hidden.context.memory.limit;
+  const auto rest = double(MemoryLimit{both, limit.fixed_bytes}.rest_bytes());
+  return std::max(limit.for_rest(rest / kSidesOfWall), hidden_limit(header, at_scale(request.hidden, scale)));
 }
 
 MadeOccluder make_occluder(const StreamHeader& header, const HiddenScene& hidden, Backends& backends,

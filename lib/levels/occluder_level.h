@@ -58,6 +58,10 @@ struct MadeOccluder {
 /// Returns a limit on memory at which make_occluder() has enough for its first mesh, which is the largest.
 [[nodiscard]] std::uint64_t occluder_limit(const StreamHeader& header, const HiddenScene& hidden,
                                            const OccluderRequest& request);
+/// Returns a limit on memory at which hidden_scene() and make_occluder() most likely have enough, before anything is
+/// closed: the voxels of the scene are walls with two sides, and what they hide has the surface of one.
+[[nodiscard]] std::uint64_t occluder_limit_before(const StreamHeader& header, BrickShelf& touched,
+                                                  const OccluderRequest& request);
 /// Makes the mesh inside the hidden voxels, which must not be empty. Small and narrow parts are left out if the faces
 /// hide more without them.
 [[nodiscard]] MadeOccluder make_occluder(const StreamHeader& header, const HiddenScene& hidden, Backends& backends,

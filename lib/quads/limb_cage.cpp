@@ -1,7 +1,6 @@
 #include "lib/quads/limb_cage.h"
 
 #include "lib/quads/quad_cage.h"
-#include "lib/quads/thin_quads.h"
 
 namespace bp {
 
@@ -19,7 +18,7 @@ constexpr FineCage kFineCages[] = {{2, Thinning::strips}, {1, Thinning::singles}
 
 LatticeMesh cage_with_limbs(const BrickShelf& voxels, const GridFrame& frame, const Enclosed& enclosed,
                             std::uint64_t faces, const std::optional<MirrorPlane>& plane, const Limbs& model,
-                            CageFit& fit) {
+                            CageFit& fit, const ThinningSteps& steps) {
   LatticeMesh best;
   const auto propose = [&](const CellQuads& quads) {
     if (quads.mesh.triangles.empty()) return;
@@ -33,7 +32,10 @@ LatticeMesh cage_with_limbs(const BrickShelf& voxels, const GridFrame& frame, co
   if (best.triangles.empty()) return {};
   for (const FineCage& fine : kFineCages) {
     if (fit.joined.empty()) break;
-    propose(thinned(cube_quads(voxels, frame, fine.units, plane), enclosed, faces, plane, fine.thinning));
+    const Thinned thin =
+        thinned(cube_quads(voxels, frame, fine.units, plane), enclosed, faces, plane, fine.thinning, steps);
+    if (thin.is_hopeless) break;
+    propose(thin.cage);
   }
   return best;
 }

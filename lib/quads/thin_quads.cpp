@@ -6,6 +6,8 @@
 #include <map>
 #include <set>
 
+#include "lib/core/disjoint_sets.h"
+#include "lib/core/parallel.h"
 #include "lib/mesh/lattice_geometry.h"
 #include "lib/quads/detail/enclosed_by_pairs.h"
 #include "lib/quads/detail/skin.h"
@@ -19,6 +21,15 @@ namespace {
 constexpr double kPerStage = 0.6;        // a stage leaves at least this share of the quads, then the mesh is evened out
 constexpr double kPerSingles = 0.9;      // like kPerStage, for a stage that came after one without progress
 constexpr double kLeastProgress = 0.98;  // a stage that leaves more of the quads made no progress
+// Thinning is given up before it begins if there are fewer quads for each part and each hole than these: twice those of
+// a cube, and of a ring with four corners.
+constexpr std::size_t kQuadsOfPart = 12, kQuadsOfHole = 16;
+// Thinning is given up where a stage stops short of its goal with more quads left than this share of those at first and
+// than so many times the number wanted: what stands in the way keeps most of them. A beam with seven slanted legs stops
+// at 0.15 and twice the number; soups of 150 triangles at 0.22 and four times.
+constexpr double kHopelessShare = 0.125, kHopelessTimes = 3;
+// Thinning is given up once all its stages together had so many times the quads of the first; that beam takes 4.0.
+constexpr double kMostWork = 6;
 // The edges that may be missing or too many after a single quad went. After a stage without progress the next one
 // counts, until none is left.
 constexpr int kNoSingles = -100;
@@ -58,6 +69,7 @@ class Thinner {
         left_(quads_.size()),
         mesh_(cage.mesh),
         kept_(mesh_, enclosed),
+        is_target_(mesh_.vertex_capacity(), 0),
         changed_(mesh_.vertex_capacity(), 0) {
     kept_.give_contacts(false);
     kept_.allow_flips(true);
@@ -68,10 +80,13 @@ class Thinner {
 
   /// Removes strips until `goal` quads are left, or as many as are possible. `last`: the number for the whole cage.
   CellQuads run(std::size_t goal, std::size_t last, int most_worse) {
-    std::size_t before = left_ + 1;
-    while (left_ > goal && left_ < before) {
-      before = left_;
+    while (left_ > goal) {
+      const std::size_t before = left_;
+      const bool anew = failed_.empty();
       round(goal, last, most_worse);
+      if (left_ < before) continue;
+      if (anew) break;
+      failed_.clear();  // what was in the way of a strip may have gone elsewhere
     }
     return result();
   }
@@ -97,6 +112,7 @@ class Thinner {
     const auto most = std::size_t(kPerRound * double(strips.size())) + 1;
     std::size_t removed = 0;
     for (std::size_t i = 0; i < strips.size() && left_ > goal && (i < most || removed == 0); ++i) {
+      stop_if_asked();
       if (has_failed(strips[i])) continue;
       removed += remove(strips[i]);
     }
@@ -128,6 +144,7 @@ class Thinner {
       if (!alive_[q] || std::any_of(quads_[q].begin(), quads_[q].end(), [&](VertexId v) { return touched_[v] != 0; }))
         return false;
     }
+    for (const auto& [from, to] : into_) is_target_[to] = 0;
     into_.clear();
     renamed_.clear();
     editor_->begin_undo();
@@ -248,13 +265,15 @@ class Thinner {
   }
 
   bool merge_at(VertexId a, VertexId d, const LatticeCoord& to) {
-    if (!mesh_.vertex_alive(a) || !mesh_.vertex_alive(d)) return false;
+    // A strip may cross its image. A vertex that another one was merged into must stay, since into_ names it.
+    if (!mesh_.vertex_alive(a) || !mesh_.vertex_alive(d) || is_target_[d]) return false;
     HalfEdgeId edge = kNoId;
     mesh_.for_each_outgoing(a, [&](HalfEdgeId h) {
       if (mesh_.to(h) == d) edge = h;
     });
     if (edge == kNoId || !kept_.allows_corner(d, to) || !editor_->collapse(edge, to)) return false;
     into_.push_back({d, a});
+    is_target_[a] = 1;
     return true;
   }
 
@@ -300,8 +319,9 @@ class Thinner {
   HalfEdgeMesh mesh_;
   EnclosedByPairs kept_;
   std::optional<ProxyEditor> editor_;
-  // The next two belong to the strip that is being removed.
+  // The next three belong to the strip that is being removed.
   std::vector<std::array<VertexId, 2>> into_;                 // what merged into what
+  std::vector<char> is_target_;                               // by vertex: another one was merged into it
   std::vector<std::pair<std::uint32_t, Quad>> renamed_;       // quads as they were
   std::map<std::vector<std::uint32_t>, std::size_t> failed_;  // by quads of a strip: changes_ when it failed
   std::size_t changes_ = 0;                                   // strips that were removed
@@ -326,24 +346,46 @@ std::vector<Vec3d> relax(CellQuads& cage, const Enclosed& enclosed, const std::o
   return tight;
 }
 
+/// Returns the quads below which a mesh with the parts and holes of this one has no shape to speak of.
+std::size_t least_quads(const CellQuads& cage) {
+  DisjointSets parts(cage.mesh.vertices.size());
+  for (const auto& [a, b, c] : cage.mesh.triangles) {
+    parts.unite(a, b);
+    parts.unite(b, c);
+  }
+  std::size_t count = 0;
+  for (std::uint32_t v = 0; v < parts.size(); ++v) count += parts.find(v) == v;
+  // Each part has vertices + quads - edges = 2 - 2 holes, and two edges for each quad.
+  const std::size_t holes = (2 * count + cage.mesh.quads.size() - cage.mesh.vertices.size()) / 2;
+  return kQuadsOfPart * count + kQuadsOfHole * holes;
+}
+
 }  // namespace
 
-CellQuads thinned(CellQuads cage, const Enclosed& enclosed, std::uint64_t faces,
-                  const std::optional<MirrorPlane>& plane, Thinning thinning) {
+Thinned thinned(CellQuads cage, const Enclosed& enclosed, std::uint64_t faces, const std::optional<MirrorPlane>& plane,
+                Thinning thinning, const ThinningSteps& steps) {
   const auto& worse = thinning == Thinning::strips ? kWorseAfterStrips : kWorseOfSingles;
-  const std::size_t last = faces / 2;
+  const std::size_t first = cage.mesh.quads.size(), last = faces / 2;
+  const double hopeless = std::max(kHopelessShare * double(first), kHopelessTimes * double(last));
+  if (first > last && least_quads(cage) > last) return {{}, true};
   std::vector<Vec3d> tight = relax(cage, enclosed, plane);
+  double work = 0;
   for (std::size_t step = 0; cage.mesh.quads.size() > last;) {
     const std::size_t before = cage.mesh.quads.size();
+    work += double(before);
+    if (steps) steps(first - before, first - last);
+    if (work > kMostWork * double(first)) return {{}, true};
     const auto goal = std::max(last, std::size_t((step == 0 ? kPerStage : kPerSingles) * double(before)));
     cage = Thinner(cage, std::move(tight), enclosed, plane).run(goal, last, worse[step]);
-    if (double(cage.mesh.quads.size()) <= kLeastProgress * double(before))
+    const std::size_t left = cage.mesh.quads.size();
+    if (left > goal && double(left) > hopeless) return {{}, true};
+    if (double(left) <= kLeastProgress * double(before))
       step = 0;
     else if (++step == worse.size())
       return {};
     tight = relax(cage, enclosed, plane);
   }
-  return cage;
+  return {std::move(cage), false};
 }
 
 }  // namespace bp

@@ -11,4 +11,9 @@ void dilate(BitBox& voxels, std::int32_t reach);
 /// same box. Cost: one pass over the words, and a second box for a moment.
 bool dilate_over_faces(const BitBox& within, BitBox& voxels);
 
+/// Grows `seeds` within `solid`, which holds them, over faces of voxels. Afterwards `seeds` is the union of those
+/// connected parts of `solid` that hold a seed. Both have the same box. Cost: sweeps over the words of the box, forth
+/// and back, until nothing changes; few unless parts wind.
+void grow_within(const BitBox& solid, BitBox& seeds);
+
 }  // namespace bp

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/files/file.h"
 #include "io/scene/part_names.h"
 #include "io/scene/scene_reader.h"
 #include "io/stream/brick_shelf.h"
@@ -23,10 +24,10 @@ namespace bp {
 
 namespace {
 
-constexpr std::size_t kMostLeaks = 10;    // leaks that are told
-constexpr double kSearchShare = 0.6;      // part of the memory; the bricks take another
-constexpr double kDenseShare = 1.0 / 16;  // part of the search's memory for the voxels that it is given
-constexpr double kBesideOpening = 1.733;  // sqrt(3), rounded up: cubes reach so much farther at an angle
+constexpr std::size_t kMostLeaks = kMostTrials;  // leaks that are told
+constexpr double kSearchShare = 0.6;             // part of the memory; the bricks take another
+constexpr double kDenseShare = 1.0 / 16;         // part of the search's memory for the voxels that it is given
+constexpr double kBesideOpening = 1.733;         // sqrt(3), rounded up: cubes reach so much farther at an angle
 
 std::string row_text(const PlacedLeak& leak, const GridFrame& frame, std::size_t number) {
   return fmt::format(
@@ -42,7 +43,7 @@ Json row_json(const PlacedLeak& leak, const GridFrame& frame) {
           {"width", leak.width * frame.voxel},
           {"width_voxels", leak.width},
           {"least_scale", closing_scale(leak, frame)},
-          {"shut_when_tried", leak.shut_at > 0},
+          {"shut_when_tried", leak.trial.answer == ShutTrial::Answer::shut},
           {"inside", middle_of(leak.inner, frame)},
           {"outside", middle_of(leak.outer, frame)},
           {"parts", leak.parts},
@@ -60,6 +61,7 @@ WallVoxels wall_voxels(VoxelOptions voxels, const CommonOptions& common) {
   voxels.fill = FillMode::none;
   if (!voxels.voxel && !voxels.resolution) voxels.resolution = kOccluderResolution;
   const VoxelizeBudget budget(common.memory_bytes);
+  const LeakMemory memory(common.memory_bytes);
   SceneOptions how{voxels.format, budget.reader, common.temp};
   how.document = document_budget(common.memory_bytes, kVoxelProgram, voxels.scenes.size());
   how.walls_only = how.keep_degenerate = true;
@@ -71,6 +73,7 @@ WallVoxels wall_voxels(VoxelOptions voxels, const CommonOptions& common) {
   const VoxelizeCounts counts = voxelize_stream(
       *source,
       [&](const StreamHeader& header, const VoxelizeCounts&) -> BrickSink& {
+        require_leak_memory(header, memory.search);
         walls.header = header;
         return sink;
       },
@@ -79,17 +82,21 @@ WallVoxels wall_voxels(VoxelOptions voxels, const CommonOptions& common) {
   return walls;
 }
 
-BitBox dense_voxels(const WallVoxels& walls, const MemoryShare& memory) {
+void require_leak_memory(const StreamHeader& header, const MemoryShare& memory) {
+  const VoxelBox bounds = voxel_bounds(header.frame, header.bounds);
+  const MemoryShare dense = part_of(memory, kDenseShare), search = part_of(memory, 1 - kDenseShare);
+  const auto voxels = std::uint64_t(voxels_of(bricks_of(bounds)).volume() / 8);
+  const std::uint64_t searched = leaks_bytes(bounds);
+  if (voxels > dense.bytes || searched > search.bytes)  // the number is for both steps
+    throw NeedsMemory("looking for leaks", voxels + searched, memory.bytes,
+                      std::max(dense.limit_for(voxels), search.limit_for(searched)), {Remedy::larger_voxels});
+  check_outputs();
+}
+
+BitBox dense_voxels(const WallVoxels& walls) {
   BrickBox bricks;
   for (const BrickCoord at : walls.bricks->coords())
     bricks = hull(bricks, BrickBox{at, {at.x + 1, at.y + 1, at.z + 1}});
-  const MemoryShare part = part_of(memory, kDenseShare);
-  const auto needed = std::uint64_t(voxels_of(bricks).volume() / 8);
-  const MemoryShare search = part_of(memory, 1 - kDenseShare);
-  const std::uint64_t searched = leaks_bytes(voxel_bounds(walls.header.frame, walls.header.bounds));
-  if (needed > part.bytes || searched > search.bytes)  // the number is for both steps
-    throw NeedsMemory("looking for leaks", needed + searched, memory.bytes,
-                      std::max(part.limit_for(needed), search.limit_for(searched)), {Remedy::larger_voxels});
   BitBox voxels(voxels_of(bricks));
   load_voxels(*walls.bricks, voxels);
   return voxels;
@@ -97,7 +104,8 @@ BitBox dense_voxels(const WallVoxels& walls, const MemoryShare& memory) {
 
 LeakInfo leak_info(const StreamHeader& header, const BitBox& walls, const MemoryShare& memory) {
   const GridFrame& frame = header.frame;
-  GroundedLeaks found = find_grounded_leaks(walls, ground_of(frame), part_of(memory, 1 - kDenseShare));
+  GroundedLeaks found =
+      find_grounded_leaks(walls, ground_of(frame), {part_of(memory, 1 - kDenseShare), kMostLeaks, {}});
   LeakInfo info{frame, {}, 0, 0, double(found.closed_voxels) * std::pow(frame.voxel, 3), found.on_ground};
   info.is_filled = header.fill != FillMode::none;
   for (const Leak& leak : found.leaks) {

@@ -27,11 +27,15 @@ struct LeakMemory {
   explicit LeakMemory(std::uint64_t memory);
 };
 
+/// Throws NeedsMemory, or the refusal of outputs that waits, if `memory` is too little for dense_voxels() and
+/// leak_info() of voxels with this header: before these are made or read.
+void require_leak_memory(const StreamHeader& header, const MemoryShare& memory);
+
 /// Voxelizes a scene as bplod does for an occluder: 512 voxels along its longest side unless another size is asked for,
-/// without what can be seen through, and without filling. Throws as voxelize_stream().
+/// without what can be seen through, and without filling. Throws as voxelize_stream(), and as require_leak_memory().
 [[nodiscard]] WallVoxels wall_voxels(VoxelOptions voxels, const CommonOptions& common);
-/// Returns all voxels in one box. Throws NeedsMemory if `memory` is too little for them or for leak_info().
-[[nodiscard]] BitBox dense_voxels(const WallVoxels& walls, const MemoryShare& memory);
+/// Returns all voxels in one box.
+[[nodiscard]] BitBox dense_voxels(const WallVoxels& walls);
 
 struct PlacedLeak : Leak {
   /// The parts of the scene with a triangle that bounds the opening. Empty: the scene has no names, or cannot be read

@@ -62,19 +62,20 @@ Json json_of(const BuildOptions& o, const BuiltOccluder& built) {
           {"parts_dropped", counts.dropped_parts}};
 }
 
-/// Returns where the scene leaks; nothing without the memory to look for it.
-std::optional<GroundedLeaks> leaks_of(const Build& build, const VoxelizedScene& scene) {
+/// Returns where the scene leaks; nothing without the memory to look for it. Closings are tried around so many leaks.
+std::optional<GroundedLeaks> leaks_of(Build& build, const VoxelizedScene& scene, std::size_t trials) {
   const VoxelBox bounds = voxel_bounds(scene.header.frame, scene.header.bounds);
   const MemoryShare& work = build.budget.work;
   if (leaks_bytes(bounds) + std::uint64_t(bounds.volume() / 4) > work.bytes) return {};
+  build.report.begin("look for leaks");
   BitBox walls(bounds);
   load_voxels(*scene.solid, walls);
-  return find_grounded_leaks(walls, ground_of(scene.header.frame), work);
+  return find_grounded_leaks(walls, ground_of(scene.header.frame), {work, trials, build.context().progress});
 }
 
 /// Returns "; " and a sentence about the largest leak.
-std::string leak_clause(const Build& build, const VoxelizedScene& scene) {
-  const std::optional<GroundedLeaks> found = leaks_of(build, scene);
+std::string leak_clause(Build& build, const VoxelizedScene& scene) {
+  const std::optional<GroundedLeaks> found = leaks_of(build, scene, 1);
   if (!found) return "; bpinfo --leaks tells where, with more --memory";
   if (found->leaks.empty()) return "; it has no room that is wider than the way into it";
   return "; " + leak_sentence(found->leaks.front(), scene.header.frame) + " (bpinfo --leaks shows it)";
@@ -82,10 +83,10 @@ std::string leak_clause(const Build& build, const VoxelizedScene& scene) {
 
 /// Returns a note if the scale that was asked for fills rooms that a smaller one would enclose, and these are more than
 /// all that is hidden.
-std::string filled_note(const Build& build, const BuiltOccluder& built) {
+std::string filled_note(Build& build, const BuiltOccluder& built) {
   const GridFrame& frame = built.scene.voxels.header.frame;
   const double scale = built.hidden.scale_world;
-  const std::optional<GroundedLeaks> found = leaks_of(build, built.scene.voxels);
+  const std::optional<GroundedLeaks> found = leaks_of(build, built.scene.voxels, 0);
   std::size_t rooms = 0;
   double volume = 0, below = 0;
   for (std::size_t i = 0; found && i < found->leaks.size(); ++i) {
@@ -125,7 +126,7 @@ std::string apart_note(const BuiltOccluder& built) {
 }
 
 /// Throws `failed` if the occluder holds less than --min-hidden.
-void require_hidden(const Build& build, const BuiltOccluder& built, double volume) {
+void require_hidden(Build& build, const BuiltOccluder& built, double volume) {
   const double share = volume / volume_of(built.scene.voxels.header.bounds);
   if (!(share < build.options.min_hidden)) return;
   fail(ErrorCode::failed, "the occluder holds {:.2g} % of the scene's bounding box, less than --min-hidden {:.4g}%{}",
@@ -169,6 +170,8 @@ BuiltOccluder make(Build& build) {
   const LevelRequest levels = request_of(o, header.bounds.diagonal(), header.frame.voxel);
   const OccluderRequest request{
       levels.faces.empty() ? 0 : levels.faces.front(), levels.scale_world, {0, o.closing.element, build.context()}};
+  naming_limit([] { check_outputs(); },
+               [&] { return occluder_limit_before(header, *built.scene.voxels.solid, request); });
   const auto hidden_of = [&](const VoxelizedScene& scene, const char* pass) {
     build.report.begin("close openings");
     return hidden_scene(scene.header, *scene.solid, build.backends, request, pass);

@@ -20,7 +20,7 @@ GroundSide ground_of(const GridFrame& frame) {
 }
 
 double closing_scale(const Leak& leak, const GridFrame& frame) {
-  const double scale = (std::max(leak.shut_at, leak.clearance) + kBeyondWholeVox) * frame.voxel;
+  const double scale = (std::max(leak.trial.scale_vox, leak.clearance) + kBeyondWholeVox) * frame.voxel;
   const double unit = std::pow(10.0, std::floor(std::log10(scale)) - 3);
   return std::ceil(scale / unit) * unit;
 }
@@ -46,8 +46,20 @@ std::string leak_sentence(const Leak& leak, const GridFrame& frame) {
 
 std::string scale_text(const Leak& leak, const GridFrame& frame) {
   const double scale = closing_scale(leak, frame);
-  if (leak.shut_at > 0) return fmt::format("--scale {:.4g} shuts it, as tried there", scale);
-  return fmt::format("it needs --scale {:.4g} or more; none was found that shuts it", scale);
+  const auto or_more = [&](const std::string& why) {
+    return fmt::format("it needs --scale {:.4g} or more; {}", scale, why);
+  };
+  switch (leak.trial.answer) {
+    case ShutTrial::Answer::shut:
+      return fmt::format("--scale {:.4g} shuts it, as tried there", scale);
+    case ShutTrial::Answer::open:
+      return or_more("none was found that shuts it");
+    case ShutTrial::Answer::filled:
+      return or_more(
+          fmt::format("none was found that shuts it below {:.4g}, which fills the room", filling_scale(leak, frame)));
+    default:
+      return or_more("it is too long or too wide to try one");
+  }
 }
 
 std::string parts_text(const char* where, const std::set<std::string>& names) {

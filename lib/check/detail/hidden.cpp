@@ -13,7 +13,6 @@
 #include "lib/exact/predicates.h"
 #include "lib/grid/brick_voxels.h"
 #include "lib/volume/dilate.h"
-#include "lib/volume/reach.h"
 #include "lib/voxel/voxelize.h"
 
 namespace bp {

@@ -13,7 +13,6 @@
 #include "lib/pass/mesh/surface_around.h"
 #include "lib/volume/boundary_rects.h"
 #include "lib/volume/dilate.h"
-#include "lib/volume/reach.h"
 
 namespace bp {
 

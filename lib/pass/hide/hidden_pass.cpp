@@ -63,6 +63,21 @@ bool is_empty(const BitBox& voxels) {
   return std::all_of(voxels.data(), voxels.data() + voxels.word_count(), [](std::uint64_t w) { return w == 0; });
 }
 
+// Sets of voxels in memory while a tile is at work, and their bytes for lists of voxels.
+constexpr double kSets = 6, kListSets = 4;
+
+/// How far around a tile the walls of a scale depend on other voxels, in voxels.
+struct WallReach {
+  std::int32_t steps, gap, halo;
+  explicit WallReach(double scale_vox)
+      : steps(2 * std::int32_t(std::ceil(scale_vox))),
+        gap(std::int32_t(2 * std::sqrt(2.0) * scale_vox)),
+        halo(steps + gap + 1) {}
+  [[nodiscard]] double bytes_of_tile(std::int32_t bricks) const {
+    return std::pow(double(bricks * kBrickEdge + 2 * halo + kBrickEdge), 3) * (kSets + kListSets) / 8;
+  }
+};
+
 /// Makes the walls that the outside does not pass at a scale: the enclosed voxels, C and R.
 class Walls {
  public:
@@ -72,9 +87,7 @@ class Walls {
         closed_(closed),
         closed_filled_(closed_filled),
         memory_(o.context.memory),
-        steps_(2 * std::int32_t(std::ceil(o.scale_world / header.frame.voxel))),
-        gap_(std::int32_t(2 * std::sqrt(2.0) * o.scale_world / header.frame.voxel)),
-        halo_(steps_ + gap_ + 1) {}
+        reach_(o.scale_world / header.frame.voxel) {}
 
   /// Puts the walls on a shelf, tile by tile. Throws NeedsMemory if not even a tile of one brick fits.
   void put(BrickShelf& out) const {
@@ -93,26 +106,21 @@ class Walls {
   }
 
  private:
-  // Sets of voxels in memory while a tile is at work, and their bytes for lists of voxels.
-  static constexpr double kSets = 6, kListSets = 4;
-
   /// Returns the bricks along an edge of a tile: a few, so that what surrounds tiles is not most of the work, but no
   /// more than the memory allows. No result depends on it.
   [[nodiscard]] std::int32_t tile_bricks() const {
-    std::int32_t edge = 3 + halo_ / kBrickEdge;
+    std::int32_t edge = 3 + reach_.halo / kBrickEdge;
     while (edge > 1 && bytes_of(edge) > double(memory_.bytes)) --edge;
     const auto needed = std::uint64_t(std::ceil(bytes_of(edge)));
     if (needed > memory_.bytes)
-      throw NeedsMemory(fmt::format("finding what a closing of {} voxels hides", steps_ / 2), needed, memory_.bytes,
-                        memory_.limit_for(needed), {Remedy::larger_voxels, Remedy::smaller_scale});
+      throw NeedsMemory(fmt::format("finding what a closing of {} voxels hides", reach_.steps / 2), needed,
+                        memory_.bytes, memory_.limit_for(needed), {Remedy::larger_voxels, Remedy::smaller_scale});
     return edge;
   }
-  [[nodiscard]] double bytes_of(std::int32_t edge) const {
-    return std::pow(double(edge * kBrickEdge + 2 * halo_ + kBrickEdge), 3) * (kSets + kListSets) / 8;
-  }
+  [[nodiscard]] double bytes_of(std::int32_t edge) const { return reach_.bytes_of_tile(edge); }
 
   [[nodiscard]] BitBox of_tile(const VoxelBox& tile) const {
-    BitBox rooms(tile.grown(halo_));
+    BitBox rooms(tile.grown(reach_.halo));
     const VoxelBox& box = rooms.box();
     BitBox enclosed(box), closed(box), walls(tile);
     load_voxels(enclosed_, enclosed);
@@ -130,7 +138,7 @@ class Walls {
     return walls;
   }
 
-  /// Takes the voxels out of `added` that lie in gaps: along an axis, in a run of at most gap_ between two solid
+  /// Takes the voxels out of `added` that lie in gaps: along an axis, in a run of at most reach_.gap between two solid
   /// voxels.
   void take_gaps(const BitBox& solid, BitBox& added) const {
     BitBox gaps(added.box());
@@ -140,8 +148,8 @@ class Walls {
       for_each_voxel(added, [&](VoxelCoord first) {
         if (!solid.test(first - next)) return;
         VoxelCoord end = first;
-        while (end[axis] - first[axis] <= gap_ && added.test(end)) end[axis] += 1;
-        if (end[axis] - first[axis] > gap_ || !solid.test(end)) return;
+        while (end[axis] - first[axis] <= reach_.gap && added.test(end)) end[axis] += 1;
+        if (end[axis] - first[axis] > reach_.gap || !solid.test(end)) return;
         for (VoxelCoord p = first; p != end; p[axis] += 1) gaps.set(p);
       });
     }
@@ -158,7 +166,7 @@ class Walls {
   }
 
   void share_by_sets(BitBox& added, BitBox& outside, BitBox& rooms) const {
-    for (std::int32_t step = 0; step < steps_; ++step) {
+    for (std::int32_t step = 0; step < reach_.steps; ++step) {
       bool any = dilate_over_faces(added, outside);
       combine(added, outside, kLess);
       any |= dilate_over_faces(added, rooms);
@@ -173,7 +181,7 @@ class Walls {
 
   void share_by_lists(BitBox added, const BitBox& outside, BitBox& rooms) const {
     Front outer = take_beside(outside, added), inner = take_beside(rooms, added);
-    for (std::int32_t step = 0; step < steps_ && !(outer.empty() && inner.empty()); ++step) {
+    for (std::int32_t step = 0; step < reach_.steps && !(outer.empty() && inner.empty()); ++step) {
       for (const Place p : inner) rooms.data()[p >> 6] |= std::uint64_t(1) << (p & 63);
       outer = take_next(outer, added);
       inner = take_next(inner, added);
@@ -224,7 +232,7 @@ class Walls {
 
   const BrickShelf &enclosed_, &closed_, &closed_filled_;
   const MemoryShare& memory_;
-  const std::int32_t steps_, gap_, halo_;  // voxels
+  const WallReach reach_;
 };
 
 /// Returns a brick of the unreached voxels, without those of the scene that the outside sees.
@@ -288,6 +296,12 @@ HiddenVoxels hidden_voxels(const StreamHeader& header, BrickShelf& touched, Back
   const Shelf enclosed = enclosed_voxels(header, touched, backends, o);
   const Shelf unreached = unreached_voxels(header, *enclosed, backends, o);
   return unseen_voxels(unreached ? *unreached : *enclosed, touched, o);
+}
+
+std::uint64_t hidden_limit(const StreamHeader& header, const HiddenOptions& o) {
+  if (o.scale_world < header.frame.voxel) return 0;
+  const double needed = WallReach(o.scale_world / header.frame.voxel).bytes_of_tile(1);
+  return o.context.memory.limit_for(std::uint64_t(std::ceil(needed)));
 }
 
 std::unique_ptr<BrickShelf> opening(const StreamHeader& header, BrickShelf& solid, Backends& backends,

@@ -50,6 +50,9 @@ struct HiddenVoxels {
 [[nodiscard]] HiddenVoxels hidden_voxels(const StreamHeader& header, BrickShelf& touched, Backends& backends,
                                          const HiddenOptions& options);
 
+/// Returns a limit on memory at which the sets around a closed opening fit; 0: not known.
+[[nodiscard]] std::uint64_t hidden_limit(const StreamHeader& header, const HiddenOptions& options);
+
 /// Returns the opening of `solid`: parts narrower than twice the scale go, as bpclose removes them. Null if nothing is
 /// left.
 [[nodiscard]] std::unique_ptr<BrickShelf> opening(const StreamHeader& header, BrickShelf& solid, Backends& backends,

@@ -209,7 +209,11 @@ class LevelMaker {
       std::shared_ptr<const Limbs> model = params_.cage->limbs;
       if (model == nullptr) model = std::make_shared<Limbs>(*shelves.meshed, *shelves.meshed);
       CageFit fit;
-      LatticeMesh mesh = cage_with_limbs(*shelves.meshed, header_.frame, *ground_.enclosed, faces, plane, *model, fit);
+      const auto steps = [&](std::uint64_t done, std::uint64_t total) {
+        context_.report("keeping limbs apart", "quads", done, total);
+      };
+      LatticeMesh mesh =
+          cage_with_limbs(*shelves.meshed, header_.frame, *ground_.enclosed, faces, plane, *model, fit, steps);
       if (mesh.triangles.empty())
         fail(ErrorCode::bad_argument, "{} faces: a cage of quads has at least 12 triangles, and a symmetric one 20",
              faces);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "lib/core/parallel.h"
 #include "lib/mesh/lattice_geometry.h"
 #include "lib/quads/quads.h"
 
@@ -29,6 +30,7 @@ Skin::Skin(const CellQuads& cage, HalfEdgeMesh& mesh, ProxyEditor& editor, const
 template <class Step>
 void Skin::for_each(const Step& step) {
   for (VertexId v = 0; v < near_.size(); ++v) {
+    stop_if_asked();
     if (!plane_ || mesh_.position(v)[plane_->axis] >= plane_->lattice()) step(v);
   }
   editor_.refresh();

@@ -50,6 +50,18 @@ try bpinfo --leaks house.obj cube.obj
 try bpinfo --leaks house.obj --boxes deck
 try bpinfo --leaks house.obj --voxel 0.1 --resolution 10
 try bpinfo --leaks house.obj --memory 64M -j 1 --resolution 1000
+# What does not fit is refused before the work, with the least number that suffices.
+for memory in 10M 64M; do
+  bpinfo --leaks house.obj --memory $memory -j 1 --resolution 240 > told 2> said; echo "= $?, $(stat -c %s told) bytes on stdout"
+  least=$(grep -o 'at least [0-9]*' said | grep -o '[0-9]*')
+  bpinfo --leaks house.obj --memory "${least}M" -j 1 --resolution 240 | head -1
+  bpinfo --leaks house.obj --memory "$((least - 1))M" -j 1 --resolution 240 2>&1 > told | grep -q "at least $least MiB" && echo "no smaller one is named"
+done
+bpvox house.obj --resolution 600 --fill none -q > big.bpv
+head -c 3000 big.bpv > cut.bpv
+said 'bpinfo --leaks --memory 64M -j 1 < cut.bpv' | sed 's/[0-9]* MiB/N MiB/g'
+said 'bpinfo --leaks < cut.bpv' | sed 's/[0-9]* bytes/N bytes/g'
+rm told said big.bpv cut.bpv
 try bpinfo house.obj --resolution 10
 said 'bpvox house.obj --resolution 60 | bpinfo --leaks --voxel 1'
 said 'bpvox house.obj --resolution 60 --fill inside | bpinfo --leaks'

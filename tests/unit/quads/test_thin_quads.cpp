@@ -1,3 +1,7 @@
+#include <atomic>
+#include <vector>
+
+#include "lib/core/parallel.h"
 #include "lib/enclosed/enclosed_voxels.h"
 #include "lib/quads/thin_quads.h"
 #include "tests/catch.h"
@@ -29,7 +33,7 @@ TEST_CASE("thinned cages hold the voxels, have at most their faces, and mirror e
   const EnclosedVoxels enclosed(shelf);
   const CellQuads cubes = cube_quads(shelf, {}, 3, plane);
   REQUIRE(cubes.mesh.triangles.size() > faces);
-  const CellQuads thin = thinned(cubes, enclosed, faces, plane, thinning);
+  const CellQuads thin = thinned(cubes, enclosed, faces, plane, thinning).cage;
   REQUIRE(!thin.mesh.triangles.empty());
   CHECK(thin.mesh.triangles.size() <= faces);
   CHECK(thin.mesh.triangles.size() >= faces / 2);
@@ -45,5 +49,47 @@ TEST_CASE("cubes that cannot be thinned to the faces give no cage", "[quick][qua
   fill_shelf(shelf, kThinBox, legs);
   const EnclosedVoxels enclosed(shelf);
   CHECK(thinned(cube_quads(shelf, {}, 8, std::nullopt), enclosed, 8, std::nullopt, Thinning::strips)
-            .mesh.triangles.empty());
+            .cage.mesh.triangles.empty());
+}
+
+namespace {
+
+/// 125 cubes of 6 voxels that stand apart. A closed part has at least 6 quads.
+bool crumbs(VoxelCoord p) {
+  return p.x % 12 < 6 && p.y % 12 < 6 && p.z % 12 < 6;
+}
+
+}  // namespace
+
+TEST_CASE("thinning does not begin where parts need more quads than are wanted", "[quick][quads]") {
+  MemoryShelf shelf;
+  fill_shelf(shelf, {{0, 0, 0}, {60, 60, 60}}, crumbs);
+  const EnclosedVoxels enclosed(shelf);
+  const CellQuads cubes = cube_quads(shelf, {}, 3, std::nullopt);
+  REQUIRE(cubes.mesh.quads.size() >= 125 * 24);
+  std::vector<std::uint64_t> stages;
+  const auto steps = [&](std::uint64_t done, std::uint64_t total) {
+    CHECK(done < total);
+    stages.push_back(done);
+  };
+  for (const Thinning thinning : {Thinning::strips, Thinning::singles}) {
+    stages.clear();
+    const Thinned thin = thinned(cubes, enclosed, 200, std::nullopt, thinning, steps);
+    CHECK(thin.is_hopeless);
+    CHECK(thin.cage.mesh.triangles.empty());
+    CHECK(stages.empty());
+  }
+}
+
+TEST_CASE("thinning ends when it is asked to stop", "[quick][quads]") {
+  MemoryShelf shelf;
+  fill_shelf(shelf, kThinBox, legs);
+  const EnclosedVoxels enclosed(shelf);
+  std::atomic<bool> stop = false;
+  WorkArena arena(1, &stop);
+  CHECK_THROWS_AS(arena.run([&] {
+    (void)thinned(cube_quads(shelf, {}, 3, std::nullopt), enclosed, 160, std::nullopt, Thinning::strips,
+                  [&](std::uint64_t, std::uint64_t) { stop = true; });
+  }),
+                  Cancelled);
 }

@@ -1,11 +1,15 @@
+#include <atomic>
 #include <map>
 #include <random>
+#include <string>
 
 #include "lib/closing/closing.h"
 #include "lib/closing/closing_scratch.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/grid/brick_voxels.h"
+#include "lib/volume/detail/leak_search.h"
+#include "lib/volume/dilate.h"
 #include "lib/volume/leaks.h"
 #include "tests/catch.h"
 
@@ -220,43 +224,151 @@ TEST_CASE("leaks are as their definition says", "[leaks]") {
   CHECK(seen > 30);
 }
 
-TEST_CASE("the scale that is told shuts the leak, also in a turned house", "[leaks]") {
-  for (const int degrees : {0, 15, 30, 45}) {
-    for (const double width : {4.0, 9.0}) {
-      CAPTURE(degrees, width);
-      const double turn = degrees * 3.14159265358979 / 180;
-      BitBox house(VoxelBox{{-70, -5, -70}, {70, 45, 70}});
-      for_each(VoxelBox{{-60, 0, -60}, {60, 40, 60}}, [&](VoxelCoord p) {
-        const double x = std::cos(turn) * p.x - std::sin(turn) * p.z, z = std::sin(turn) * p.x + std::cos(turn) * p.z;
-        const double wall = std::min({40 - std::abs(x), 30 - std::abs(z), p.y + 0.5, 39.5 - p.y});
-        const bool door = z > 0 && std::abs(x) < width / 2 && p.y >= 8 && p.y < 28;
-        if (wall >= 0 && wall < 2 && !door) house.set(p);
-      });
-      const Leaks found = find_leaks(house);
-      REQUIRE(found.leaks.size() == 1);
-      const Leak& leak = found.leaks[0];
-      CHECK(leak.shut_at >= leak.clearance);
-      if (degrees == 0) CHECK(leak.shut_at == leak.clearance);
-      // The whole house is closed at that scale, and nothing else is open.
-      GridFrame frame;
-      frame.voxel = 1;
-      ScaleField field;
-      field.base = leak.shut_at + kBeyondWholeVox;
-      const Halo halo = halo_of(house.box(), field, frame);
-      BitBox closed;
-      ClosingScratch scratch;
-      close_tile(house, field.sample(frame, house.box().grown(halo.erosion_vox)), halo, {}, house.box(), closed,
-                 scratch);
-      CHECK(find_leaks(closed).leaks.empty());
-      CHECK((closed.test({0, 20, 0}) || find_leaks(closed).closed_voxels > 1000));
+namespace {
+
+/// A room of 78 x 58 voxels whose walls are `wall` voxels thick, turned around the vertical axis. One door of `width`
+/// voxels leads out.
+struct TurnedHouse {
+  double degrees, wall, width;
+  std::int32_t height = 36, sill = 6;
+
+  [[nodiscard]] BitBox voxels() const {
+    const double turn = degrees * 3.14159265358979 / 180;
+    const auto far = std::int32_t(1.5 * (40 + wall));
+    BitBox house(VoxelBox{{-far - 10, -5, -far - 10}, {far + 10, height + 10, far + 10}});
+    for_each(VoxelBox{{-far, 0, -far}, {far, height + 4, far}}, [&](VoxelCoord p) {
+      const double x = std::cos(turn) * p.x - std::sin(turn) * p.z, z = std::sin(turn) * p.x + std::cos(turn) * p.z;
+      const double out = std::max(std::abs(x) - 39, std::abs(z) - 29);
+      const bool door = z > 0 && std::abs(x) < width / 2 && p.y >= 2 + sill && p.y < height - sill;
+      const bool is_wall = out >= 0 && out < wall, is_deck = out < wall && (p.y < 2 || p.y >= height + 2);
+      if ((is_wall && !door) || is_deck) house.set(p);
+    });
+    return house;
+  }
+};
+
+/// Closes all voxels with cubes just above a scale of whole voxels.
+BitBox closed_at(const BitBox& solid, std::int32_t scale_vox) {
+  GridFrame frame;
+  frame.voxel = 1;
+  ScaleField field;
+  field.base = scale_vox + kBeyondWholeVox;
+  const Halo halo = halo_of(solid.box(), field, frame);
+  BitBox closed;
+  ClosingScratch scratch;
+  close_tile(solid, field.sample(frame, solid.box().grown(halo.erosion_vox)), halo, {}, solid.box(), closed, scratch);
+  return closed;
+}
+
+/// Returns whether the middle of the room is empty, and the outside does not reach it.
+bool is_shut(const BitBox& solid, VoxelCoord middle) {
+  BitBox open(solid.box()), reached(solid.box());
+  for_each(solid.box(), [&](VoxelCoord p) {
+    if (!solid.test(p)) open.set(p);
+  });
+  reached.set(solid.box().min);
+  grow_within(open, reached);
+  return open.test(middle) && !reached.test(middle);
+}
+
+LeakSearchOptions with_trials(std::size_t trials) {
+  LeakSearchOptions options;
+  options.trials = trials;
+  return options;
+}
+
+}  // namespace
+
+TEST_CASE("the scale that is told shuts the leak, however thick or turned the walls are", "[leaks]") {
+  for (const double degrees : {0, 15, 30, 45}) {
+    for (const double wall : {2, 20, 40}) {
+      for (const double width : {4, 9}) {
+        CAPTURE(degrees, wall, width);
+        const BitBox house = TurnedHouse{degrees, wall, width}.voxels();
+        REQUIRE_FALSE(is_shut(house, {0, 20, 0}));
+        const Leaks found = find_leaks(house, {}, with_trials(1));
+        REQUIRE(!found.leaks.empty());
+        const Leak& leak = found.leaks[0];
+        REQUIRE(leak.trial.answer == ShutTrial::Answer::shut);
+        CHECK(leak.trial.scale_vox >= leak.clearance);
+        if (degrees == 0) CHECK(leak.trial.scale_vox == leak.clearance);
+        CHECK(is_shut(closed_at(house, leak.trial.scale_vox), {0, 20, 0}));
+        CHECK_FALSE(is_shut(closed_at(house, leak.clearance - 1), {0, 20, 0}));
+      }
     }
   }
+}
+
+TEST_CASE("a scale that fills the room does not count as shutting it", "[leaks]") {
+  const BitBox house = TurnedHouse{15, 2, 16, 19, 0}.voxels();  // a low room behind a wide door
+  const Leaks found = find_leaks(house, {}, with_trials(1));
+  REQUIRE(found.leaks.size() == 1);
+  const Leak& leak = found.leaks[0];
+  CHECK(leak.room_clearance == 10);
+  CHECK(leak.trial.answer == ShutTrial::Answer::shut);
+  CHECK(leak.trial.scale_vox < leak.room_clearance);
+  CHECK(is_shut(closed_at(house, leak.trial.scale_vox), {0, 11, 0}));
+
+  const VoxelBox box = bounds_of_voxels(house).grown(2);
+  FoundLeaks lower = search_leaks(Clearance(house, box), 1, [](std::uint64_t) {});
+  lower.sides[0].filled = leak.trial.scale_vox;  // as if the room were lower
+  const ShutTrial trial = try_closings(house, lower.sides[0], [] {});
+  CHECK(trial.answer == ShutTrial::Answer::filled);
+  CHECK(trial.scale_vox == 0);
+}
+
+TEST_CASE("no scale is told where room and outside are too far apart for a trial", "[leaks]") {
+  BitBox house(VoxelBox{{0, 0, 0}, {512, 130, 130}});
+  put(house, {{1, 2, 2}, {510, 128, 128}});
+  cut(house, {{3, 4, 4}, {160, 126, 126}});    // a room
+  cut(house, {{160, 60, 60}, {510, 64, 64}});  // a duct of 350 voxels
+  const Leaks found = find_leaks(house, {}, with_trials(1));
+  REQUIRE(found.leaks.size() == 1);
+  CHECK(found.leaks[0].trial.answer == ShutTrial::Answer::untried);
+  CHECK(found.leaks[0].trial.scale_vox == 0);
+}
+
+TEST_CASE("closings are tried around as many leaks as are asked for, on the voxels that count", "[leaks]") {
+  BitBox house(VoxelBox{{0, 0, 0}, {128, 40, 40}});
+  for (const std::int32_t at : {2, 34, 66}) {
+    put_house(house, {{at, 2, 2}, {at + 26 + at / 20, 32, 32}}, 1);
+    cut(house, {{at + 10, 10, 31}, {at + 14, 14, 32}});
+  }
+  std::map<std::string, std::size_t> steps;
+  LeakSearchOptions options;
+  options.progress = [&](const char* step, const char*, std::uint64_t done, std::uint64_t total) {
+    ++steps[step];
+    CHECK(done <= total);
+  };
+  for (const std::size_t trials : {0, 1, 2, 20}) {
+    CAPTURE(trials);
+    options.trials = trials;
+    steps.clear();
+    for (const bool floor : {true, false}) {
+      if (!floor) cut(house, {{3, 2, 3}, {27, 3, 31}});  // one house stands on the ground then
+      const Leaks found = floor ? find_leaks(house, {}, options) : find_grounded_leaks(house, kYUp, options);
+      REQUIRE(found.leaks.size() == 3);
+      for (std::size_t i = 0; i < 3; ++i)
+        CHECK((found.leaks[i].trial.answer == ShutTrial::Answer::shut) == (i < trials));
+    }
+    CHECK(steps["trying scales"] == 2 * std::min<std::size_t>(trials, 3));
+    if (trials == 20) CHECK(steps["looking for leaks"] > 0);
+    put(house, {{3, 2, 3}, {27, 3, 31}});
+  }
+}
+
+TEST_CASE("a search for leaks ends when it is asked to stop", "[leaks]") {
+  const BitBox house = TurnedHouse{0, 2, 4}.voxels();
+  const std::atomic<bool> stop = true;
+  WorkArena arena(1, &stop);
+  CHECK_THROWS_AS(arena.run([&] { (void)find_leaks(house); }), Cancelled);
 }
 
 TEST_CASE("looking for leaks beyond the memory is refused", "[leaks]") {
   BitBox house(VoxelBox{{0, 0, 0}, {64, 40, 40}});
   put_house(house, {{2, 2, 2}, {42, 32, 32}}, 1);
+  const auto with_memory = [](std::uint64_t bytes) { return LeakSearchOptions{{bytes}, 0, {}}; };
   const std::uint64_t needed = leaks_bytes({{2, 2, 2}, {42, 32, 32}});
-  CHECK_NOTHROW(find_leaks(house, {}, {needed}));
-  CHECK_THROWS_AS(find_leaks(house, {}, {needed - 1}), NeedsMemory);
+  CHECK_NOTHROW(find_leaks(house, {}, with_memory(needed)));
+  CHECK_THROWS_AS(find_leaks(house, {}, with_memory(needed - 1)), NeedsMemory);
 }

@@ -1,7 +1,7 @@
 #include <deque>
 #include <random>
 
-#include "lib/volume/reach.h"
+#include "lib/volume/dilate.h"
 #include "tests/catch.h"
 #include "tests/support/voxel_source.h"
 
