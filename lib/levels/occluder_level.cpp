@@ -269,7 +269,8 @@ std::uint64_t occluder_limit_before(const StreamHeader& header, BrickShelf& touc
   around.fill = FillMode::inside;
   ShelfSource shelf(around, touched, nullptr, ShelfSource::Keep::all);
   const double scale = request.scale_world ? *request.scale_world : largest_scale(header);
-  const std::uint64_t both = mesh_limit(shelf, request.hidden.context, params_of(request.faces, kLeastPart), 0);
+  const std::uint64_t both =
+      mesh_limit(shelf, request.hidden.context, params_of(request.faces, MeshParams::kLeastPart), 0);
   const MemoryLimit& limit = request.hidden.context.memory.limit;
   const auto rest = double(MemoryLimit{both, limit.fixed_bytes}.rest_bytes());
   return std::max(limit.for_rest(rest / kSidesOfWall), hidden_limit(header, at_scale(request.hidden, scale)));
