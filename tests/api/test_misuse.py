@@ -9,11 +9,13 @@ import tempfile
 import types
 import unittest
 import warnings
+from ctypes import byref, c_uint64, c_void_p
 from pathlib import Path
 
 from scenes import np, torus, write_ply
 
 import bounding_proxies as bp
+from bounding_proxies import _library
 
 TURNS = int(os.environ.get("BP_TURNS", "300"))
 QUICK = dict(faces=60, resolution=16)
@@ -134,6 +136,7 @@ class Misuse(unittest.TestCase):
                               (bp.Scene(*self.scene), 500), (self.scene, 500), (["scene.ply"], 500)):
             self.refused(bp.ArgumentError, "triangles: .* is given beside .*by their names, such as faces=1000", bp.proxy, scene, beside)
         self.refused(TypeError, r"str is no Grid; give what voxelize\(\) or close\(\) returned", bp.mesh, "scene.ply")
+        self.refused(AttributeError, "a Grid has no 'closing'; it has voxel, origin", lambda: bp.voxelize(*self.scene, resolution=16).closing)
         self.refused(TypeError, "tuple is no Grid", bp.close, self.scene)
         self.refused(TypeError, "list is no Mesh", bp.hulls, [self.mesh])
         self.refused(TypeError, "out: list is no array", bp.bind(self.mesh, self.scene[0]).apply, self.mesh.vertices, [1])
@@ -141,6 +144,18 @@ class Misuse(unittest.TestCase):
         self.refused(bp.ArgumentError, "scale: .* number 0", bp.proxy, *self.scene, scale="2%\0")
         self.refused(bp.ArgumentError, "path: .* number 0", self.mesh.save, "a\0.glb")
         self.refused(bp.ArgumentError, "format: 3 is no text", bp.Scene, "scene", format=3)
+
+    def test_a_list_without_its_number_is_refused(self):
+        scene, out, faces, errors = bp.Scene(*self.scene), c_void_p(), (c_uint64 * 1)(60), (_library.Length * 1)()
+        mesh, levels = _library.MeshOptions.made(), _library.LevelsOptions.made()
+        mesh.faces, levels.faces = faces, faces
+        calls = [("bp_proxy", (None, None, byref(mesh)), "levels: it is 0, and faces is set"), ("bp_levels", (None, byref(levels)), "face_count: it is 0")]
+        levels_by_error = _library.LevelsOptions.made()
+        levels_by_error.errors = errors
+        calls.append(("bp_levels", (None, byref(levels_by_error)), "error_count: it is 0, and errors is set"))
+        for function, options, words in calls:
+            self.assertEqual(getattr(_library.lib(), function)(scene._handle.address, *options, None, byref(out)), 2)
+            self.assertIn(words, _library.lib().bp_error_message().decode())
 
 
 if __name__ == "__main__":

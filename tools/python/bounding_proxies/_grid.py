@@ -74,7 +74,7 @@ class Grid(Unchanging):
         try:
             return self._info[name]
         except KeyError:
-            raise AttributeError(name) from None
+            raise AttributeError(f"a Grid has no {name!r}; it has {', '.join(self._info)}") from None
 
     def __dir__(self):
         self.voxel
