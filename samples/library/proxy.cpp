@@ -10,7 +10,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    const bp::Scene scene(std::vector<std::string>{argv[1]});
+    const bp::Scene scene(argv[1]);
     const bp::Mesh proxy = bp::Grid(scene).close("1%").mesh(1000);
     const bp::Verdict verdict(proxy, 0, scene);
     std::cout << proxy.triangles().size() / 3 << " triangles\n" << verdict.text();

@@ -1,6 +1,7 @@
 #pragma once
 #include <atomic>
 #include <functional>
+#include <memory>
 #include <mutex>
 
 #include "lib/core/length.h"
@@ -54,10 +55,13 @@ bp_status guarded_call(const bp_run* run, const std::function<void(Call&)>& body
 /// Calls `make` as guarded_call() does, and gives the caller a new T of what it returns.
 template <class T, class Make>
 bp_status guarded_result(const bp_run* run, T** out, const Make& make) noexcept {
-  return guarded_call(run, [&](Call& call) {
-    T*& result = needed(out, "the result");  // before anything is made
-    result = new T{make(call)};
+  std::unique_ptr<T> made;  // handed over once the notes are told, too
+  const bp_status status = guarded_call(run, [&](Call& call) {
+    (void)needed(out, "the result");  // before anything is made
+    made.reset(new T{make(call)});
   });
+  if (status == BP_OK) *out = made.release();
+  return status;
 }
 
 /// Returns the text as users of the library know it. Members are named as options are: --keep-cavities, and bpclose

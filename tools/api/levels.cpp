@@ -46,13 +46,13 @@ BuildHost host_of(const Scene& scene, Call& call) {
 }
 
 std::vector<std::uint64_t> faces_of(const bp_levels_options& o) {
-  if (o.face_count == 0) return {};
-  return falling_faces(&needed(o.faces, "faces"), o.face_count);
+  if (!is_list(o.faces, o.face_count, "faces", "face_count")) return {};
+  return falling_faces(o.faces, o.face_count);
 }
 
 std::vector<Length> errors_of(const bp_levels_options& o) {
   std::vector<Length> errors;
-  if (o.error_count > 0) (void)needed(o.errors, "errors");
+  if (!is_list(o.errors, o.error_count, "errors", "error_count")) return errors;
   for (std::size_t i = 0; i < o.error_count; ++i) {
     const Length error = length_of(o.errors[i], "errors");
     if (!(error.value > 0)) fail(ErrorCode::bad_argument, "errors: 0 is no error that a level can have");

@@ -20,9 +20,7 @@ namespace {
 using Kind = EncloseOption::Kind;
 
 std::vector<std::uint64_t> faces_of(const bp_mesh_options& o) {
-  if (o.levels > 0) (void)needed(o.faces, "faces");
-  if (o.faces == nullptr) return {};
-  if (o.levels == 0) fail(ErrorCode::bad_argument, "levels: 0 numbers of faces are given; leave faces out for none");
+  if (!is_list(o.faces, o.levels, "faces", "levels")) return {};
   return falling_faces(o.faces, o.levels);
 }
 

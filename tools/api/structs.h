@@ -44,6 +44,15 @@ template <class T>
   return *object;
 }
 
+/// Returns whether a caller gives a list. Throws bad_argument if only one of its values and their number is given.
+template <class T>
+[[nodiscard]] bool is_list(const T* first, std::size_t count, const char* name, const char* name_of_count) {
+  if (count > 0) (void)needed(first, name);
+  if (count == 0 && first != nullptr)
+    fail(ErrorCode::bad_argument, "{}: it is 0, and {} is set; give the number of its values", name_of_count, name);
+  return count > 0;
+}
+
 /// Returns `value` as the enum of the library that has `count` values, numbered as in bp.h from `first`.
 template <class E>
 [[nodiscard]] E choice(std::int32_t value, std::int32_t count, const char* name, std::int32_t first = 0) {

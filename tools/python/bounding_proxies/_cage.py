@@ -5,7 +5,7 @@ import numpy as np
 
 from ._call import Options, call
 from ._grid import Grid, voxelize_options
-from ._library import ArgumentError, BindOptions, CageOptions, choice, length, lib
+from ._library import ArgumentError, BindOptions, CageOptions, Unchanging, choice, length, lib
 from ._mesh import Mesh, face_count
 from ._scene import arrays_of, mesh_arrays, scene_of
 
@@ -58,11 +58,14 @@ def cage(scene, triangles=None, faces=None, *, margin=None, symmetry="auto", vox
     return Mesh(handle, 0, notes)
 
 
-class Weights:
+class Weights(Unchanging):
     """Points that are bound to a cage. len() is their number."""
 
     def __init__(self, handle, vertices):
         self._handle, self._vertices = handle, vertices
+
+    def __repr__(self):
+        return f"<bounding_proxies.Weights: {len(self)} points in a cage of {self._vertices} vertices>"
 
     def __len__(self):
         return lib().bp_weights_count(self._handle.address)
@@ -77,6 +80,8 @@ class Weights:
         moved = _points(vertices, "vertices", self._vertices)
         if out is None:
             out = np.empty((len(self), 3))
+        if not isinstance(out, np.ndarray):
+            raise TypeError(f"out: {type(out).__name__} is no array of NumPy")
         if out.shape != (len(self), 3) or out.dtype != np.float64 or not out.flags.c_contiguous or not out.flags.writeable:
             raise ValueError(f"out: an array of {out.dtype} of shape {out.shape}; it must be contiguous, writeable float64 of {(len(self), 3)}")
         call(Options(**run), "bp_weights_apply", lambda r: (self._handle.address, moved.ctypes.data, r, out.ctypes.data))

@@ -4,7 +4,7 @@ import inspect
 import threading
 from ctypes import byref, c_void_p
 
-from ._library import ERRORS, ArgumentError, FailedError, Handle, Note, Progress, Run, lib, size, whole
+from ._library import ERRORS, ArgumentError, FailedError, Handle, Note, Progress, Run, lib, path_bytes, size, text, whole
 
 POLL_SECONDS = 0.05
 
@@ -72,8 +72,8 @@ class _Job:
         self.done = threading.Event()
         run = Run.made()
         run.threads, run.memory, run.stop = options.threads, options.memory, self.stop
-        run.temp = None if options.temp is None else str(options.temp).encode()
-        run.device = None if options.device is None else options.device.encode()
+        run.temp = None if options.temp is None else path_bytes(options.temp, "temp")
+        run.device = None if options.device is None else text(options.device, "device")
         # Callbacks of ctypes live as long as this object.
         self._note = Note(lambda _, text: self.notes.append(text.decode(errors="replace")))
         run.note = self._note

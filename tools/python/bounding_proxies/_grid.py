@@ -1,12 +1,11 @@
 """Voxels of a scene, and their closing."""
 import json
-import os
 from ctypes import byref, c_size_t
 
 import numpy as np
 
 from ._call import Options, call
-from ._library import CloseOptions, GridInfo, VoxelizeOptions, check, choice, length, lib, read_struct, whole
+from ._library import CloseOptions, GridInfo, Unchanging, VoxelizeOptions, check, choice, length, lib, needed, path_bytes, read_struct, text, whole
 from ._scene import UPS, scene_of
 
 FILLS = ("flood", "winding", "none", "inside")
@@ -18,9 +17,9 @@ BRICK = 64
 def voxelize_options(voxel=None, resolution=None, fill="flood", up=None):
     options = VoxelizeOptions.made()
     options.voxel = length(voxel, "voxel")
-    options.resolution = whole(resolution or 0, "resolution")
+    options.resolution = 0 if resolution is None else whole(resolution, "resolution")
     options.fill = choice(fill, FILLS, "fill")
-    options.up = choice(up or "unknown", UPS, "up")
+    options.up = choice("unknown" if up is None else up, UPS, "up")
     return options
 
 
@@ -29,13 +28,24 @@ def close_options(scale=None, rules=None, element="cube", keep_cavities=False):
     options.scale = length(scale, "scale")
     options.no_scale = scale is not None and options.scale.value == 0
     if rules is not None:
-        options.rules = (rules if isinstance(rules, str) else json.dumps(rules)).encode()
+        options.rules = text(rules if isinstance(rules, str) else json.dumps(rules), "rules")
     options.element = choice(element, ELEMENTS, "element")
     options.keep_cavities = bool(keep_cavities)
     return options
 
 
-class Grid:
+def _place(coord, name):
+    """Returns the coordinates of a voxel or a brick, (3,)."""
+    try:
+        numbers = [whole(x, name, -2**31, 2**31) for x in coord]
+    except TypeError:
+        numbers = []
+    if len(numbers) != 3:
+        raise ValueError(f"{name}: {coord!r} are not three whole numbers")
+    return np.array(numbers, np.int64)
+
+
+class Grid(Unchanging):
     """Voxels: the solid layer and, after close(), the closing. A grid does not change.
 
     voxel    edge of a voxel, scene units
@@ -64,7 +74,7 @@ class Grid:
         try:
             return self._info[name]
         except KeyError:
-            raise AttributeError(name) from None
+            raise AttributeError(f"a Grid has no {name!r}; it has {', '.join(self._info)}") from None
 
     def __dir__(self):
         self.voxel
@@ -95,13 +105,11 @@ class Grid:
         layer     "solid" or "closing"; None: the closing if there is one
         min, max  (3,) corners of the box of voxels, min <= v < max; default: self.min, self.max. A byte for each voxel
         """
-        layer = layer or ("closing" if self.has_closing else "solid")
-        low = np.asarray(self.min if min is None else min, np.int64)
-        high = np.asarray(self.max if max is None else max, np.int64)
-        if low.shape != (3,) or high.shape != (3,):
-            raise ValueError(f"min and max: corners have shapes {low.shape} and {high.shape}; they must have three numbers each")
+        if layer is None:
+            layer = "closing" if self.has_closing else "solid"
+        low, high = _place(self.min if min is None else min, "min"), _place(self.max if max is None else max, "max")
         extent = high - low
-        if (extent < 0).any() or np.abs(np.concatenate([low, high])).max() >= 2**31:
+        if (extent < 0).any() or extent.max() >= 2**31:
             raise ValueError(f"min {low.tolist()} and max {high.tolist()} are no box of voxels")
         out = np.empty(extent[::-1], np.uint8)
         corner, size = low.astype(np.int32), extent.astype(np.int32)
@@ -118,16 +126,14 @@ class Grid:
 
     def brick(self, coord, layer="solid"):
         """Returns one brick as an array of uint64 of shape (64, 64): bit i of [k, j] is voxel (i, j, k) of the brick."""
-        place = np.asarray(coord, np.int32)
-        if place.shape != (3,):
-            raise ValueError(f"coord: an array of shape {place.shape}; it must have three numbers")
+        place = _place(coord, "coord").astype(np.int32)
         out = np.empty((BRICK, BRICK), np.uint64)
         check(lib().bp_grid_brick(self._handle.address, choice(layer, LAYERS, "layer"), place.ctypes.data, out.ctypes.data))
         return out
 
     def save(self, path, *, overwrite=False, **run):
         """Writes the stream of voxels that the tools read (docs/brick-stream.md). The file appears complete or not at all."""
-        call(Options(**run), "bp_grid_save", lambda r: (self._handle.address, os.fsencode(path), int(overwrite), r))
+        call(Options(**run), "bp_grid_save", lambda r: (self._handle.address, path_bytes(path, "path"), bool(overwrite), r))
 
 
 def voxelize(scene, triangles=None, *, voxel=None, resolution=None, fill="flood", up=None, **run):
@@ -149,10 +155,10 @@ def voxelize(scene, triangles=None, *, voxel=None, resolution=None, fill="flood"
 
 def close(grid, scale=None, **how):
     """Closes a grid: grid.close(scale, ...)."""
-    return grid.close(scale, **how)
+    return needed(grid, Grid, "voxelize() or load_grid()").close(scale, **how)
 
 
 def load_grid(path, **run):
     """Reads a stream of voxels that bpvox or bpclose wrote, or Grid.save()."""
-    handle, notes = call(Options(**run), "bp_grid_load", lambda r: (os.fsencode(path), r), "bp_grid_free")
+    handle, notes = call(Options(**run), "bp_grid_load", lambda r: (path_bytes(path, "path"), r), "bp_grid_free")
     return Grid(handle, notes)

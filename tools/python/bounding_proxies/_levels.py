@@ -1,12 +1,11 @@
 """Levels of detail, and occluders, of a scene. Experimental."""
-import os
 from ctypes import byref
 
 import numpy as np
 
 from ._call import Options, call
 from ._grid import voxelize_options
-from ._library import Length, LevelsOptions, OccluderOptions, check, choice, length, lib, whole
+from ._library import Length, LevelsOptions, OccluderOptions, check, choice, length, lib, path_bytes, text, whole
 from ._mesh import ENCLOSE, Mesh, face_count, face_counts, meshes_of
 from ._scene import scene_of
 
@@ -77,4 +76,4 @@ def save_levels(meshes, folder, name="scene", *, overwrite=False):
     mesh = meshes if isinstance(meshes, Mesh) else next(iter(meshes), None)
     if not isinstance(mesh, Mesh):
         raise TypeError("save_levels() takes what levels(), occluder() or cage() returned")
-    check(lib().bp_levels_save(mesh._handle.address, os.fsencode(folder), name.encode(), int(overwrite)))
+    check(lib().bp_levels_save(mesh._handle.address, path_bytes(folder, "folder"), text(name, "name"), bool(overwrite)))

@@ -228,8 +228,22 @@ def check(status):
         raise ERRORS.get(status, FailedError)(lib().bp_error_message().decode(errors="replace"))
 
 
-class Handle:
-    """An object of the library. It is freed with this one."""
+class Unchanging:
+    """An object of the library, which does not change: its copy is the object itself, and other processes cannot have it."""
+
+    def __copy__(self):
+        return self
+
+    def __deepcopy__(self, memo):
+        return self
+
+    def __reduce__(self):
+        raise TypeError(f"a {type(self).__name__} of bounding_proxies cannot be pickled: it is an object of the C library. Hand on its arrays, "
+                        "or a file")
+
+
+class Handle(Unchanging):
+    """The address of an object of the library, which is freed with this one."""
 
     def __init__(self, address, free):
         self.address, self._free = address, free
@@ -240,17 +254,38 @@ class Handle:
         self.address = None
 
 
+def text(value, name):
+    """Returns a text as the bytes of a string of C."""
+    if not isinstance(value, str):
+        raise ArgumentError(f"{name}: {value!r} is no text")
+    if "\0" in value:
+        raise ArgumentError(f"{name}: {value!r} has a character of number 0")
+    return value.encode(errors="surrogateescape")
+
+
+def path_bytes(path, name):
+    """Returns the name of a file or a folder as a string of C."""
+    return text(os.fsdecode(path), name)
+
+
+def needed(value, kind, made_by):
+    """Refuses what is no object of a class. made_by: the functions that return them."""
+    if not isinstance(value, kind):
+        raise TypeError(f"{type(value).__name__} is no {kind.__name__}; give what {made_by} returned")
+    return value
+
+
 def length(value, name):
     """Returns a Length of a number in scene units, or of a text: "2%", "20vx", "0.5"."""
     out = Length()
     if value is None:
         return out
     if isinstance(value, str):
-        check(lib().bp_length_parse(value.encode(), byref(out)))
+        check(lib().bp_length_parse(text(value, name), byref(out)))
         return out
     try:
         out.value = float(value)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise TypeError(f"{name}: {value!r} is no length; give a number in scene units, or a text such as '2%'") from None
     return out
 
@@ -259,7 +294,7 @@ def factor(value, name):
     """Returns a number as a float."""
     try:
         return float(value)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise ArgumentError(f"{name}: {value!r} is no number; write it without quotes, as {name}=1.5") from None
 
 
@@ -278,7 +313,7 @@ def size(value, name):
     """Returns a number of bytes, of a number or of a text as the tools take it: "64M", "4GiB"."""
     if not isinstance(value, str):
         return whole(value, name, below=2**62)
-    match = re.fullmatch(r"([0-9]*\.?[0-9]+)([KMGT]?)(?:i?B)?", value)
+    match = re.fullmatch(r"([0-9]*\.?[0-9]+)(?:([KMGT])(?:i?B)?|B)?", value)
     if not match:
         raise ArgumentError(f"{name}: {value!r} is no size; write a number of bytes, or a text such as '512M' or '4G'")
     return whole(math.floor(float(match[1]) * 1024 ** " KMGT".index(match[2] or " ")), name, below=2**62)
@@ -286,7 +321,7 @@ def size(value, name):
 
 def choice(value, names, name):
     """Returns the number of a word."""
-    if value not in names:
+    if not isinstance(value, str) or value not in names:
         raise ArgumentError(f"{name}: {value!r} is none of {', '.join(map(str, names))}")
     return names.index(value)
 

@@ -1,12 +1,12 @@
 """Proxies and other meshes."""
-import os
 from ctypes import byref, c_double, c_uint32, c_uint64
 
 import numpy as np
 
 from ._call import Options, call
-from ._grid import close_options, voxelize_options
-from ._library import ArgumentError, HullsOptions, MeshInfo, MeshOptions, MeshView, check, choice, factor, length, lib, read_struct, whole
+from ._grid import Grid, close_options, voxelize_options
+from ._library import (ArgumentError, HullsOptions, MeshInfo, MeshOptions, MeshView, Unchanging, check, choice, factor, length, lib, needed,
+                       path_bytes, read_struct, whole)
 from ._scene import scene_of
 
 MODES = ("auto", "bounding", "fit", "inside")
@@ -24,7 +24,7 @@ def _array(address, rows, columns, kind, dtype, owner):
     return array
 
 
-class Mesh:
+class Mesh(Unchanging):
     """A triangle mesh of the library. It does not change.
 
     vertices   (n, 3) float64, scene units, exact; read-only, in the library's memory: copy() it to change it
@@ -56,7 +56,7 @@ class Mesh:
 
     def save(self, path, *, overwrite=False):
         """Writes the mesh without loss as .glb, .gltf, .ply, .obj or .stl, with the bytes that the tools write."""
-        check(lib().bp_mesh_save(self._handle.address, self._index, os.fsencode(path), int(overwrite)))
+        check(lib().bp_mesh_save(self._handle.address, self._index, path_bytes(path, "path"), bool(overwrite)))
 
 
 def face_count(count):
@@ -116,6 +116,7 @@ def mesh(grid, faces=None, *, error=None, volume=None, mode="auto", enclose="aut
     run      threads, memory, temp, device, progress (Options)
     Returns a Mesh: closed, 2-manifold, free of self-intersections. Returns a list of them if faces is a list.
     """
+    needed(grid, Grid, "voxelize() or close()")
     options = mesh_options(faces, error, volume, mode, enclose, quads)
     handle, notes = call(Options(**run), "bp_mesh_make", lambda r: (grid._handle.address, byref(options), r), "bp_mesh_free")
     return _one_or_all(faces, meshes_of(handle, notes))
@@ -140,7 +141,7 @@ def proxy(scene, triangles=None, faces=1000, scale=None, *, voxel=None, resoluti
 
 def load(path, **run):
     """Reads a file of a mesh. Returns its levels, finest first, as a list. Vertices of equal coordinates become one."""
-    return meshes_of(*call(Options(**run), "bp_mesh_load", lambda r: (os.fsencode(path), r), "bp_mesh_free"))
+    return meshes_of(*call(Options(**run), "bp_mesh_load", lambda r: (path_bytes(path, "path"), r), "bp_mesh_free"))
 
 
 def hulls(mesh, hulls=0, *, faces=0, corners=0, **run):
@@ -152,8 +153,7 @@ def hulls(mesh, hulls=0, *, faces=0, corners=0, **run):
     corners  of a hull, 8 to 64; 0: 64, which physics engines take
     Returns a list of Mesh.
     """
-    if not isinstance(mesh, Mesh):
-        raise TypeError(f"{type(mesh).__name__} is no Mesh; hulls() takes what mesh() or proxy() returned")
+    needed(mesh, Mesh, "mesh() or proxy()")
     options = HullsOptions.made()
     options.hulls, options.faces, options.corners = whole(hulls, "hulls"), whole(faces, "faces", below=2**63), whole(corners, "corners")
     return meshes_of(*call(Options(**run), "bp_hulls", lambda r: (mesh._handle.address, mesh._index, byref(options), r), "bp_mesh_free"))

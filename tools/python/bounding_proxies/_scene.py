@@ -5,7 +5,7 @@ from ctypes import byref, c_char_p, c_void_p, sizeof
 import numpy as np
 
 from ._call import Options, call
-from ._library import ArgumentError, Arrays, Handle, SceneInfo, check, choice, lib
+from ._library import ArgumentError, Arrays, Handle, SceneInfo, Unchanging, check, choice, lib, path_bytes, text
 
 UPS = ("unknown", "y", "z", "x", "-x", "-y", "-z")
 _TYPES = {"f8": 0, "f4": 1, "u4": 2, "i4": 3, "u8": 4, "i8": 5}
@@ -13,7 +13,10 @@ _TYPES = {"f8": 0, "f4": 1, "u4": 2, "i4": 3, "u8": 4, "i8": 5}
 
 def _rows(array, name, kinds, wanted):
     """Returns the array as rows of three numbers that the library reads in place, or a copy where it cannot. kinds: of NumPy's dtypes."""
-    array = np.asarray(array)
+    try:
+        array = np.asarray(array)
+    except ValueError as e:  # rows of several lengths
+        raise ValueError(f"{name}: no array: {e}") from None
     if array.dtype.kind not in kinds:
         raise TypeError(f"{name}: an array of {array.dtype}; it must hold {wanted}")
     if array.ndim != 2 or array.shape[1] != 3:
@@ -39,7 +42,7 @@ def arrays_of(vertices, triangles, up=None):
     arrays.triangles, arrays.triangle_count, arrays.triangle_type = triangles.ctypes.data, len(triangles), triangle_type
     arrays.vertex_stride = vertices.strides[0] if len(vertices) > 1 else 0
     arrays.triangle_stride = triangles.strides[0] if len(triangles) > 1 else 0
-    arrays.up = choice(up or "unknown", UPS, "up")
+    arrays.up = choice("unknown" if up is None else up, UPS, "up")
     return arrays, (vertices, triangles)
 
 
@@ -72,7 +75,15 @@ def is_path(thing):
     return isinstance(thing, (str, os.PathLike))
 
 
-class Scene:
+def _refuse_triangles_beside(scene, triangles):
+    """Refuses triangles beside what has triangles itself, such as the number in proxy("scene.glb", 500)."""
+    number = isinstance(triangles, (int, float, str)) or np.ndim(triangles) == 0
+    if number or is_path(scene) or isinstance(scene, Scene) or hasattr(scene, "vertices") or hasattr(scene, "points"):
+        what = repr(triangles) if number else f"a second {type(triangles).__name__}"
+        raise ArgumentError(f"triangles: {what} is given beside {type(scene).__name__}; write other arguments by their names, such as faces=1000")
+
+
+class Scene(Unchanging):
     """Triangles to enclose.
 
     Scene(vertices, triangles)   arrays: vertices (n, 3) of real numbers in scene units, triangles (m, 3) of whole numbers, from 0,
@@ -90,10 +101,12 @@ class Scene:
     def __init__(self, scene, triangles=None, *, up=None, copy=True, format=None):
         self._kept = None
         out = c_void_p()
+        if triangles is not None:
+            _refuse_triangles_beside(scene, triangles)
         if triangles is None and (is_path(scene) or (isinstance(scene, list) and scene and all(map(is_path, scene)))):
-            paths = [os.fsencode(p) for p in ([scene] if is_path(scene) else scene)]
+            paths = [path_bytes(p, "the name of a file") for p in ([scene] if is_path(scene) else scene)]
             list_of_paths = (c_char_p * len(paths))(*paths)
-            check(lib().bp_scene_from_files(list_of_paths, len(paths), format.encode() if format else None, byref(out)))
+            check(lib().bp_scene_from_files(list_of_paths, len(paths), None if format is None else text(format, "format"), byref(out)))
         else:
             pair = (scene, triangles) if triangles is not None else mesh_arrays(scene)
             if pair is None:

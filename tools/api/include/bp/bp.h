@@ -12,7 +12,8 @@
  *
  * Conventions
  *   Handles   bp_scene, bp_grid, bp_mesh, bp_verdict and bp_stop are opaque. Who gets one frees it; bp_X_free(NULL)
- * does nothing. Except for bp_stop they do not change once they are made, so several threads may use one at once.
+ *             does nothing. Except for bp_stop they do not change once they are made, so several threads may use one
+ *             at once.
  *   Options   A struct begins with its size. bp_X_defaults(&o, sizeof o) fills it in; NULL in place of options means
  *             the defaults. Programs that were compiled with an earlier header go on working.
  *   Results   Functions write their result through the last pointer, and only if they succeed. Pointers into a handle
@@ -22,7 +23,7 @@
  *   Threads   Calls may run at once in one process, each with its own number of threads (bp_run).
  *   Units     Lengths are in scene units unless a bp_length says otherwise. Coordinates are x, y, z, double precision.
  *   Marks     This header is stable: it is kept within a MAJOR version. bp_experimental.h has more, which may change
- * with any version. docs/compatibility.md says what that means before version 1.
+ *             with any version. docs/compatibility.md says what that means before version 1.
  */
 #ifndef BP_BP_H
 #define BP_BP_H

@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -98,6 +99,9 @@ class Scene : public Shared<bp_scene, bp_scene_free> {
   /// Copies arrays: x, y, z of each vertex, and three numbers of vertices for each triangle.
   Scene(const std::vector<double>& vertices, const std::vector<std::uint32_t>& triangles)
       : Scene(arrays_of(vertices, triangles)) {}
+  /// Names a file, or several: Scene("a.ply"), Scene({"a.ply", "b.ply"}).
+  explicit Scene(const std::string& file) : Scene(std::vector<std::string>{file}) {}
+  explicit Scene(std::initializer_list<std::string> files) : Scene(std::vector<std::string>(files)) {}
   explicit Scene(const std::vector<std::string>& files, const char* format = nullptr) {
     std::vector<const char*> names;
     for (const std::string& file : files) names.push_back(file.c_str());
