@@ -166,13 +166,13 @@ void write_tileset(const Shop& shop, MadeTileset& made, TilesetFolder& folder) {
     const WaitingFile& file = made.files[std::size_t(i)];
     std::vector<std::byte> bytes;
     shop.files->get(file.content, bytes);
-    folder.write(file.name, text_of(bytes));
+    folder.write(file.name, file_text(bytes));
     shop.files->drop(file.content);
   });
   for (const auto& [name, number] : made.images) {
     const std::vector<std::byte> bytes = made.scene.textures->file(number);
     tileset.images.push_back(leaf_folder(shop.options()) + "/" + name);
-    folder.write(tileset.images.back(), text_of(bytes));
+    folder.write(tileset.images.back(), file_text(bytes));
     if (made.leaves) made.leaves->bytes += bytes.size();
   }
   if (made.leaves) made.rows.insert(made.rows.begin(), *made.leaves);

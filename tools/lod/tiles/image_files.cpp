@@ -87,9 +87,9 @@ void ImageFiles::make_smaller(TextureImage image, std::uint32_t number, MipImage
 std::string ImageFiles::bytes_of(const std::string& name) const {
   const Source& source = sources_.at(name);
   std::vector<std::byte> bytes;
-  if (!source.smaller) return text_of(images_->file(source.image));
+  if (!source.smaller) return file_text(images_->file(source.image));
   store_->get(*source.smaller, bytes);
-  return text_of(bytes);
+  return file_text(bytes);
 }
 
 std::vector<std::string> ImageFiles::faults() const {

@@ -14,7 +14,7 @@
 namespace bp {
 
 /// Returns bytes as a text, as files are written.
-[[nodiscard]] inline std::string text_of(const std::vector<std::byte>& bytes) {
+[[nodiscard]] inline std::string file_text(const std::vector<std::byte>& bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 

@@ -116,7 +116,7 @@ class VisualTiles {
       if (job.triangles == 0) return;
       std::vector<std::byte> bytes;
       files_.get(job.content, bytes);
-      out.write(name_of(job), text_of(bytes));
+      out.write(name_of(job), file_text(bytes));
     });
     for (const std::string& name : used_images_) out.write(folder() + "/" + name, images_.bytes_of(name));
   }
