@@ -97,7 +97,7 @@ class Walls {
       tiles.insert({floor_div(at.x, edge), floor_div(at.y, edge), floor_div(at.z, edge)});
     auto next = tiles.begin();
     run_jobs<BrickCoord>(
-        int(std::clamp(double(memory_.bytes) / bytes_of(edge), 1.0, double(thread_count()))),
+        int(std::clamp(double(memory_.bytes) / reach_.bytes_of_tile(edge), 1.0, double(thread_count()))),
         [&](BrickCoord& tile) { return next != tiles.end() && (tile = *next++, true); },
         [&](BrickCoord& tile) {
           const BrickCoord first = tile * edge;
@@ -110,14 +110,13 @@ class Walls {
   /// more than the memory allows. No result depends on it.
   [[nodiscard]] std::int32_t tile_bricks() const {
     std::int32_t edge = 3 + reach_.halo / kBrickEdge;
-    while (edge > 1 && bytes_of(edge) > double(memory_.bytes)) --edge;
-    const auto needed = std::uint64_t(std::ceil(bytes_of(edge)));
+    while (edge > 1 && reach_.bytes_of_tile(edge) > double(memory_.bytes)) --edge;
+    const auto needed = std::uint64_t(std::ceil(reach_.bytes_of_tile(edge)));
     if (needed > memory_.bytes)
       throw NeedsMemory(fmt::format("finding what a closing of {} voxels hides", reach_.steps / 2), needed,
                         memory_.bytes, memory_.limit_for(needed), {Remedy::larger_voxels, Remedy::smaller_scale});
     return edge;
   }
-  [[nodiscard]] double bytes_of(std::int32_t edge) const { return reach_.bytes_of_tile(edge); }
 
   [[nodiscard]] BitBox of_tile(const VoxelBox& tile) const {
     BitBox rooms(tile.grown(reach_.halo));

@@ -57,7 +57,8 @@ class CutTiles {
       : shop_(shop), all_(pyramid.context()), levels_(levels), made_(made), jobs_(pyramid.tasks(), all_) {}
 
   void run() {
-    parallel_for(std::int64_t(jobs_.count()), [&](std::int64_t job) { take_kept(std::size_t(job)); });
+    if (all_.results != nullptr)  // else no looks need a hash
+      parallel_for(std::int64_t(jobs_.count()), [&](std::int64_t job) { take_kept(std::size_t(job)); });
     tell_time(shop_, made_.scene.voxels, jobs_.share_left());
     const std::vector<std::size_t> left = jobs_.left();
     if (shop_.task == Task::look_up) {
