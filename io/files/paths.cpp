@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
 
 namespace bp {
 
@@ -24,6 +25,15 @@ std::string whole_path(const std::string& path) {
 bool is_regular_file(const std::string& path) {
   std::error_code unknown;
   return std::filesystem::is_regular_file(path, unknown);
+}
+
+std::string head_of(const std::string& path) {
+  if (!is_regular_file(path)) return {};  // reading a pipe would wait for its writer
+  std::string text(std::size_t(1) << 16, '\0');
+  std::ifstream in(path, std::ios::binary);
+  in.read(text.data(), std::streamsize(text.size()));
+  text.resize(std::size_t(in.gcount()));
+  return text;
 }
 
 std::string folder_of(const std::string& path) {

@@ -12,6 +12,8 @@ void sync_folder(const std::string& path);
 /// Returns whether a path leads to a regular file; false if that cannot be told. Other files are not opened: a pipe
 /// would be waited for, or lose its first bytes, and a device has no end.
 [[nodiscard]] bool is_regular_file(const std::string& path);
+/// Returns the first 64 KiB of a file; empty if it cannot be read, or is no regular file.
+[[nodiscard]] std::string head_of(const std::string& path);
 /// Returns the folder of a path; "." if the path has none.
 [[nodiscard]] std::string folder_of(const std::string& path);
 

@@ -3,10 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 
 #include "io/files/final_names.h"
-#include "io/files/paths.h"
 #include "io/mesh/lod_writer.h"
 #include "io/mesh/mesh_writer.h"
 #include "lib/core/error.h"
@@ -145,15 +143,6 @@ void take_away_longer_list(const BuildOptions& options, std::size_t levels, Outp
     if (!head.starts_with("glTF") || head.find("\"generator\":\"bplod ") == std::string::npos) return;
     out.take_away(name);
   }
-}
-
-std::string head_of(const std::string& path) {
-  if (!is_regular_file(path)) return {};  // reading a pipe would wait for its writer
-  std::string text(std::size_t(1) << 16, '\0');
-  std::ifstream in(path, std::ios::binary);
-  in.read(text.data(), std::streamsize(text.size()));
-  text.resize(std::size_t(in.gcount()));
-  return text;
 }
 
 WholeLevels encoded(const BuildOptions& options, const CompleteLevels& made, std::size_t first) {

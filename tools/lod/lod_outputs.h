@@ -68,8 +68,6 @@ std::vector<WrittenFile> write_profile(const BuildOptions& options, const Comple
 /// Encodes the levels of a tileset that are one mesh each. `first`: the number of the first one.
 [[nodiscard]] WholeLevels encoded(const BuildOptions& options, const CompleteLevels& made, std::size_t first);
 
-/// Returns the first 64 KiB of a file; empty if it cannot be read, or is no regular file.
-[[nodiscard]] std::string head_of(const std::string& path);
 /// Makes --overwrite remove the levels of an earlier, longer list of this name: files that bplod made, whose numbers
 /// follow on `levels`.
 void take_away_longer_list(const BuildOptions& options, std::size_t levels, OutputFolder& out);

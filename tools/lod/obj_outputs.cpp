@@ -4,6 +4,7 @@
 #include <array>
 #include <set>
 
+#include "io/files/paths.h"
 #include "io/image/image_reader.h"
 #include "io/image/texture_writer.h"
 #include "io/mesh/obj_level.h"

@@ -4,10 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <span>
 
-#include "io/files/file.h"
+#include "io/files/paths.h"
 #include "io/scene/part_names.h"
 #include "lib/core/error.h"
 #include "lib/pass/voxelize/stray_part.h"
@@ -74,24 +72,11 @@ std::string leak_note(const VoxelizeCounts& counts, const StreamHeader& header) 
       filled, around);
 }
 
-/// Returns the first bytes of a file; empty if it cannot be read any more.
-std::string head_of(const std::string& path) {
-  constexpr std::size_t kAsset = std::size_t(1) << 16;
-  std::string head(kAsset, '\0');
-  try {
-    head.resize(InputFile(path).read_at(0, std::as_writable_bytes(std::span(head))));
-  } catch (const Error&) {
-    head.clear();
-  }
-  return head;
-}
-
 /// Returns the note about a scene that is a tileset of this suite with a place on the globe. Such a file begins with
 /// its asset, which tells the place.
 std::string placed_note(const std::vector<std::string>& files) {
   for (const std::string& path : files) {
-    std::error_code none;
-    if (!path.ends_with(".json") || !std::filesystem::is_regular_file(path, none)) continue;
+    if (!path.ends_with(".json")) continue;
     const std::string head = head_of(path);
     const std::size_t place = head.find("\"placement\"");
     if (place < head.find("\"root\""))
