@@ -70,7 +70,10 @@ set(CPACK_DEBIAN_LIB_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/cmake/debian/tr
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)  # who links libbp needs this version of it, or a later one
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libbp0 (= ${bp_deb_version})")
-set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "libbp0 (>= ${PROJECT_VERSION}), python3:any (>= 3.9~), python3-numpy")
+# The module calls experimental functions by their names, so it goes with the library of its minor version only.
+math(EXPR bp_next_minor "${PROJECT_VERSION_MINOR} + 1")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+    "libbp0 (>= ${PROJECT_VERSION}), libbp0 (<< ${PROJECT_VERSION_MAJOR}.${bp_next_minor}~), python3:any (>= 3.9~), python3-numpy")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/cmake/debian/postinst ${PROJECT_SOURCE_DIR}/cmake/debian/prerm)
 set(CPACK_DEBIAN_DOC_PACKAGE_ARCHITECTURE all)

@@ -1,7 +1,7 @@
 """Makes the pictures of docs/guides/blender.md, by the add-on itself.
     blender -b --factory-startup --python-exit-code 1 -P docs/blender_gallery.py -- SCENES OUT         what the add-on makes
     blender --factory-startup --enable-event-simulate -p 0 0 1120 720 -P docs/blender_gallery.py -- SCENES OUT      its panel, in a window
-SCENES: a folder with the files of samples/scenes.py, and in its folder "town" those of samples/town.py. The add-on is installed, and the tools are
+SCENES: a folder with the files of samples/scenes.py, and in its folder "town" those of samples/town.py with 16 houses. The add-on is installed, and the tools are
 on PATH."""
 import math
 import os

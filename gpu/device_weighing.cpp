@@ -7,17 +7,16 @@
 namespace bp {
 
 void DeviceWeighing::weigh(const CageCoordinates& coordinates, std::span<const Vec3d> points, bool carry_outside,
-                           Staging& staging, cudaStream_t stream, const std::function<void()>& make_room,
-                           WeightBlock& out, std::span<CoordinateRows::Place> places) {
+                           const DeviceWork& work, WeightBlock& out, std::span<CoordinateRows::Place> places) {
   left_.clear();
   for (std::size_t first = 0, step = points.size(); first < points.size();) {
     const std::size_t n = std::min(step, points.size() - first);
     try {
-      weigh_part(coordinates, points.subspan(first, n), first, staging, stream, out, places);
+      weigh_part(coordinates, points.subspan(first, n), first, work, out, places);
       first += n;
     } catch (const OutOfDeviceMemory&) {
       if (n == 1) throw;
-      make_room();
+      work.make_room();
       step = n / 2;
     }
   }
@@ -25,19 +24,18 @@ void DeviceWeighing::weigh(const CageCoordinates& coordinates, std::span<const V
 }
 
 void DeviceWeighing::weigh_part(const CageCoordinates& coordinates, std::span<const Vec3d> points, std::size_t first,
-                                Staging& staging, cudaStream_t stream, WeightBlock& out,
-                                std::span<CoordinateRows::Place> places) {
+                                const DeviceWork& work, WeightBlock& out, std::span<CoordinateRows::Place> places) {
   const std::size_t n = points.size();
-  weigher_.upload(coordinates, points, staging);
-  weigher_.enqueue(stream);
+  weigher_.upload(coordinates, points, work.staging);
+  weigher_.enqueue(work.stream);
   std::vector<std::uint8_t> done(n);
-  staging.download(done.data(), weigher_.done(), n);
+  work.staging.download(done.data(), weigher_.done(), n);
   const std::size_t bytes = n * out.columns * sizeof(std::int32_t);
   if (n == out.points) {
-    staging.download(out.units.data(), weigher_.units(), bytes);
+    work.staging.download(out.units.data(), weigher_.units(), bytes);
   } else {
     std::vector<std::int32_t> units(n * out.columns);
-    staging.download(units.data(), weigher_.units(), bytes);
+    work.staging.download(units.data(), weigher_.units(), bytes);
     for (std::size_t c = 0; c < out.columns; ++c)
       std::copy_n(units.data() + c * n, n, out.units.data() + c * out.points + first);
   }

@@ -1,8 +1,8 @@
 #pragma once
-#include <functional>
 #include <span>
 #include <vector>
 
+#include "gpu/device_work.h"
 #include "gpu/kernels/coordinate_kernels.h"
 #include "lib/deform/weight_block.h"
 
@@ -11,16 +11,15 @@ namespace bp {
 /// Backend::weigh() on a GPU. The calling thread weighs the points that the kernel leaves.
 class DeviceWeighing {
  public:
-  /// Weighs points. If they do not fit in device memory, it calls make_room() and takes them in parts.
-  void weigh(const CageCoordinates& coordinates, std::span<const Vec3d> points, bool carry_outside, Staging& staging,
-             cudaStream_t stream, const std::function<void()>& make_room, WeightBlock& out,
-             std::span<CoordinateRows::Place> places);
+  /// Weighs points. If they do not fit in device memory, it makes room and takes them in parts.
+  void weigh(const CageCoordinates& coordinates, std::span<const Vec3d> points, bool carry_outside,
+             const DeviceWork& work, WeightBlock& out, std::span<CoordinateRows::Place> places);
   void release() { weigher_.release(); }
 
  private:
   /// Weighs some points. `first`: number of the first point in `out`.
   void weigh_part(const CageCoordinates& coordinates, std::span<const Vec3d> points, std::size_t first,
-                  Staging& staging, cudaStream_t stream, WeightBlock& out, std::span<CoordinateRows::Place> places);
+                  const DeviceWork& work, WeightBlock& out, std::span<CoordinateRows::Place> places);
 
   DeviceWeigher weigher_;
   std::vector<std::uint32_t> left_;  ///< points that are left to the calling thread

@@ -38,8 +38,25 @@ lines_of() {
     END { for (file in ranges) all = all (all ? "," : "") "{\"name\":\"" file "\",\"lines\":[" ranges[file] "]}"; print "[" all "]" }'
 }
 
+# Where a room is compiled as one, its sources have no commands of their own, and clang-tidy would guess them from another target's.
+# This writes BUILD/tidy/compile_commands.json, in which each source has the command of the file that includes it.
+own_commands() {
+  mkdir -p "$build/tidy"
+  python3 - "$build" << 'END'
+import json, re, shlex, sys
+commands = []
+for entry in json.load(open(f"{sys.argv[1]}/compile_commands.json")):
+    words = shlex.split(entry["command"])
+    sources = re.findall(r'^#include "(.*\.cpp)"', open(entry["file"]).read(), re.M) if "/Unity/" in entry["file"] else [entry["file"]]
+    for source in sources:
+        arguments = [source if word == entry["file"] else word for word in words]
+        commands.append({"directory": entry["directory"], "file": source, "arguments": arguments})
+json.dump(commands, open(f"{sys.argv[1]}/tidy/compile_commands.json", "w"))
+END
+}
+
 look_at() {
-  if [ "$since" = --all ]; then "$tidy" -p "$build" --quiet "$1"; else "$tidy" -p "$build" --quiet --line-filter="$(lines_of "$1")" "$1"; fi 2> /dev/null
+  if [ "$since" = --all ]; then "$tidy" -p "$build/tidy" --quiet "$1"; else "$tidy" -p "$build/tidy" --quiet --line-filter="$(lines_of "$1")" "$1"; fi 2> /dev/null
 }
 
 [ -n "$since" ] || since=$(base)
@@ -50,6 +67,7 @@ if [ "$most" -gt 0 ] && [ "$all" -gt "$most" ]; then
 fi
 [ "${#sources[@]}" -gt 0 ] || { echo "no source has changed"; exit 0; }
 echo "${#sources[@]} of $all changed sources"
+own_commands
 export -f look_at lines_of
 export tidy build since
 printf '%s\n' "${sources[@]}" | xargs -P "$(nproc)" -n 1 bash -c 'look_at "$1"' _

@@ -188,8 +188,9 @@ std::vector<bp::CheckReport> check(const bp::CheckRun& o, const std::vector<bp::
 /// Returns whether the proxy fails as one surface as convex parts do: they intersect, or share vertices or edges.
 bool parts_meet(const bp::CheckRun& o, const std::vector<bp::CheckReport>& verdicts) {
   if (o.convex || o.inside) return false;
-  return std::any_of(verdicts.begin(), verdicts.end(),
-                     [](const bp::CheckReport& v) { return v.components > 1 && (!v.embedded() || !v.manifold()); });
+  return std::any_of(verdicts.begin(), verdicts.end(), [](const bp::CheckReport& v) {
+    return v.components > 1 && (v.self_intersections.count > 0 || !v.manifold());
+  });
 }
 
 /// Returns whether several convex parts are there. It serves a hint only, so only small proxies are tested: physics

@@ -1,6 +1,7 @@
 // bplod: scenes in, levels of detail out, in one process. Manual: docs/bplod.1.md
 #include <cmath>
 
+#include "tools/cli/input_list.h"
 #include "tools/cli/run_tool.h"
 #include "tools/lod/bake_levels.h"
 #include "tools/lod/choices.h"
@@ -80,11 +81,17 @@ void build_chain(const bp::BuildOptions& o) {
   bp::finish(build, scene.told(room.margin_world), rows, out.bytes());
 }
 
-void run(const bp::BuildOptions& o) {
+void make(const bp::BuildOptions& o) {
   if (o.shows_scene()) return o.explain ? bp::explain_visual_tileset(o) : bp::build_visual_tileset(o);
   if (o.explain) return bp::explain(o);
   if (o.profile == bp::LodProfile::occluder) return bp::build_occluder(o);
   o.is_tileset() ? bp::build_tileset(o) : build_chain(o);
+}
+
+void run(const bp::BuildOptions& o) {
+  bp::InputList inputs(o.inputs, o.common.overwrite);
+  make(o);
+  inputs.write();
 }
 
 }  // namespace

@@ -1,16 +1,15 @@
 // bpscale: adds a scale field to a stream of voxels, for bpclose. Manual: docs/bpscale.1.md
 #include <optional>
 
-#include "io/stream/brick_shelf.h"
 #include "io/stream/brick_stream.h"
 #include "lib/core/error.h"
 #include "tools/cli/output_name.h"
 #include "tools/cli/report.h"
 #include "tools/cli/run_tool.h"
 #include "tools/notes/scale_notes.h"
+#include "tools/pipe/close_step.h"
+#include "tools/pipe/field_step.h"
 #include "tools/run/inputs.h"
-#include "tools/run/memory_shares.h"
-#include "tools/run/provenance.h"
 #include "tools/run/scale_rules.h"
 #include "tools/scale/explain.h"
 #include "tools/scale/orientation_rules.h"
@@ -53,28 +52,6 @@ Options parse(bp::Args& args) {
   return o;
 }
 
-bp::StreamHeader with_fields(const bp::StreamHeader& in, const bp::ScalePlan& plan,
-                             const bp::OrientationField& orientation) {
-  bp::StreamHeader header = in;
-  header.has_field = true;
-  header.scale = plan.field;
-  header.orientation = orientation;
-  bp::OptionText text;
-  text.add("field", bp::provenance_text(plan));
-  text.add("orientation", bp::provenance_text(plan.orientation, "places"));
-  header.provenance.push_back(bp::make_provenance("bpscale", text));
-  return header;
-}
-
-bp::PassContext pass_context(const Options& o, bp::Progress& progress) {
-  const bp::MemoryLimit limit{o.common.memory_bytes, bp::kVoxelProgram};
-  bp::PassContext context;
-  context.memory = {limit.rest_bytes() / 2, 0.5, limit};
-  context.make_shelf = bp::make_shelf_factory(limit.rest_bytes() / 5 * 2, o.common.temp);
-  context.progress = bp::refused_with_outputs(progress.for_pass());
-  return context;
-}
-
 std::uint64_t copy(bp::BrickSource& source, bp::BrickSink& sink) {
   std::uint64_t bricks = 0;
   for (bp::Brick brick; source.read(brick); ++bricks) sink.write(brick);
@@ -91,15 +68,18 @@ void run(const Options& o) {
   const bp::StreamHeader& header = reader.header();
   if (header.has_closing)
     fail(ErrorCode::bad_input, "{}: is closed already; bpscale comes between bpvox and bpclose", o.in);
-  bp::RuledSource source(reader, pass_context(o, progress), o.common.memory_bytes, o.common.temp);
+  const bp::PassProgress show = bp::refused_with_outputs(progress.for_pass());
+  const bp::PassContext context = bp::close_options(o.common, false, false, 0, show).context;
+  bp::RuledSource source(reader, context, o.common.memory_bytes, o.common.temp);
   const bp::ScalePlan plan = source.read_rules(bp::read_rules_text(o.rules), true);
   bp::OrientationField orientation;
-  if (!plan.orientation.empty()) orientation = bp::make_orientation(plan.orientation, o.rules, header, plan.field);
+  if (!plan.orientation.empty())
+    orientation = bp::make_orientation(plan.orientation, o.rules, header, plan.field, source.scene_options());
   if (o.explain) return bp::print(bp::explain_point(plan, orientation, header, *o.explain));
   for (const std::string& text : bp::scale_notes(plan, header)) report.note(text, o.common);
 
   report.begin("copy");
-  bp::BrickWriter sink(*output, with_fields(header, plan, orientation));
+  bp::BrickWriter sink(*output, bp::field_header(header, plan, orientation));
   report.counts = {{"rules", plan.entries.size()}, {"bricks", copy(source, sink)}};
   output->commit();
   report.bytes_in = reader.totals().bytes;

@@ -5,6 +5,7 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
 #include <future>
 #include <memory>
 #include <thread>
@@ -90,6 +91,8 @@ void run(const bp::ViewOptions& o) {
   bp::print(fmt::format("{}\n", server.link()));
   if (bp::page_files().empty())
     report.note("this build has no page: it was made without npm; install npm and build again", o.common);
+  if (std::error_code error; o.rules_given && !std::filesystem::exists(o.rules, error))
+    report.note(o.rules + " is not there: the design begins without rules", o.common);
   if (o.common.progress != bp::ProgressMode::quiet) report.note("ends with Ctrl-C", o.common);
   std::thread answers([&] { server.run(); });
   if (o.opens_browser) open_browser(server.link_for_once());

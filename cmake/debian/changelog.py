@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Prints Debian's form of CHANGELOG.md: its released versions, each with its date.
-    cmake/debian/changelog.py CHANGELOG.md VERSION "NAME <ADDRESS>"      VERSION, as 0.2.0-1: of the package; it must be the newest"""
+    cmake/debian/changelog.py CHANGELOG.md VERSION "NAME <ADDRESS>"      VERSION, as 0.3.0-1: of the package; it must be the newest"""
 import re
 import sys
 import textwrap

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "io/files/file.h"
+#include "io/files/kept_files.h"
 #include "io/files/lower.h"
 
 namespace bp {
@@ -37,6 +38,7 @@ std::string entry_like(const std::string& folder, const std::string& name) {
   const std::string wanted = lower(name);
   std::string found;
   std::error_code unreadable;
+  note_looked_for(folder.empty() ? "." : folder);
   for (std::filesystem::directory_iterator entry(folder.empty() ? "." : folder, unreadable), end;
        !unreadable && entry != end; entry.increment(unreadable)) {
     std::string one = entry->path().filename().string();
@@ -67,6 +69,7 @@ std::string find_beside(const std::string& folder, const std::string& name) {
   const std::string path = in_folder(folder, plain), near = in_folder(folder, bare);
   for (const std::string& one : {in_folder(folder, name), path, near}) {
     if (is_regular_file(one)) return one;
+    note_looked_for(one);
   }
   for (const std::string& one : {plain, bare}) {
     if (const std::string found = path_like(folder, one); !found.empty()) return found;

@@ -15,6 +15,7 @@
 #include "io/files/kept_files.h"
 #include "io/files/made_folders.h"
 #include "io/files/write_all.h"
+#include "io/files/write_signals.h"
 #include "lib/core/error.h"
 
 namespace bp {
@@ -30,11 +31,6 @@ constexpr std::size_t kBufferBytes = std::size_t(1) << 20;
     fail(ErrorCode::out_of_resource, {Remedy::free_space, Remedy::other_output}, "{}: {}", name, std::strerror(e));
   if (e == ENOENT) fail_for_folder(name);
   fail(ErrorCode::failed, "{}: cannot write: {}", name, std::strerror(e));
-}
-
-void write_all(int fd, std::span<const std::byte> bytes, const std::string& name) {
-  check_outputs();
-  if (!detail::write_all(fd, bytes)) fail_write(name);
 }
 
 /// The reason why outputs are refused.
@@ -126,7 +122,7 @@ void InputFile::seek(std::uint64_t offset) {
   offset_ = offset;
 }
 
-OutputFile::OutputFile(const std::string& path, bool overwrite)
+OutputFile::OutputFile(const std::string& path, bool overwrite, NamedBy named_by)
     : name_(path == "-" ? "stdout" : path), overwrite_(overwrite), buffer_(new std::byte[kBufferBytes]) {
   if (path == "-") {
     fd_ = ::dup(1);
@@ -136,7 +132,7 @@ OutputFile::OutputFile(const std::string& path, bool overwrite)
   struct stat info {};
   const bool exists = ::stat(path.c_str(), &info) == 0;
   if (exists && S_ISDIR(info.st_mode)) fail(ErrorCode::bad_argument, "{}: is a directory; name a file", path);
-  if (exists && !S_ISREG(info.st_mode)) {  // a device or a named pipe: written in place, as a shell would
+  if (named_by == NamedBy::user && exists && !S_ISREG(info.st_mode)) {  // a device or a pipe: written as a shell would
     fd_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
     if (fd_ < 0) fail_write(name_);
     return;
@@ -145,6 +141,9 @@ OutputFile::OutputFile(const std::string& path, bool overwrite)
   if (!overwrite && is_there(path)) fail(ErrorCode::bad_argument, {Remedy::overwrite}, "{}: exists", path);
   open_partial();
 }
+
+OutputFile::OutputFile(const std::string& name, Sink sink)
+    : name_(name), sink_(std::move(sink)), buffer_(new std::byte[kBufferBytes]) {}
 
 void OutputFile::open_partial() {
   for (int i = 1; i <= kMostPartials; ++i) {
@@ -173,14 +172,23 @@ OutputFile::~OutputFile() {
 void OutputFile::write(std::span<const std::byte> bytes) {
   bytes_ += bytes.size();
   if (used_ + bytes.size() > kBufferBytes) flush();
-  if (bytes.size() >= kBufferBytes) return write_all(fd_, bytes, name_);
+  if (bytes.size() >= kBufferBytes) return emit(bytes);
   std::memcpy(buffer_.get() + used_, bytes.data(), bytes.size());
   used_ += bytes.size();
 }
 
 void OutputFile::flush() {
-  write_all(fd_, {buffer_.get(), used_}, name_);
+  emit({buffer_.get(), used_});
   used_ = 0;
+}
+
+void OutputFile::emit(std::span<const std::byte> bytes) {
+  check_outputs();
+  if (sink_) {
+    if (!bytes.empty()) sink_(bytes);
+  } else if (!detail::write_all(fd_, bytes)) {
+    fail_write(name_);
+  }
 }
 
 void OutputFile::commit(Sync sync) {
@@ -218,6 +226,7 @@ void OutputFile::take_back() {
 }
 
 void OutputFile::close(Sync sync) {
+  if (sink_) return;
   const int fd = std::exchange(fd_, -1);
   if (::close(fd) != 0) fail_write(name_);
   if (placed_ && sync == Sync::name) sync_folder(folder_of(name_));
@@ -267,6 +276,7 @@ std::uint64_t ScratchFile::append(std::span<const std::byte> bytes) {
 }
 
 void ScratchFile::write_at(std::uint64_t offset, std::span<const std::byte> bytes) {
+  const detail::NoWriteSignals as_errors;
   std::size_t done = 0;
   while (done < bytes.size()) {
     const ssize_t n = ::pwrite(state_->fd, bytes.data() + done, bytes.size() - done, off_t(offset + done));

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -14,8 +15,8 @@ namespace bp {
 
 class Error;
 
-/// Tells who named a file that is read. A file that another file names, or that a folder holds, must be a regular file:
-/// reading a named pipe would wait, and a device has no end.
+/// Tells who named a file. One that another file names, or that a folder holds, must be a regular file to be read, and
+/// is replaced if it is written: a named pipe would wait, and a device has no end.
 enum class NamedBy { user, file };
 
 /// Sequential input. "-" is stdin if the user named it.
@@ -51,7 +52,12 @@ class InputFile {
 /// or if it is a file that this process reads (io/files/kept_files.h).
 class OutputFile {
  public:
-  OutputFile(const std::string& path, bool overwrite);
+  /// Takes the next bytes of an output.
+  using Sink = std::function<void(std::span<const std::byte> bytes)>;
+
+  OutputFile(const std::string& path, bool overwrite, NamedBy named_by = NamedBy::user);
+  /// Hands the bytes to `sink`, in their order, until commit() returns. No file is written; `name` is for messages.
+  OutputFile(const std::string& name, Sink sink);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
@@ -74,6 +80,7 @@ class OutputFile {
  private:
   void open_partial();
   void flush();
+  void emit(std::span<const std::byte> bytes);
   void complete();
   void place();
   void take_back();
@@ -82,6 +89,7 @@ class OutputFile {
   bool overwrite_ = false, placed_ = false;
   PartialOutput partial_;  ///< entry for temporary_, used by signal handlers
   int fd_ = -1;
+  Sink sink_;  ///< in place of fd_
   std::uint64_t bytes_ = 0;
   std::unique_ptr<std::byte[]> buffer_;
   std::size_t used_ = 0;

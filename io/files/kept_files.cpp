@@ -2,9 +2,11 @@
 
 #include <sys/stat.h>
 
+#include <atomic>
 #include <map>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -47,6 +49,8 @@ class KeptFiles {
     names_.clear();
     identities_.clear();
     unread_.clear();
+    const std::scoped_lock looking(looked_for_mutex_);
+    looked_for_.clear();
   }
 
   void add(const std::string& path, PartsOfFile parts) {
@@ -54,6 +58,21 @@ class KeptFiles {
     if (scopes_ == 0) return;
     add_entry({path, ""});
     if (parts && path != "-") unread_.push_back({path, parts});
+  }
+
+  /// Also called by what read_parts() calls.
+  void look_for(const std::string& path) {
+    const std::scoped_lock lock(looked_for_mutex_);
+    if (scopes_ > 0 && !path.empty() && path != "-") looked_for_.insert(path);
+  }
+
+  std::vector<std::string> paths() {
+    const std::scoped_lock lock(mutex_);
+    read_parts();
+    const std::scoped_lock looking(looked_for_mutex_);
+    std::set<std::string> all = looked_for_;
+    for (const auto& [whole, entry] : names_) all.insert(entry.path);
+    return {all.begin(), all.end()};
   }
 
   std::optional<Entry> find(const std::string& path) {
@@ -94,9 +113,11 @@ class KeptFiles {
   }
 
   std::mutex mutex_;
-  int scopes_ = 0;                      ///< number of living KeepsInputs
+  std::atomic<int> scopes_ = 0;         ///< number of living KeepsInputs
   std::map<std::string, Entry> names_;  ///< by whole path
   std::map<Identity, Entry> identities_;
+  std::mutex looked_for_mutex_;
+  std::set<std::string> looked_for_;
   std::vector<std::pair<std::string, PartsOfFile>> unread_;  ///< files whose parts were not asked for yet
 };
 
@@ -121,6 +142,14 @@ void keep_file(const std::string& path) {
 
 void keep_file_and_parts(const std::string& path, PartsOfFile parts) {
   kept_files().add(path, parts);
+}
+
+void note_looked_for(const std::string& path) {
+  kept_files().look_for(path);
+}
+
+std::vector<std::string> read_paths() {
+  return kept_files().paths();
 }
 
 void refuse_kept(const std::string& path, const char* remedy) {

@@ -25,6 +25,13 @@ using PartsOfFile = std::vector<std::string> (*)(const std::string& path);
 /// Keeps the file, and the files that `parts` finds in it.
 void keep_file_and_parts(const std::string& path, PartsOfFile parts);
 
+/// Notes a path that was looked for: if a file appears there, or other files in that folder, this process would have
+/// read other files. For read_paths() while a KeepsInputs lives; nothing is kept.
+void note_looked_for(const std::string& path);
+/// Returns the paths on which it depends what this process has read: the kept files, those that they name and that are
+/// not there, and those of note_looked_for(). Each once, as it was given, without stdin.
+[[nodiscard]] std::vector<std::string> read_paths();
+
 /// Throws bad_argument, with the reason and `remedy`, if `path` names a kept file.
 void refuse_kept(const std::string& path, const char* remedy = "give the output another name");
 /// Returns whether `path` names a kept file.

@@ -8,6 +8,7 @@
 #include "io/files/uri.h"
 #include "io/gltf/detail/data_uri.h"
 #include "io/gltf/json_fault.h"
+#include "io/gltf/json_text.h"
 
 namespace bp {
 
@@ -20,20 +21,6 @@ std::uint32_t word_at(const SceneFile& file, std::uint64_t offset) {
   if (file.read_at(offset, std::as_writable_bytes(std::span(&word, 1))) != sizeof word)
     fail(ErrorCode::bad_input, "{}: ends in the header at byte {}; the file is truncated", file.name(), file.size());
   return word;
-}
-
-// Parses JSON. Some exporters write names in Latin-1, which is no valid JSON; they are replaced, since names do not
-// matter here.
-GltfJson parse_json(std::string text) {
-  try {
-    return GltfJson::parse(text);
-  } catch (const GltfJson::parse_error& e) {
-    if (std::strstr(e.what(), "UTF-8") == nullptr) throw;
-  }
-  for (char& c : text) {
-    if (static_cast<unsigned char>(c) >= 128) c = '?';
-  }
-  return GltfJson::parse(text);
 }
 
 std::uint64_t bytes_made(std::string_view text, const MadeOfJson& made) {
@@ -49,14 +36,14 @@ std::uint64_t description_bytes(std::string_view text) {
          bytes_made(text, {"\"EXT_mesh_gpu_instancing\"", sizeof(InstanceArray)});
 }
 
-CountedJson parsed(std::string text, const std::string& name, const SceneOptions& options, std::uint64_t held,
+CountedJson parsed(const std::string& text, const std::string& name, const SceneOptions& options, std::uint64_t held,
                    const MadeOfJson& made = {}, const MadeOfJson& later = {}) {
   const std::uint64_t bytes = bytes_to_parse(text), all = options.document.bytes;
   check_document(options, name, "its JSON", text.size() + bytes + bytes_made(text, made), all - std::min(all, held),
                  bytes_made(text, later));
   if (text.empty()) fail(ErrorCode::bad_input, {Remedy::repair_file}, "{}: is empty", name);
   try {
-    return {parse_json(std::move(text)), bytes};
+    return {parse_json(text, name), bytes};
   } catch (const GltfJson::exception& e) {
     fail(ErrorCode::bad_input, {Remedy::repair_file}, "{}: broken JSON: {}", name, detail::json_fault(e));
   }
@@ -186,7 +173,12 @@ void GltfDocument::open_glb() {
     if (size > total - at)
       fail(ErrorCode::bad_input, "{}: byte {}: a chunk of {} bytes does not fit into the file", file_->name(), at,
            size);
-    if (type == kJson && !has_json) {
+    if (size % 4 != 0 && at + size < total)
+      fail(ErrorCode::bad_input, {Remedy::repair_file},
+           "{}: byte {}: a chunk of {} bytes, and programs disagree on lengths that are no multiple of 4",
+           file_->name(), at, size);
+    if (!has_json) {
+      if (type != kJson) break;  // it must come first: other programs look nowhere else
       parse(at, size);
       has_json = true;
     } else if (type == kBin && !glb_data_) {
@@ -194,7 +186,8 @@ void GltfDocument::open_glb() {
     }
     at += (size + 3) / 4 * 4;
   }
-  if (!has_json) fail(ErrorCode::bad_input, {Remedy::repair_file}, "{}: has no JSON chunk", file_->name());
+  if (!has_json)
+    fail(ErrorCode::bad_input, {Remedy::repair_file}, "{}: does not begin with a JSON chunk", file_->name());
 }
 
 void GltfDocument::parse(std::uint64_t offset, std::uint64_t size) {
@@ -203,7 +196,7 @@ void GltfDocument::parse(std::uint64_t offset, std::uint64_t size) {
   const std::uint64_t described = description_bytes(lean.text);
   document_bytes_ = lean.text.size() + bytes_to_parse(lean.text);
   try {
-    CountedJson all = parsed(std::move(lean.text), file_->name(), options_, 0);
+    CountedJson all = parsed(lean.text, file_->name(), options_, 0);
     json_ = std::move(all.json);
     json_bytes_ = all.bytes;
   } catch (const NeedsMemory& e) {  // the list of nodes comes next, and must fit, too
@@ -219,17 +212,20 @@ void GltfDocument::check_root() const {
   const std::string version = root().object("asset").text("version");
   if (version.compare(0, 2, "2.") != 0)
     fail(ErrorCode::bad_input, "{}: is glTF version {}, and only version 2 is read", file_->name(), version);
+  const GltfObject asset = root().object("asset");
+  if (asset.has("minVersion") && asset.text("minVersion") != "2.0")
+    fail(ErrorCode::bad_input, "{}: asks for readers of glTF {}, and only version 2.0 is read", file_->name(),
+         asset.text("minVersion"));
   check_required_extensions(root());
 }
 
 // --- GltfDocument: buffers and accessors
 // ---------------------------------------------------------------------------------
 
-std::string GltfDocument::path_beside(const std::string& uri) const {
-  const std::string path = file_->path(), name = detail::percent_decoded(uri);
+UriFile GltfDocument::file_beside(const std::string& uri) const {
+  const std::string path = file_->path();
   const std::size_t slash = path.find_last_of('/');
-  const bool absolute = !name.empty() && name[0] == '/';
-  return absolute || slash == std::string::npos ? name : path.substr(0, slash + 1) + name;
+  return file_of_uri(uri, slash == std::string::npos ? "" : path.substr(0, std::max<std::size_t>(slash, 1)));
 }
 
 /// Returns the content of a string that was lifted from the JSON; null for any other string.
@@ -250,17 +246,19 @@ ImagePlace GltfDocument::image(std::uint64_t i) {
   } else if (object.has("uri")) {
     const std::string uri = object.text("uri");
     place.bytes = lifted(uri);
-    const bool beside = !place.bytes && !file_->path().empty() && !uri.starts_with("data:");
-    if (beside) place.path = place.name = path_beside(uri);
+    const bool beside = !place.bytes && !file_->path().empty();
+    const UriFile file = beside ? file_beside(uri) : UriFile{};
+    if (!file.path.empty()) place.path = place.name = file.path;
   }
   return place;
 }
 
 SceneFilePtr GltfDocument::open_beside(const GltfObject& buffer, const std::string& uri) const {
   if (file_->path().empty()) buffer.broken("lies in another file, which stdin cannot name");
-  if (uri.find("://") != std::string::npos) buffer.broken("lies on the network; download it");
+  const UriFile file = file_beside(uri);
+  if (!file.fault.empty()) buffer.unfit(file.fault);
   try {
-    return open_scene_file(path_beside(uri), temp_dir_, NamedBy::file);
+    return open_scene_file(file.path, temp_dir_, NamedBy::file);
   } catch (const Error& e) {
     fail_as(e, "{}: its data are missing: {}; put that file beside it", file_->name(), e.what());
   }
@@ -307,6 +305,14 @@ GltfDocument::View GltfDocument::part_of_buffer(const GltfObject& object) {
   return {data.address + offset, size, object.number("byteStride", 0)};
 }
 
+void GltfDocument::check_stride(const GltfObject& object, const Accessor& a, std::uint64_t size, std::uint64_t packed) {
+  if (packed != 0 && packed != a.stride)
+    object.unfit(fmt::format("has elements each {} bytes, and they were compressed each {} bytes", a.stride, packed));
+  if (a.stride != size && (a.components == 1 || a.components == kMatrixNumbers))
+    object.unfit("lies in a bufferView with a byteStride, which is for vertices only");
+  if (a.stride < size) object.broken(fmt::format("has elements of {} bytes, one each {} bytes", size, a.stride));
+}
+
 Accessor GltfDocument::accessor(std::uint64_t i, std::size_t components) {
   const GltfObject object = root().item("accessors", i);
   const std::string type = object.text("type");
@@ -317,6 +323,7 @@ Accessor GltfDocument::accessor(std::uint64_t i, std::size_t components) {
   a.type = component_type(object);
   a.components = components;
   a.normalized = object.flag("normalized") && a.type < ComponentType::u32;
+  if (object.flag("normalized") && a.type == ComponentType::u32) object.unfit("normalizes integers of 32 bits");
   const std::uint64_t size = bytes_of(a.type) * components;
   const auto numbers = unpacked_numbers_.find(i);
   if (numbers != unpacked_numbers_.end()) {
@@ -327,6 +334,7 @@ Accessor GltfDocument::accessor(std::uint64_t i, std::size_t components) {
     const View v = view(object.number("bufferView"));
     const std::uint64_t offset = object.number("byteOffset", 0);
     a.stride = v.stride > 0 ? v.stride : size;
+    check_stride(object, a, size, v.packed_stride);
     if (a.count > 0 &&
         (offset > v.size || size > v.size - offset || (a.count - 1) > (v.size - offset - size) / a.stride))
       object.broken(fmt::format("has {} elements, more than its bufferView holds", a.count));
@@ -372,28 +380,6 @@ void GltfDocument::read_sparse(const GltfObject& sparse, Accessor& a) {
   a.replaced_values = place(values, bytes_of(a.type) * a.components);
   a.replaced_count = count;
   check_sparse_numbers(numbers, a);
-}
-
-/// Throws bad_input unless the numbers rise and stay below the accessor's count (glTF 2.0, section 3.6.2.3): readers
-/// differ on files that break this rule.
-void GltfDocument::check_sparse_numbers(const GltfObject& numbers, const Accessor& a) const {
-  constexpr std::uint64_t kAtOnce = 4096;
-  const std::size_t size = bytes_of(a.number_type);
-  if (a.number_type != ComponentType::u8 && a.number_type != ComponentType::u16 && a.number_type != ComponentType::u32)
-    numbers.broken("are not unsigned integers");
-  std::vector<std::byte> some(kAtOnce * size);
-  std::uint64_t least = 0;
-  for (std::uint64_t first = 0; first < a.replaced_count; first += kAtOnce) {
-    const std::uint64_t n = std::min(kAtOnce, a.replaced_count - first);
-    bytes_->read_at(a.replaced_numbers + first * size, std::span(some).first(n * size));
-    for (std::uint64_t k = 0; k < n; ++k) {
-      std::uint64_t number = 0;
-      std::memcpy(&number, some.data() + k * size, size);
-      if (number < least || number >= a.count)
-        numbers.broken(fmt::format("hold {} where numbers from {} to {} must rise", number, least, a.count));
-      least = number + 1;
-    }
-  }
 }
 
 }  // namespace bp

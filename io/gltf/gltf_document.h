@@ -3,6 +3,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "io/files/uri.h"
 #include "io/scene/instanced_scene.h"
 #include "io/scene/texture_table.h"
 #include "lib/core/error.h"
@@ -137,14 +138,21 @@ class GltfDocument {
   };
   struct View {
     std::uint64_t address = 0, size = 0, stride = 0;
+    std::uint64_t packed_stride = 0;  ///< bytes of an element that was compressed; 0: it was not
   };
+  static constexpr std::uint64_t kNotPacked = ~std::uint64_t(0);
+  /// Throws Unfit if a primitive before took the accessor's numbers from elsewhere: some programs then take the same.
+  void note_use(const GltfObject& primitive, std::uint64_t accessor, std::uint64_t packed_in);
+  void note_plain_use(const GltfObject& primitive);
+  /// `size`: of an element; `packed`: its bytes where it was compressed, or 0.
+  static void check_stride(const GltfObject& object, const Accessor& a, std::uint64_t size, std::uint64_t packed);
   void open_glb();
   void parse(std::uint64_t offset, std::uint64_t size);
   void check_root() const;
   const Data& buffer(std::uint64_t i);
   SceneFilePtr open_buffer(std::uint64_t i);
   [[nodiscard]] SceneFilePtr lifted(const std::string& uri) const;
-  [[nodiscard]] std::string path_beside(const std::string& uri) const;
+  [[nodiscard]] UriFile file_beside(const std::string& uri) const;
   SceneFilePtr open_beside(const GltfObject& buffer, const std::string& uri) const;
   View view(std::uint64_t i);
   View part_of_buffer(const GltfObject& object);
@@ -171,6 +179,7 @@ class GltfDocument {
     std::uint64_t address = 0, count = 0;
   };
   std::map<std::uint64_t, View> unpacked_;
+  std::map<std::uint64_t, std::uint64_t> packed_in_;   // views of the compressed data of accessors, or kNotPacked
   std::map<std::uint64_t, Numbers> unpacked_numbers_;  // unpacked numbers of accessors, without gaps
   std::shared_ptr<ScratchFile> scratch_;               // unpacked bytes
 };

@@ -10,8 +10,10 @@
 #include <tuple>
 #include <utility>
 
+#include "io/gltf/detail/gltf_instances.h"
 #include "io/gltf/detail/gltf_materials.h"
 #include "io/gltf/detail/gltf_skin.h"
+#include "io/gltf/detail/told_bounds.h"
 #include "io/gltf/gltf_document.h"
 #include "io/gltf/gltf_nodes.h"
 #include "io/gltf/gltf_unread.h"
@@ -50,7 +52,10 @@ class SceneBuilder {
     places_.resize(root_.array("nodes").size());
     if (!place_) scene_.up = gltf_up(root_);
     if (place_) scene_.unread = gltf_unread(root_);
-    add_nodes(gltf_roots(root_), place_ ? placed() : gltf_world(scene_.up));
+    const std::vector<std::uint64_t> roots = gltf_roots(root_);
+    scene_.unfollowed.transforms += children_among(root_, roots);
+    add_nodes(roots, place_ ? placed() : gltf_world(root_));
+    scene_.unfollowed.variants += has_no_default_scene(root_) || root_.array("animations").size() > 0 ? 1 : 0;
     for (const Skinned& skinned : skinned_) add_skinned(skinned);
     scene_.animations = root_.array("animations").size();
     scene_.bytes = doc_.bytes();
@@ -69,6 +74,7 @@ class SceneBuilder {
     std::uint64_t node;
     Affine parent;
     bool wanted;  // it is below a node whose name fits
+    bool hidden;  // it is below a node that hides it
   };
   /// The morph weights and skin that move a mesh before its node places it.
   struct Moved {
@@ -98,6 +104,7 @@ class SceneBuilder {
   void note_parts();
   [[nodiscard]] bool has_material_that_fits(const GltfObject& primitive) const;
   void add_primitive(const GltfObject& p, const Moved& moved);
+  void add_positions(const GltfObject& p, const Moved& moved, bool packed, Primitive& primitive);
   void add_normals(const GltfObject& p, const Moved& moved, Primitive& primitive);
   void add_colors(const GltfObject& p, const GltfObject& attributes, Primitive& primitive);
   void try_texture(std::uint64_t material, const GltfObject& attributes, Primitive& primitive);
@@ -127,10 +134,8 @@ class SceneBuilder {
 // Returns the place of a content in its tile. Tiles have z up. CESIUM_RTC of older files moves contents.
 Affine SceneBuilder::placed() const {
   Affine centre;
-  if (root_.has_extension("CESIUM_RTC")) {
-    const Vec3d at = root_.object("extensions").object("CESIUM_RTC").numbers<3>("center", {0, 0, 0});
-    for (std::size_t i = 0; i < 3; ++i) centre.m[i][3] = at[i];
-  }
+  const Vec3d at = gltf_rtc_center(root_);
+  for (std::size_t i = 0; i < 3; ++i) centre.m[i][3] = at[i];
   return place_->tile * centre * gltf_in_tile(place_->up);
 }
 
@@ -139,7 +144,7 @@ void SceneBuilder::add_nodes(const std::vector<std::uint64_t>& roots, const Affi
   std::vector<Pending> stack;
   const std::set<std::uint64_t> coarser = level_ > 0 ? coarser_nodes() : std::set<std::uint64_t>{};
   for (std::size_t i = roots.size(); i-- > 0;) {
-    if (!coarser.contains(roots[i])) stack.push_back({roots[i], world, parts_.takes_all()});
+    if (!coarser.contains(roots[i])) stack.push_back({roots[i], world, parts_.takes_all(), false});
   }
   while (!stack.empty()) {
     Pending next = stack.back();
@@ -150,15 +155,19 @@ void SceneBuilder::add_nodes(const std::vector<std::uint64_t>& roots, const Affi
     if (place) node.broken("is reached twice, and nodes must form trees");
     const ScenePose::Node* const pose = pose_of(next.node);
     const Affine transform = next.parent * gltf_transform(node, pose);
+    const bool turns = is_unit_rotation(node.numbers<4>("rotation", {0, 0, 0, 1}));
+    if (!turns || is_sheared(node)) ++scene_.unfollowed.transforms;
     place = transform;
-    const bool wanted = fits(node) || next.wanted;
-    if (node.has("mesh") && node.has("skin")) {
+    const bool wanted = fits(node) || next.wanted, hidden = gltf_hides(node) || next.hidden;
+    const bool is_drawn = node.has("mesh") && !(walls_only_ && hidden);
+    if (is_drawn && hidden) ++scene_.unfollowed.hidden;
+    if (is_drawn && node.has("skin")) {
       skinned_.push_back({next.node, wanted, {weights_of(node, pose), node.number("skin")}});
-    } else if (node.has("mesh")) {
+    } else if (is_drawn) {
       add_mesh_node(node, transform, wanted, {weights_of(node, pose)});
     }
     for (std::size_t k = node.array("children").size(); k-- > 0;)
-      stack.push_back({node.index("children", k), transform, wanted});
+      stack.push_back({node.index("children", k), transform, wanted, hidden});
   }
 }
 
@@ -209,7 +218,13 @@ std::vector<double> SceneBuilder::weights_of(const GltfObject& node, const Scene
     return weights;
   }
   const GltfObject owner = node.has("weights") ? node : root_.item("meshes", node.number("mesh"));
-  for (const GltfJson& w : owner.array("weights")) weights.push_back(w.is_number() ? w.get<double>() : 0);
+  for (const GltfJson& w : owner.array("weights")) {
+    if (!w.is_number()) owner.broken("'weights' holds something else than numbers");
+    weights.push_back(w.get<double>());
+  }
+  const std::size_t targets = gltf_targets(root_.item("meshes", node.number("mesh")));
+  if (owner.has("weights") && weights.size() != targets)
+    owner.unfit(fmt::format("has {} weights, and the mesh has {} morph targets", weights.size(), targets));
   if (std::all_of(weights.begin(), weights.end(), [](double w) { return w == 0; })) weights.clear();
   return weights;
 }
@@ -251,7 +266,7 @@ void SceneBuilder::note_parts() {
 // Adds a mesh with a skin. Only its joints decide where it is.
 void SceneBuilder::add_skinned(const Skinned& skinned) {
   const GltfObject node = root_.item("nodes", skinned.node);
-  if (node.has_extension("EXT_mesh_gpu_instancing"))
+  if (node.has_extension(kInstancing))
     node.unfit("has a skin and stands in many places: write a node for each, without EXT_mesh_gpu_instancing");
   add_mesh_node(node, {}, skinned.wanted, skinned.moved);
 }
@@ -297,9 +312,7 @@ void SceneBuilder::add_primitive(const GltfObject& p, const Moved& moved) {
                    : mode == kFan   ? Primitive::Mode::fan
                    : mode == kStrip ? Primitive::Mode::strip
                                     : Primitive::Mode::triangles;
-  primitive.positions = doc_.accessor(attributes.number("POSITION"), 3);
-  primitive.positions = doc_.morphed(p, "POSITION", primitive.positions, moved.weights);
-  if (moved.skin != kNoSkin) primitive.positions = skin(moved.skin).points(attributes, primitive.positions);
+  add_positions(p, moved, plain, primitive);
   if (p.has("indices")) {
     primitive.indices = doc_.accessor(p.number("indices"), 1);
     const ComponentType type = primitive.indices->type;
@@ -310,6 +323,22 @@ void SceneBuilder::add_primitive(const GltfObject& p, const Moved& moved) {
   if (textures_ != nullptr && p.has("material")) try_texture(p.number("material"), attributes, primitive);
   if (surface_ && attributes.has("NORMAL")) add_normals(p, moved, primitive);
   scene_.primitives.push_back(primitive);
+}
+
+/// Adds the positions, and the bounds that the file tells of them. A pose may move them out of these bounds, which are
+/// then those of the positions before.
+void SceneBuilder::add_positions(const GltfObject& p, const Moved& moved, bool packed, Primitive& primitive) {
+  const GltfObject attributes = p.object("attributes");
+  const std::uint64_t number = attributes.number("POSITION");
+  primitive.positions = doc_.accessor(number, 3);
+  primitive.told = told_bounds(root_.item("accessors", number), primitive.positions, packed);
+  primitive.moved = !moved.weights.empty() || moved.skin != kNoSkin;
+  const bool lies = !primitive.told || (primitive.moved && !lies_in(doc_, primitive.positions, *primitive.told));
+  scene_.unfollowed.culled += lies ? 1 : 0;
+  primitive.positions = doc_.morphed(p, "POSITION", primitive.positions, moved.weights);
+  if (moved.skin == kNoSkin) return;
+  if (!skin(moved.skin).are_whole(attributes, primitive.positions.count)) ++scene_.unfollowed.skins;
+  primitive.positions = skin(moved.skin).points(attributes, primitive.positions);
 }
 
 void SceneBuilder::add_normals(const GltfObject& p, const Moved& moved, Primitive& primitive) {
@@ -349,19 +378,9 @@ void SceneBuilder::try_texture(std::uint64_t material, const GltfObject& attribu
 }
 
 std::optional<std::uint32_t> SceneBuilder::instance_array(const GltfObject& node) {
-  if (!node.has_extension("EXT_mesh_gpu_instancing")) return {};
-  const GltfObject attributes = node.object("extensions").object("EXT_mesh_gpu_instancing").object("attributes");
-  InstanceArray array;
-  const auto take = [&](const char* name, std::size_t components, Accessor& a) {
-    if (!attributes.has(name)) return;
-    a = doc_.accessor(attributes.number(name), components);
-    if (array.count != 0 && array.count != a.count) attributes.broken("have different counts");
-    array.count = a.count;
-  };
-  take("TRANSLATION", 3, array.translation);
-  take("ROTATION", 4, array.rotation);
-  take("SCALE", 3, array.scale);
-  scene_.arrays.push_back(array);
+  if (!node.has_extension(kInstancing)) return {};
+  if (!requires_extension(root_, kInstancing)) ++scene_.unfollowed.transforms;
+  scene_.arrays.push_back(gltf_instances(doc_, node));
   return std::uint32_t(scene_.arrays.size() - 1);
 }
 

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <set>
 
+#include "io/gltf/detail/gltf_materials.h"
+#include "io/gltf/gltf_nodes.h"
+
 namespace bp {
 
 namespace {
@@ -27,27 +30,18 @@ std::set<std::string> extensions_in(const GltfObject& root) {
   return names;
 }
 
-bool requires_extension(const GltfObject& root, const std::string& name) {
-  const GltfJson& required = root.array("extensionsRequired");
-  return std::find(required.begin(), required.end(), name) != required.end();
-}
-
-bool has_rtc_center(const GltfObject& root) {
-  if (!root.has_extension("CESIUM_RTC")) return false;
-  const GltfObject rtc = root.object("extensions").object("CESIUM_RTC");
-  return rtc.numbers<3>("center", {0, 0, 0}) != std::array<double, 3>{};
-}
-
 void look_at_extensions(const GltfObject& root, std::vector<std::string>& lines) {
   for (const std::string& name : extensions_in(root)) {
     if (!keeps_triangles(name)) lines.push_back(name + " is not followed here, and may move or hide what is drawn");
-    const bool moves = name == "EXT_mesh_gpu_instancing" || (name == "CESIUM_RTC" && has_rtc_center(root));
+    const bool moves = name == "EXT_mesh_gpu_instancing" || (name == "CESIUM_RTC" && gltf_rtc_center(root) != Vec3d{});
     if (moves && !requires_extension(root, name))
       lines.push_back(name + " moves what is drawn, and a viewer need not know it: it is not among extensionsRequired");
   }
 }
 
 void look_at_material(const GltfObject& material, UnreadParts& out) {
+  if (transmits_light(material))
+    out.see_through.push_back(material.place() + " has KHR_materials_transmission, and may be seen through");
   if (!material.has("alphaMode") || material.text("alphaMode") == "OPAQUE") return;
   const bool has_image =
       material.has("pbrMetallicRoughness") && material.object("pbrMetallicRoughness").has("baseColorTexture");
@@ -61,11 +55,17 @@ void look_at_material(const GltfObject& material, UnreadParts& out) {
 
 }  // namespace
 
+bool requires_extension(const GltfObject& root, const std::string& name) {
+  const GltfJson& required = root.array("extensionsRequired");
+  return std::find(required.begin(), required.end(), name) != required.end();
+}
+
 UnreadParts gltf_unread(const GltfObject& root) {
   UnreadParts out;
   look_at_extensions(root, out.moves);
   if (!root.array("animations").empty()) out.moves.emplace_back("animations may move what is drawn");
-  if (root.array("scenes").empty()) out.moves.emplace_back("it has no scene, and a viewer need not draw its nodes");
+  if (has_no_default_scene(root))
+    out.moves.emplace_back("it has no scene, or no default one, and a viewer need not draw its nodes");
   for (std::size_t i = 0; i < root.array("materials").size(); ++i) look_at_material(root.item("materials", i), out);
   return out;
 }

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <optional>
 
 #include "io/files/lower.h"
 #include "io/mesh/detail/mesh_writers.h"
@@ -104,16 +103,6 @@ std::array<float, 3> normal_of(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
   return {float(n[0] / length), float(n[1] / length), float(n[2] / length)};
 }
 
-std::optional<MeshFormat> format_of(std::string_view name) {
-  const std::string extension = lower(name);
-  if (extension == "glb") return MeshFormat::glb;
-  if (extension == "gltf") return MeshFormat::gltf;
-  if (extension == "ply") return MeshFormat::ply;
-  if (extension == "obj") return MeshFormat::obj;
-  if (extension == "stl") return MeshFormat::stl;
-  return {};
-}
-
 }  // namespace
 
 Vec3d moved_exactly(const GridFrame& frame, const Vec3d& p, const Vec3d& origin) {
@@ -141,10 +130,20 @@ void check_origin(const GridFrame& frame, const VoxelBox& box, const Vec3d& orig
   }
 }
 
+std::optional<MeshFormat> mesh_format_named(const std::string& extension) {
+  const std::string name = lower(extension);
+  if (name == "glb") return MeshFormat::glb;
+  if (name == "gltf") return MeshFormat::gltf;
+  if (name == "ply") return MeshFormat::ply;
+  if (name == "obj") return MeshFormat::obj;
+  if (name == "stl") return MeshFormat::stl;
+  return {};
+}
+
 MeshFormat mesh_format_of(const std::string& path) {
   const std::size_t dot = path.find_last_of("./");
   const bool has_extension = dot != std::string::npos && path[dot] == '.';
-  if (const auto format = format_of(has_extension ? path.substr(dot + 1) : std::string())) return *format;
+  if (const auto format = mesh_format_named(has_extension ? path.substr(dot + 1) : std::string())) return *format;
   fail(ErrorCode::bad_argument, "{}: no mesh format; end the name with .glb .gltf .ply .obj or .stl", path);
 }
 

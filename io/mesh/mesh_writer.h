@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 
 #include "io/files/file.h"
@@ -17,7 +18,9 @@
 /// .obj and .ply hold the quads of mesh.quads as quads, after the other triangles; the other formats hold triangles.
 namespace bp {
 
-/// Returns the format of a file name's extension, case ignored. Throws bad_argument for any other.
+/// Returns the format of an extension without its dot, case ignored; nothing for any other.
+[[nodiscard]] std::optional<MeshFormat> mesh_format_named(const std::string& extension);
+/// Returns the format of a file name's extension. Throws bad_argument for any other.
 [[nodiscard]] MeshFormat mesh_format_of(const std::string& path);
 
 /// Throws bad_argument, with an origin that fits, if subtracting `origin` from lattice points of `box` would round. To

@@ -140,8 +140,17 @@ struct Affine {
   return a;
 }
 
+/// Returns whether a quaternion has the length 1 of one that only turns, to the precision of bytes, as the validator of
+/// glTF has it. Programs disagree on others: some make them as long, some let them scale and skew.
+[[nodiscard]] inline bool is_unit_rotation(const std::array<double, 4>& q) {
+  constexpr double kMostOff = 0.00769;
+  return std::abs(std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]) - 1) <= kMostOff;
+}
+
 /// Returns translation after rotation (a quaternion x y z w of any length but 0) after scale. A quaternion without
-/// rotation leaves all numbers exact; otherwise a number of the rotation has some 10 roundings, of terms up to 2.
+/// rotation leaves all numbers exact; otherwise a number of the rotation has some 10 roundings, of terms up to 2. Some
+/// programs do not make a quaternion as long as 1 that is nearly so. The difference counts as rounding, too, unless
+/// only digits of a float32 are missing.
 [[nodiscard]] inline Affine affine_of(const Vec3d& t, const std::array<double, 4>& q, const Vec3d& s) {
   const double x = q[0], y = q[1], z = q[2], w = q[3], square = x * x + y * y + z * z + w * w;
   const double two = square > 0 ? 2 / square : 0;
@@ -155,8 +164,11 @@ struct Affine {
     a.m[i][3] = t[i];
   }
   if (x == 0 && y == 0 && z == 0) return a;
+  constexpr double kFloat = 0x1p-20;
+  const double unequal = std::abs(square - 1),
+               off = 0x1p-48 + (unequal > kFloat && is_unit_rotation(q) ? 2 * unequal : 0);
   for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) a.off.set(i, j, 0x1p-48 * std::abs(s[j]));
+    for (std::size_t j = 0; j < 3; ++j) a.off.set(i, j, off * std::abs(s[j]));
   }
   return a;
 }

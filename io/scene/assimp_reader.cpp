@@ -233,14 +233,25 @@ void SceneUnloader::follow_bones(const aiScene& scene, const BonePlaces& places)
   }
 }
 
-/// Reads a format that has an exact reader; none for others. Throws bad_alloc without room for it: memory must not
-/// decide what is read.
+/// Returns whether Assimp passes the numbers of vertices and nodes on as they are, but for rounding. The importers of
+/// other formats multiply and subtract places in single precision, where numbers cancel: nothing bounds that.
+bool passes_numbers_on(const std::string& extension) {
+  return extension == "fbx" || extension == "x" || extension == "3mf";
+}
+
+/// Reads a format that has an exact reader; of others, only what is not followed. Throws bad_alloc without room for it:
+/// memory must not decide what is read.
 std::optional<ExactScene> read_exactly(const SceneFile& file, const std::string& extension) {
-  const bool collada = extension == "dae", ac3d = is_ac3d(extension);
-  if (!collada && !ac3d) return {};
+  const bool collada = extension == "dae", ac3d = is_ac3d(extension), dxf = extension == "dxf";
+  if (passes_numbers_on(extension)) return {};
+  if (!collada && !ac3d && !dxf) {
+    ExactScene unknown;
+    unknown.unfollowed.placed = 1;
+    return unknown;
+  }
   std::string text(file.size(), '\0');
   file.read_at(0, std::as_writable_bytes(std::span(text)));
-  return collada ? exact_collada(std::move(text)) : exact_ac3d(text);
+  return collada ? exact_collada(std::move(text)) : ac3d ? exact_ac3d(text) : exact_dxf(text);
 }
 
 std::string import(const SceneFilePtr& file, const std::string& extension, ScratchFile& scratch,

@@ -55,6 +55,8 @@ struct Primitive {
   bool has_image = false;           ///< an image of colours, at `uv`
   std::optional<Accessor> normals;  ///< one for each position, three components
   bool srgb = false;                ///< both are sRGB; else they are linear
+  std::optional<Bounds3d> told;     ///< bounds of the positions that the file tells, grown by what rounding explains
+  bool moved = false;               ///< a pose has moved the positions since
 };
 
 /// Transforms of many instances of one node's mesh, applied before the node's own. Missing accessors have count 0.

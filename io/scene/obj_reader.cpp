@@ -3,6 +3,7 @@
 #include <optional>
 #include <sstream>
 
+#include "io/scene/detail/ahead/face_maker.h"
 #include "io/scene/detail/ahead/obj_blocks.h"
 #include "io/scene/detail/mtl_file.h"
 #include "io/scene/detail/text_scanner.h"
@@ -55,8 +56,14 @@ class ObjSource final : public PolygonSource {
   [[nodiscard]] std::array<float, 2> corner_uv(std::size_t k) override;
   [[nodiscard]] PackedNormal corner_normal(std::size_t k) override;
   [[nodiscard]] std::uint64_t lines() const override { return lines_; }
+  [[nodiscard]] Unfollowed unfollowed() const override {
+    Unfollowed u = unfollowed_;
+    u.lines += text_.ends().odd();
+    return u;
+  }
   void rewind_faces() override {
     lines_ = 0;
+    unfollowed_ = {};
     block_ = 0;
     text_.seek({});
     seen_ = seen_places_ = seen_normals_ = 0;
@@ -70,8 +77,12 @@ class ObjSource final : public PolygonSource {
   }
 
   /// Consumes the keyword. Returns 'v', 'f', 'l', 'o' or 'g' for these words, 't' for "vt", 'n' for "vn", 's' for those
-  /// of adds_unread_surface(), 'u' for "usemtl" and 'm' for "mtllib", 0 for any other, comments included.
+  /// of adds_unread_surface(), '1' for is_glued(), 'u' for "usemtl" and 'm' for "mtllib", 0 for any other, comments
+  /// included.
   static char keyword(TextScanner& text);
+  /// Moves to the next line. For some programs it belongs to this one, if that goes on where nothing was read, as in a
+  /// comment.
+  void end_line() { unfollowed_.lines += text_.next_line() ? 1 : 0; }
   [[nodiscard]] bool is_wanted() const { return parts_.takes_all() || fits_.object || fits_.group || fits_.material; }
   void read_vertex(TextScanner& text);
   void read_vertex_color(TextScanner& text);
@@ -115,11 +126,12 @@ class ObjSource final : public PolygonSource {
   bool passed_over_ = false;                                     // faces of the current material are left out
   std::uint64_t seen_ = 0, seen_places_ = 0, seen_normals_ = 0;  // lines "v", "vt" and "vn" of this pass
   std::uint64_t lines_ = 0;                                      // lines "l" of this pass
+  Unfollowed unfollowed_;                                        // of this pass
   bool all_loaded_ = false;                                      // the pool holds every vertex of the file
 };
 
 bool ObjSource::next_face(std::vector<std::uint64_t>& corners) {
-  for (; !text_.at_end(); text_.next_line()) {
+  for (; !text_.at_end(); end_line()) {
     if (!text_.word_on_line()) continue;
     const char key = keyword(text_);
     if (key == 'v') {
@@ -137,15 +149,17 @@ bool ObjSource::next_face(std::vector<std::uint64_t>& corners) {
       if (key == 'u' || key == 'm') use_material(key, name);
     } else if (key == 'l') {
       ++lines_;
+    } else if (key == '1') {
+      ++unfollowed_.lines;
     } else if (key == 's' && !passed_over_ && is_wanted()) {
       corners.clear();  // a face without corners
-      text_.next_line();
+      end_line();
       return true;
     } else if (key == 'f' && !passed_over_ && is_wanted()) {
       read_corners(corners);
       check_last_line(corners);
       if (parts_.asks_for_triangles()) note_part(corners);
-      text_.next_line();
+      end_line();
       return true;
     }
   }
@@ -160,6 +174,7 @@ char ObjSource::keyword(TextScanner& text) {
   if (word == "vt") return 't';
   if (word == "vn") return 'n';
   if (word == "fo") return 'f';  // its name in version 2
+  if (is_glued(word)) return '1';
   if (std::string_view("scbr").find(first) != std::string_view::npos) return adds_unread_surface(word) ? 's' : 0;
   return word.size() == 1 || word == "usemtl" || word == "mtllib" ? first : 0;
 }
@@ -183,11 +198,7 @@ std::optional<Bounds3d> ObjSource::bounds() {
 
 bool ObjSource::next(RawBatch& batch) {
   if (!blocks_) return PolygonSource::next(batch);
-  batch.bad_faces = 0;
-  batch.triangles.clear();
-  batch.inner_edges.clear();
-  batch.records = block_;
-  return block_++ < blocks_->size();
+  return next_block(batch, block_, blocks_->size());
 }
 
 void ObjSource::read_vertex(TextScanner& text) {

@@ -23,6 +23,11 @@ class OffSource final : public PolygonSource {
   bool next_face(std::vector<std::uint64_t>& corners) override;
   [[nodiscard]] std::uint64_t vertex_count() const override { return pool_.size(); }
   [[nodiscard]] Vec3d vertex(std::uint64_t i) override { return pool_[i]; }
+  [[nodiscard]] Unfollowed unfollowed() const override {
+    Unfollowed u;
+    u.lines = odd_lines_ + text_.ends().odd();
+    return u;
+  }
   void rewind_faces() override {
     text_.seek(start_);
     face_ = 0;
@@ -31,6 +36,8 @@ class OffSource final : public PolygonSource {
   void read_header();
   void refuse_dimensions();  ///< 4OFF, nOFF
   void skip_keyword();
+  void note_extras(const std::string& keyword);
+  std::uint64_t end_line();
   void read_vertices();
   std::int64_t need_integer(const char* what);
   void need_word();
@@ -40,6 +47,8 @@ class OffSource final : public PolygonSource {
   VertexPool pool_;
   TextScanner::Mark start_;  // start of the faces
   std::uint64_t vertices_ = 0, faces_ = 0, face_ = 0;
+  std::uint64_t least_extras_ = 0, most_extras_ = 0;  // words of a vertex' line behind its position
+  std::uint64_t odd_lines_ = 0;                       // lines of the header and the vertices with other words
 };
 
 void OffSource::need_word() {
@@ -53,6 +62,26 @@ std::int64_t OffSource::need_integer(const char* what) {
   return value;
 }
 
+/// Moves to the next line. Returns how many words, but for a comment, stand before it.
+std::uint64_t OffSource::end_line() {
+  std::uint64_t words = 0;
+  for (; text_.has_more() && text_.peek() != '#'; ++words) {
+    text_.step();  // skip_word() stops at a control character
+    text_.skip_word();
+  }
+  text_.next_line();
+  return words;
+}
+
+/// Notes which words follow a position: three of a normal, two of a texture coordinate, and a colour with or without
+/// its opacity.
+void OffSource::note_extras(const std::string& keyword) {
+  const std::string kinds = keyword.substr(0, keyword.size() - 3);
+  const auto has = [&](char c) { return kinds.find(c) != std::string::npos; };
+  least_extras_ = (has('N') ? 3 : 0) + (has('T') ? 2 : 0) + (has('C') ? 3 : 0);
+  most_extras_ = least_extras_ + (has('C') ? 1 : 0);
+}
+
 void OffSource::skip_keyword() {
   std::string keyword;
   while (text_.peek() >= 'A' && text_.peek() <= 'Z' && keyword.size() < 8) {
@@ -63,6 +92,7 @@ void OffSource::skip_keyword() {
                      keyword.find_first_not_of("STCNOF") == std::string::npos;
   if (!known)
     text_.fail_here("starts with '{}'; only OFF, COFF, NOFF and their like with three coordinates are read", keyword);
+  note_extras(keyword);
   if (text_.word_on_line() && text_.peek() == 'B')
     text_.fail_here("binary OFF is not read; convert the file to PLY or to ASCII OFF");
 }
@@ -83,7 +113,7 @@ void OffSource::read_header() {
   if (vertices < 0 || faces < 0) text_.fail_here("a count is negative; is this an OFF file?");
   vertices_ = std::uint64_t(vertices);
   faces_ = std::uint64_t(faces);
-  text_.next_line();  // the count of edges may be missing
+  if (end_line() != 1) ++odd_lines_;  // the count of edges may be missing
 }
 
 // Throws if the file is too short: each number takes at least two characters; the last one may lack its line end.
@@ -103,13 +133,18 @@ void OffSource::read_vertices() {
       if (!text_.real(c)) text_.fail_here("a vertex needs three numbers; is the file damaged?");
     }
     pool_.push(p);
-    text_.next_line();
+    const std::uint64_t extras = end_line();
+    if (extras < least_extras_ || extras > most_extras_) ++odd_lines_;
   }
   check_room(faces_, 2, "faces");
 }
 
 bool OffSource::next_face(std::vector<std::uint64_t>& corners) {
-  if (face_ == faces_) return false;
+  if (face_ == faces_) {
+    if (text_.word_anywhere('#'))
+      text_.fail_here("more follows than the {} faces that the header promises; is the file damaged?", faces_);
+    return false;
+  }
   ++face_;
   corners.clear();
   const std::int64_t size = need_integer("the size of a face");

@@ -1,16 +1,19 @@
 #include <optional>
 
+#include "io/scene/detail/ahead/face_maker.h"
+#include "io/scene/detail/ahead/ply_blocks.h"
 #include "io/scene/detail/ply/packed_ply.h"
 #include "io/scene/detail/ply/ply_cursor.h"
 #include "io/scene/detail/ply/ply_vertices.h"
 #include "io/scene/detail/vertex_pool.h"
 #include "io/scene/raw_source.h"
+#include "lib/core/parallel.h"
 
 // PLY (Turk 1994), ASCII and binary of both byte orders. Elements other than vertex, face and tristrips, and properties
 // other than x, y, z and the vertex lists, are skipped; if colours are asked for, red, green and blue of vertices and
 // faces are read, too. Vertices of a binary file whose records have one size are not loaded at all: they are read in
-// place, through a block cache. Elements may come in any order. Files as most programs write them are read faster by
-// detail/packed_ply.h.
+// place, through a block cache. Elements may come in any order. Files as most programs write them are read faster:
+// binary ones by detail/ply/packed_ply.h, others by detail/ahead/ply_blocks.h.
 
 namespace bp {
 
@@ -42,9 +45,14 @@ class PlySource final : public PolygonSource {
       : PolygonSource(options),
         header_(std::move(header)),
         has_colors_(options.colors && ply_has_colors(header_)),
+        fans_(options.fans),
         cursor_(file, header_) {
     find_parts(file, options);
     rewind_faces();
+  }
+  bool next(RawBatch& batch) override;
+  void complete(RawBatch& batch) const override {
+    if (blocks_) blocks_->read_faces(std::size_t(batch.records), *pool_, fans_, batch);
   }
 
  private:
@@ -54,6 +62,11 @@ class PlySource final : public PolygonSource {
   [[nodiscard]] std::uint64_t vertex_count() const override { return vertex_count_; }
   [[nodiscard]] Vec3d vertex(std::uint64_t i) override { return packed_ ? (*packed_)[i] : (*pool_)[i]; }
   [[nodiscard]] bool has_colors() const override { return has_colors_; }
+  [[nodiscard]] Unfollowed unfollowed() const override {
+    Unfollowed u;
+    u.lines = cursor_.odd_lines();
+    return u;
+  }
   /// Returns the bounds of all vertices where they are loaded: faces seldom leave out those that are farthest out.
   [[nodiscard]] std::optional<Bounds3d> bounds() override {
     return pool_ ? std::optional(loaded_bounds_) : std::nullopt;
@@ -67,11 +80,14 @@ class PlySource final : public PolygonSource {
     element_ = first_;
     record_ = 0;
     strip_left_ = 0;
+    block_ = 0;
   }
 
   void find_parts(const SceneFilePtr& file, const SceneOptions& options);
   void take_vertices(const SceneFilePtr& file, const SceneOptions& options, const PlyElement& element);
   void load_vertices(const PlyElement& element, const PlyPosition& position);
+  bool load_in_blocks(const SceneFilePtr& file, const SceneOptions& options, const PlyPosition& position);
+  void find_blocks();
   void skip_property(const PlyProperty& p);
   void skip_element(const PlyElement& element);
   std::uint64_t list_size(const PlyProperty& list);
@@ -83,11 +99,13 @@ class PlySource final : public PolygonSource {
   static std::size_t vertex_list(const PlyElement& e);
 
   PlyHeader header_;
-  const bool has_colors_;
+  const bool has_colors_, fans_;
   Cursor cursor_;
   std::uint64_t vertex_count_ = 0;
   std::unique_ptr<PlyPackedVertices> packed_;
   std::unique_ptr<VertexPool> pool_;
+  std::optional<PlyBlocks> blocks_;                   // if faces may be read in blocks
+  std::size_t block_ = 0;                             // the next one
   Bounds3d loaded_bounds_;                            // bounds of the pool
   std::optional<PlyColors> vertex_numbers_;           // set if colours are asked for and present
   std::unique_ptr<PlyPackedVertices> packed_colors_;  // colours, in place as packed_
@@ -140,7 +158,9 @@ void PlySource<Cursor>::take_vertices(const SceneFilePtr& file, const SceneOptio
       return;
     }
   }
+  if (load_in_blocks(file, options, position)) return;
   pool_ = std::make_unique<VertexPool>(options.memory_bytes, temp_dir_of(options));
+  loaded_bounds_ = {};
   if (vertex_numbers_) color_pool_ = std::make_unique<VertexPool>(options.memory_bytes / 2, temp_dir_of(options));
   load_vertices(element, position);
 }
@@ -164,6 +184,48 @@ void PlySource<Cursor>::load_vertices(const PlyElement& element, const PlyPositi
     if (color_pool_) color_pool_->push(rgb);
     cursor_.end_record();
   }
+}
+
+/// Loads the vertices of an ASCII file on all cores, if they come first. Returns false if a line is not plain.
+template <class Cursor>
+bool PlySource<Cursor>::load_in_blocks(const SceneFilePtr& file, const SceneOptions& options,
+                                       const PlyPosition& position) {
+  if constexpr (std::is_same_v<Cursor, PlyAsciiCursor>) {
+    const PlyElement& vertex = header_.elements[0];
+    if (vertex.name != "vertex" || vertex.has_lists() || vertex_numbers_) return false;
+    PlyBlocks blocks(file, header_.data);
+    pool_ = std::make_unique<VertexPool>(options.memory_bytes, temp_dir_of(options));
+    const bool plain = blocks.read_vertices(vertex, position, [&](const std::vector<Vec3d>& vertices) {
+      for (const Vec3d& p : vertices) {
+        pool_->push(p);
+        loaded_bounds_.add(p);
+      }
+    });
+    if (!plain) return false;
+    cursor_.seek_behind_blocks(blocks.faces());
+    const bool faces_follow = header_.elements.size() == 2 && PlyBlocks::has_plain_form(header_.elements[1]);
+    if (faces_follow && !has_colors_ && !pool_->spilled() && thread_count() > 1) blocks_.emplace(std::move(blocks));
+    return true;
+  }
+  return false;
+}
+
+/// Reads the faces in blocks if all of them are plain.
+template <class Cursor>
+bool PlySource<Cursor>::next(RawBatch& batch) {
+  if constexpr (std::is_same_v<Cursor, PlyAsciiCursor>) {
+    if (blocks_ && blocks_->size() == 0) find_blocks();
+  }
+  if (!blocks_) return PolygonSource::next(batch);
+  return next_block(batch, block_, blocks_->size());
+}
+
+template <class Cursor>
+void PlySource<Cursor>::find_blocks() {
+  const std::optional<TextMark> end = blocks_->find_faces(header_.elements[1]);
+  if (!end) return blocks_.reset();
+  cursor_.seek(*end);
+  cursor_.check_end();
 }
 
 template <class Cursor>
@@ -219,6 +281,7 @@ bool PlySource<Cursor>::next_face(std::vector<std::uint64_t>& corners) {
       return true;
     }
   }
+  if (first_ < header_.elements.size()) cursor_.check_end();
   return false;
 }
 
@@ -278,8 +341,9 @@ RawSourcePtr open_ply(SceneFilePtr file, const SceneOptions& options) {
   PlyHeader header = read_ply_header(file);
   if (header.format == PlyHeader::Format::ascii)
     return std::make_unique<PlySource<PlyAsciiCursor>>(file, options, std::move(header));
-  const bool colors = options.colors && ply_has_colors(header);  // the packed reader knows no colours
-  if (RawSourcePtr packed = colors ? nullptr : open_packed_ply(file, options, header)) return packed;
+  // The packed reader knows no colours, and tells of no odd lines.
+  const bool packs = !(options.colors && ply_has_colors(header)) && header.ends.odd() == 0;
+  if (RawSourcePtr packed = packs ? open_packed_ply(file, options, header) : nullptr) return packed;
   return std::make_unique<PlySource<PlyBinaryCursor>>(file, options, std::move(header));
 }
 

@@ -10,6 +10,19 @@
 /// dropped.
 namespace bp {
 
+/// Where a mesh stands.
+struct MeshPlace {
+  Affine transform;
+  bool mirrors = false, stays = true;  ///< the transform turns its outside in; it moves nothing
+};
+
+/// Triangles [first, end) of a primitive of an InstancedScene, in one place.
+struct PlacedRun {
+  std::uint32_t primitive = 0;
+  std::shared_ptr<const MeshPlace> place;
+  std::uint64_t first = 0, end = 0;
+};
+
 /// A batch of triangles being read from a file.
 struct RawBatch {
   bool colored = false, textured = false;  ///< what is asked for; textures only together with colours
@@ -20,6 +33,7 @@ struct RawBatch {
   std::vector<std::uint8_t> inner_edges;
   std::vector<std::byte> bytes;          ///< complete() makes triangles of them
   std::vector<std::byte> vertices;       ///< buffer of complete(), kept for later batches
+  std::vector<PlacedRun> runs;           ///< complete() makes triangles of them
   std::uint64_t records = 0, count = 0;  ///< faces in `bytes`, and their triangles if all faces are good
   std::uint64_t bad_faces = 0;           ///< found by complete()
 };
@@ -80,8 +94,18 @@ using RawSourcePtr = std::unique_ptr<RawSource>;
 /// Base of formats that are read in two steps, next() and complete().
 class TwoStepSource : public RawSource {
  public:
-  bool read(std::vector<TriangleD>& out) final {
+  bool read(std::vector<TriangleD>& out) final { return read_one(out, false); }
+  bool read_colored(std::vector<TriangleD>& out, std::vector<TriangleColors>& colors) final {
+    const bool more = read_one(out, true);
+    colors.swap(one_.colors);
+    colors.resize(out.size());
+    return more;
+  }
+
+ private:
+  bool read_one(std::vector<TriangleD>& out, bool colored) {
     bool more;
+    one_.colored = colored;
     do {  // a batch may hold bad faces only
       more = next(one_);
       complete(one_);
@@ -91,7 +115,6 @@ class TwoStepSource : public RawSource {
     return more;
   }
 
- private:
   RawBatch one_;
 };
 

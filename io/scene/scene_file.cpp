@@ -69,6 +69,7 @@ SceneFilePtr spool(InputFile& pipe, const std::string& temp_dir) {
 }  // namespace
 
 SceneFilePtr open_scene_file(const std::string& path, const std::string& temp_dir, NamedBy named_by) {
+  note_looked_for(path);
   auto file = std::make_unique<InputFile>(path, named_by);
   keep_file(path);  // keeps it also if no list of a scene's parts has it
   // A seekable stdin may be read from the middle of its file, so it is spooled from there as a pipe is.

@@ -34,4 +34,8 @@ std::string scene_format_named(const std::string& name) {
   fail(ErrorCode::bad_argument, "'{}' is not a scene format; name one of ply stl obj off gltf glb", name);
 }
 
+bool names_parts(const std::string& format) {
+  return format == "obj" || format == "gltf" || format == "glb";
+}
+
 }  // namespace bp

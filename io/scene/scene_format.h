@@ -11,4 +11,7 @@ namespace bp {
 /// Returns the format for a name as people write it (`.PLY`, `ply`). Throws bad_argument if there is none.
 [[nodiscard]] std::string scene_format_named(const std::string& name);
 
+/// Returns true if the reader of a format tells names of parts (io/scene/part_names.h).
+[[nodiscard]] bool names_parts(const std::string& format);
+
 }  // namespace bp

@@ -91,7 +91,7 @@ class UriCollector final : public nlohmann::json_sax<nlohmann::json> {
   }
   bool string(std::string& text) override {
     if (open_ != "{[{" || !listed_ || !uri_ || text.size() >= kMostToken || text.starts_with("data:")) return true;
-    names.push_back(detail::percent_decoded(text));
+    if (UriFile file = file_of_uri(text, ""); file.fault.empty()) names.push_back(std::move(file.path));
     bytes_ += sizeof(std::string) + text.size();
     return bytes_ < kMostNames;
   }

@@ -20,9 +20,9 @@
 ///   - Colours, if SceneOptions::colors asks for them: base colour factors times COLOR_0 of glTF, both linear; Kd of
 ///     MTL and the diffuse colour of Assimp's materials, vertex colours of OBJ, PLY and Assimp's formats, face colours
 ///     of PLY, all taken as sRGB. Textures: SceneOptions::textures. A missing material is white, and no error.
-///   - Transparent, for SceneOptions::walls_only: materials of glTF whose alphaMode is not OPAQUE or whose base colour
-///     has an alpha below 1; of MTL those with d below 1, Tr strictly between 0 and 1, or map_d; of Assimp those with
-///     an opacity below 1.
+///   - Transparent, for SceneOptions::walls_only: materials of glTF whose alphaMode is not OPAQUE, whose base colour
+///     has an alpha below 1, or that transmit light, and nodes that KHR_node_visibility hides; of MTL those with d
+///     below 1, Tr strictly between 0 and 1, or map_d; of Assimp those with an opacity below 1.
 ///   - A glTF asset whose `extras.up` is "z" (io/mesh/mesh_writer.h) is delivered in its own z-up coordinates.
 namespace bp {
 

@@ -3,6 +3,7 @@
 #include <mutex>
 
 #include "io/files/lower.h"
+#include "io/scene/detail/ahead/stl_blocks.h"
 #include "io/scene/detail/text_scanner.h"
 #include "io/scene/raw_source.h"
 #include "lib/core/error.h"
@@ -25,12 +26,14 @@ class BinaryStl final : public TwoStepSource {
   BinaryStl(SceneFilePtr file, std::uint64_t triangles) : file_(std::move(file)), triangles_(triangles) {
     const std::uint64_t room = (file_->size() - kHeaderBytes) / kTriangleBytes;
     if (triangles < room) {  // other readers use the size
-      fail(ErrorCode::bad_input, "{}: its header promises {} triangles, and it holds {}; the file is damaged",
-           file_->name(), triangles, room);
+      fail(ErrorCode::bad_input,
+           "{}: the number of triangles in its header is {}, and it holds {}; the file is damaged", file_->name(),
+           triangles, room);
     }
     if (triangles > room) {
-      fail(ErrorCode::bad_input, "{}: promises {} triangles, but has room for {}; the file is truncated", file_->name(),
-           triangles, room);
+      fail(ErrorCode::bad_input,
+           "{}: the number of triangles in its header is {}, and it has room for {}; the file is truncated",
+           file_->name(), triangles, room);
     }
   }
   bool next(RawBatch& batch) override {
@@ -82,35 +85,67 @@ class BinaryStl final : public TwoStepSource {
   std::uint64_t next_ = 0;
 };
 
+/// A plain file is read on all cores, in blocks.
 class AsciiStl final : public RawSource {
  public:
-  explicit AsciiStl(SceneFilePtr file) : text_(std::move(file)) { rewind(); }
+  explicit AsciiStl(const SceneFilePtr& file) : text_(file), blocks_(file) { rewind(); }
   bool read(std::vector<TriangleD>& out) override;
+  bool next(RawBatch& batch) override;
+  void complete(RawBatch& batch) const override {
+    if (*has_blocks_) blocks_.read(std::size_t(batch.records), batch.triangles);
+  }
+  [[nodiscard]] std::optional<Bounds3d> bounds() override {
+    const std::optional<Bounds3d> all = blocks_.find();
+    has_blocks_ = all.has_value();
+    return all;
+  }
   void rewind() override {
+    block_ = 0;
     text_.seek({});
-    in_solid_ = false;
-    corners_ = 0;
+    in_solid_ = in_facet_ = false;
+    corners_ = facet_corners_ = odd_lines_ = 0;
     bad_faces_ = 0;
+  }
+  [[nodiscard]] Unfollowed unfollowed() const override {
+    Unfollowed u;
+    u.lines = odd_lines_ + text_.ends().odd();
+    return u;
   }
 
  private:
   void statement(std::string_view word, std::vector<TriangleD>& out);
   void read_vertex(std::vector<TriangleD>& out);
-  void skip_words(int n) {
-    for (; n > 0 && text_.word_anywhere(); --n) text_.skip_word();
-  }
+  void begin_or_end_solid(bool begins);
+  void begin_facet();
+  void end_facet();
+  void end_polygon();
+  void skip_name();
 
   TextScanner text_;
-  bool in_solid_ = false;
-  std::uint64_t corners_ = 0;  // corners of the open loop
+  StlBlocks blocks_;
+  std::optional<bool> has_blocks_;  // whether the file is plain, once it is known
+  std::size_t block_ = 0;           // the next one
+  bool in_solid_ = false, in_facet_ = false;
+  std::uint64_t corners_ = 0;        // corners of the open polygon
+  std::uint64_t facet_corners_ = 0;  // of the open facet, or since the last one
+  std::uint64_t odd_lines_ = 0;      // other programs read facets, or a name, in another way
   Vec3d first_{}, previous_{};
 };
+
+bool AsciiStl::next(RawBatch& batch) {
+  if (!has_blocks_) has_blocks_ = thread_count() > 1 && blocks_.find().has_value();
+  if (!*has_blocks_) return RawSource::next(batch);
+  batch.bad_faces = 0;
+  batch.records = block_;
+  return block_++ < blocks_.size();
+}
 
 bool AsciiStl::read(std::vector<TriangleD>& out) {
   out.clear();
   while (out.size() < kBatch) {
     if (!text_.word_anywhere()) {
       if (in_solid_) text_.fail_here("the file ends before 'endsolid'; it is truncated");
+      end_facet();
       break;
     }
     // The most frequent word of the file is compared without a copy.
@@ -127,22 +162,65 @@ bool AsciiStl::read(std::vector<TriangleD>& out) {
 void AsciiStl::statement(std::string_view raw, std::vector<TriangleD>& out) {
   const std::string word = lower(raw);
   if (word == "vertex") return read_vertex(out);
-  if (word == "facet") return skip_words(4);  // normal x y z
-  if (word == "outer") {                      // loop
-    corners_ = 0;
-    return skip_words(1);
-  }
-  if (word == "endloop") {
-    if (corners_ < 3) ++bad_faces_;
-    corners_ = 0;
+  if (word == "facet") return begin_facet();
+  if (word == "outer") {
+    if (corners_ > 0) end_polygon();
+    if (text_.word_anywhere()) text_.skip_word();  // loop
     return;
   }
-  if (word == "endfacet") return;
+  if (word == "endloop") return end_polygon();
+  if (word == "endfacet") {
+    if (!in_facet_) ++odd_lines_;
+    return end_facet();
+  }
   if (word == "solid" || word == "endsolid" || word == "color") {  // a name of any number of words follows
-    if (word != "color") in_solid_ = word == "solid";
-    return text_.next_line();
+    if (word != "color") begin_or_end_solid(word == "solid");
+    return skip_name();
   }
   text_.fail_here("'{}' does not belong into an ASCII STL file; is the file damaged?", word);
+}
+
+void AsciiStl::begin_or_end_solid(bool begins) {
+  if (in_facet_) ++odd_lines_;  // some programs pass over a facet that does not end
+  end_facet();
+  in_solid_ = begins;
+}
+
+/// Begins a facet and skips "normal x y z". Some programs pass over a facet outside of a solid, or behind one that does
+/// not end.
+void AsciiStl::begin_facet() {
+  constexpr int kWords = 4;
+  bool is_odd = in_facet_ || !in_solid_;
+  end_facet();
+  in_facet_ = true;
+  for (int i = 0; i < kWords && text_.word_anywhere(); ++i) {
+    is_odd = is_odd || !begins_normal(text_.peek());
+    text_.skip_word();
+  }
+  if (is_odd) ++odd_lines_;
+}
+
+/// Ends a facet. Other programs make a triangle of every three corners.
+void AsciiStl::end_facet() {
+  if (corners_ > 0) end_polygon();
+  if (facet_corners_ != (in_facet_ ? 3 : 0)) ++odd_lines_;
+  facet_corners_ = 0;
+  in_facet_ = false;
+}
+
+void AsciiStl::end_polygon() {
+  if (corners_ < 3) ++bad_faces_;
+  corners_ = 0;
+}
+
+/// Moves to the next line. Some programs read the statements in a name.
+void AsciiStl::skip_name() {
+  std::string name;
+  for (; !text_.at_end() && text_.peek() != '\n' && text_.peek() != '\r'; text_.step()) {
+    if (name.size() <= kLongestName) name += text_.peek();
+  }
+  (void)text_.next_line();
+  if (names_facets(name)) ++odd_lines_;
 }
 
 void AsciiStl::read_vertex(std::vector<TriangleD>& out) {
@@ -154,6 +232,7 @@ void AsciiStl::read_vertex(std::vector<TriangleD>& out) {
   if (corners_ >= 2) out.push_back({first_, previous_, p});
   previous_ = p;
   ++corners_;
+  ++facet_corners_;
 }
 
 bool looks_ascii(const std::string& start) {

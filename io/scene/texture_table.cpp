@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "io/files/file.h"
+#include "io/files/kept_files.h"
 #include "io/image/image_reader.h"
 #include "io/image/texture_writer.h"
 #include "lib/core/error.h"
@@ -26,6 +27,7 @@ std::uint32_t number_of(const std::string& key, const T& value, std::map<std::st
 
 std::vector<std::byte> bytes_of(const ImagePlace& place, std::uint64_t most) {
   SceneFilePtr file = place.bytes;
+  if (!file) note_looked_for(place.path);
   if (!file && (place.path.empty() || !is_regular_file(place.path)))
     fail(ErrorCode::bad_input, "{}: the image is not there", place.name);
   if (!file) file = open_scene_file(place.path, "", NamedBy::file);

@@ -149,7 +149,7 @@ class FolderStore final : public ResultStore {
 
   /// Replaces the file of that name in one step: a damaged result, or another one.
   static void put_beside(const std::string& name, const Head& head, std::span<const std::byte> packed) {
-    OutputFile file(name, true);
+    OutputFile file(name, true, NamedBy::file);
     file.write(std::as_bytes(std::span(&head, 1)));
     file.write(packed);
     file.commit();

@@ -7,6 +7,7 @@
 
 #include "io/files/file.h"
 #include "io/files/kept_files.h"
+#include "io/files/lower.h"
 #include "io/gltf/gltf_nodes.h"
 #include "io/tiles/tileset_rules.h"
 #include "lib/core/error.h"
@@ -30,9 +31,17 @@ bool has_leaves(const GltfObject& tile, int depth) {
   return has;
 }
 
+bool refines_by_adding(const GltfObject& tile) {
+  const std::string refine = tile.text("refine");
+  if (!adds(refine) && lower(refine) != "replace")
+    tile.unfit("has a 'refine' that is neither ADD nor REPLACE, and viewers take it as either");
+  return adds(refine);
+}
+
 struct FoundContent {
   std::string path;
   bool is_tileset = false;  ///< the content is a tileset with further tiles
+  bool adds = false;        ///< the tile is refined by adding
   Affine place;
 };
 
@@ -41,15 +50,19 @@ template <class F>
 class TileWalk {
  public:
   TileWalk(const GltfObject& root, const std::string& path, const F& f)
-      : folder_(folder_of(path)), has_leaves_(has_leaves(root, 0)), f_(f) {}
+      : folder_(folder_of(path)), has_leaves_(has_leaves(root.object("root"), 0) && has_record(root)), f_(f) {}
 
   /// adds: the tile above is refined by adding, so this tile is drawn in addition to those below it.
   void walk(const GltfObject& tile, const Affine& place, bool adds = false) const {
-    if (tile.has("refine")) adds = bp::adds(tile.text("refine"));
+    if (tile.has("refine")) adds = refines_by_adding(tile);
     const std::size_t below = tile.array("children").size();
+    const bool has_content = tile.has("content") || !tile.array("contents").empty();
+    const bool ends = tile.has("geometricError") && tile.real("geometricError") == 0;
+    if (below > 0 && !adds && has_content && !has_leaves_ && ends)
+      tile.unfit("has the geometricError 0 and tiles below, which viewers need not draw");
     const bool drawn = has_leaves_ ? is_leaf(tile) : adds || below == 0;
-    if (tile.has("content")) find(tile.object("content"), place, drawn);
-    for (std::size_t i = 0; i < tile.array("contents").size(); ++i) find(tile.item("contents", i), place, drawn);
+    if (tile.has("content")) find(tile.object("content"), place, drawn, adds);
+    for (std::size_t i = 0; i < tile.array("contents").size(); ++i) find(tile.item("contents", i), place, drawn, adds);
     for (std::size_t i = 0; i < below; ++i) {
       const GltfObject child = tile.item("children", i);
       walk(child, place * affine_of_transform(tile_transform(child)), adds);
@@ -57,11 +70,9 @@ class TileWalk {
   }
 
  private:
-  void find(const GltfObject& content, const Affine& place, bool drawn) const {
+  void find(const GltfObject& content, const Affine& place, bool drawn, bool adds) const {
     const std::string uri = content_uri(content);
-    if (uri.find("://") != std::string::npos) content.unfit("lies on the network; download it");
-    if (uri.starts_with("data:")) content.unfit("is embedded, which is not read");
-    FoundContent found{content_path(folder_, uri), names_tileset(uri), place};
+    FoundContent found{content_path(folder_, uri), names_tileset(uri), adds, place};
     if (drawn || found.is_tileset) f_(std::move(found));
   }
 
@@ -73,7 +84,7 @@ class TileWalk {
 /// `place`: that of the root tile.
 template <class F>
 void for_each_content(const GltfObject& tileset, const std::string& path, const Affine& place, const F& f) {
-  TileWalk<F>(tileset.object("root"), path, f).walk(tileset.object("root"), place);
+  TileWalk<F>(tileset, path, f).walk(tileset.object("root"), place);
 }
 
 std::string real_path(const std::string& path) {
@@ -200,6 +211,8 @@ class ContentFinder {
           read_json(open_scene_file(found.path, temp_dir_of(options_), NamedBy::file), options_, held_);
       held_ += tileset.bytes;
       const GltfObject root(tileset.json, found.path, "");
+      if (found.adds && !root.object("root").has("refine"))
+        root.object("root").unfit("has no 'refine', and viewers may take that of the tileset around it");
       add_tileset(root, found.path, found.place * affine_of_transform(tile_transform(root.object("root"))));
       held_ -= tileset.bytes;
     } else {

@@ -6,6 +6,7 @@
 #include "io/gltf/glb_file.h"
 #include "io/gltf/gltf_nodes.h"
 #include "io/gltf/json_fault.h"
+#include "io/gltf/json_text.h"
 #include "io/tiles/tileset_rules.h"
 #include "lib/core/error.h"
 
@@ -158,7 +159,7 @@ Tileset read_tileset(const std::string& path, const SceneOptions& options) {
 Tileset read_old_tileset(const std::string& path) {
   constexpr std::uint64_t kMostBytes = std::uint64_t(1) << 32;  // some millions of tiles
   try {
-    return Reader(GltfJson::parse(read_text(path, kMostBytes)), path).run();
+    return Reader(parse_json(read_text(path, kMostBytes), path), path).run();
   } catch (const GltfJson::exception& e) {
     fail(ErrorCode::bad_input, {Remedy::repair_file}, "{}: broken JSON: {}", path, detail::json_fault(e));
   }

@@ -13,6 +13,7 @@
 #include "io/files/file.h"
 #include "io/files/final_names.h"
 #include "io/files/kept_files.h"
+#include "io/files/paths.h"
 #include "io/tiles/tileset_file.h"
 #include "lib/core/error.h"
 
@@ -62,7 +63,7 @@ std::vector<std::string> contents_of(const std::string& tileset) {
 /// Reads names, each followed by a zero: a name may hold any other character.
 std::vector<std::string> names_from(const std::string& path) {
   std::vector<std::string> names;
-  if (!fs::exists(path)) return names;
+  if (!is_regular_file(path)) return names;
   const std::string text = read_text(path, UINT32_MAX, NamedBy::file);
   for (std::size_t at = 0, end = 0; (end = text.find('\0', at)) != std::string::npos; at = end + 1) {
     names.push_back(text.substr(at, end - at));
@@ -160,7 +161,7 @@ void TilesetFolder::write(const std::string& name, const std::string& bytes) {
   if (!same) {
     refuse_if_there(name);
     make_folder(folder_of(files_ + "/" + name));
-    OutputFile file(files_ + "/" + name, true);
+    OutputFile file(files_ + "/" + name, true, NamedBy::file);
     file.write(bytes);
     file.commit(OutputFile::Sync::content);  // it gets another name later
   }
@@ -175,7 +176,7 @@ void TilesetFolder::write(const std::string& name, const std::string& bytes) {
 std::vector<std::string> TilesetFolder::names_before() {
   std::vector<std::string> names = names_from(partial_ + kMoving);
   const std::string tileset = path_ + "/" + kTileset;
-  if (!fs::exists(tileset)) return names;
+  if (!is_regular_file(tileset)) return names;
   try {
     const std::vector<std::string> contents = contents_of(tileset);
     if (!was_made_here(tileset)) return names;
@@ -203,7 +204,7 @@ void TilesetFolder::commit() {
 }
 
 void TilesetFolder::note_moves(const std::vector<std::string>& before, const std::vector<std::string>& after) const {
-  OutputFile note(partial_ + kMoving, true);
+  OutputFile note(partial_ + kMoving, true, NamedBy::file);
   for (const std::vector<std::string>* names : {&before, &after}) {
     for (const std::string& name : *names) note.write(name + '\0');
   }

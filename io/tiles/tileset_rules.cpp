@@ -7,6 +7,7 @@
 #include "io/files/file.h"
 #include "io/files/lower.h"
 #include "io/files/uri.h"
+#include "io/gltf/gltf_nodes.h"
 #include "lib/core/vec3.h"
 
 namespace bp {
@@ -30,7 +31,7 @@ namespace {
 
 /// Returns asset.extras.placement, if a tileset has one of the form that this suite writes.
 std::optional<GltfObject> told_placement(const GltfObject& root) {
-  if (!root.has("asset") || !root.object("asset").has("extras")) return {};
+  if (!has_record(root)) return {};
   const GltfObject extras = root.object("asset").object("extras");
   if (!extras.has("placement") || !extras.json()["placement"].is_object()) return {};
   const GltfObject told = extras.object("placement");
@@ -93,17 +94,19 @@ UpAxis content_up(const GltfObject& root) {
 }
 
 std::string content_uri(const GltfObject& content) {
-  return detail::percent_decoded(content.text(content.has("uri") ? "uri" : "url"));
+  if (content.has("uri") && content.has("url") && content.text("uri") != content.text("url"))
+    content.unfit("has a uri and a url, and viewers take either");
+  const UriFile file = file_of_uri(content.text(content.has("uri") ? "uri" : "url"), "");
+  if (!file.fault.empty()) content.unfit(file.fault);
+  return file.path;
 }
 
 std::string content_path(const std::string& folder, const std::string& uri) {
-  std::string path = uri.starts_with('/') || folder.empty() ? uri : folder + "/" + uri;
-  if (!is_regular_file(path)) path.resize(std::min(path.size(), path.find('?')));
-  return path;
+  return folder.empty() ? uri : folder + "/" + uri;
 }
 
 bool names_tileset(const std::string& uri) {
-  return lower(uri.substr(0, uri.find('?'))).ends_with(".json");
+  return lower(uri).ends_with(".json");
 }
 
 bool adds(const std::string& refine) {

@@ -19,10 +19,10 @@ void check_tile(const GltfObject& tile, int depth);
 /// Returns the axis that is up in the glTF of contents, as older tilesets tell (asset.gltfUpAxis): x, y or z. The
 /// outermost tileset decides for all within it, as in viewers. Throws bad_input for anything else.
 [[nodiscard]] UpAxis content_up(const GltfObject& root);
-/// Returns the decoded uri of a content.
+/// Returns the path of a content, seen from its tileset's folder (file_of_uri()). Throws Unfit if viewers may take
+/// another file.
 [[nodiscard]] std::string content_uri(const GltfObject& content);
-/// Returns the file of a content's uri in the folder of its tileset. A query is dropped unless a file has it in its
-/// name.
+/// Returns the file of a content's path in the folder of its tileset.
 [[nodiscard]] std::string content_path(const std::string& folder, const std::string& uri);
 /// Returns true if a content is a tileset of its own.
 [[nodiscard]] bool names_tileset(const std::string& uri);

@@ -79,6 +79,7 @@ class TilesetSource final : public RawSource {
     at_ = 0;
     bad_faces_ = instances_ = animations_ = posed_ = differing_ = 0;
     rounding_ = {};
+    unfollowed_ = {};
   }
   [[nodiscard]] bool has_colors() const override { return has_colors_; }
   [[nodiscard]] bool has_textures() const override { return has_textures_; }
@@ -87,6 +88,7 @@ class TilesetSource final : public RawSource {
   [[nodiscard]] std::uint64_t posed() const override { return posed_; }
   [[nodiscard]] std::uint64_t differing() const override { return differing_; }
   [[nodiscard]] Rounding rounding() const override { return rounding_; }
+  [[nodiscard]] Unfollowed unfollowed() const override { return unfollowed_; }
   [[nodiscard]] std::optional<UpAxis> up() const override { return contents_.up; }
 
  private:
@@ -128,6 +130,7 @@ class TilesetSource final : public RawSource {
     posed_ += content_->posed();
     differing_ += content_->differing();
     rounding_.add(content_->rounding());
+    unfollowed_.add(content_->unfollowed());
     rest();
     ++at_;
   }
@@ -146,6 +149,7 @@ class TilesetSource final : public RawSource {
   bool has_colors_ = false, has_textures_ = false;
   std::uint64_t instances_ = 0, animations_ = 0, posed_ = 0, differing_ = 0;
   Rounding rounding_;
+  Unfollowed unfollowed_;
 };
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "lib/check/detail/convex.h"
 #include "lib/check/detail/distance.h"
 #include "lib/check/detail/enclosure.h"
+#include "lib/check/detail/faces/other_diagonals.h"
 #include "lib/check/detail/gap.h"
 #include "lib/check/detail/hidden.h"
 #include "lib/check/detail/inside.h"
@@ -110,7 +111,7 @@ void check_scene(const WeldedMesh& mesh, const Surface& surface, TriangleSource&
   const EnclosureReport e = check_enclosure(mesh, surface, known, scene, question, memory);
   report.has_scene = true;
   report.scene_name = scene.name();
-  report.scene_counts = scene.counts();
+  report.scene_counts = scene.counts().of_enclosed();
   report.scene_triangles = e.triangles;
   report.scene_bounds = e.bounds;
   report.touching = e.touching, report.outside = e.outside, report.undecidable_scene = e.undecidable;
@@ -162,7 +163,7 @@ void check_scene_in_parts(const WeldedMesh& mesh, const Surface& surface, Triang
   if (!report.sides_decided) return;
   const ConvexReport convex = check_convex(mesh, scene, options.max_examples, report.proxy_off);
   report.scene_name = scene.name();
-  report.scene_counts = scene.counts();
+  report.scene_counts = scene.counts().of_enclosed();
   report.scene_triangles = convex.triangles;
   report.scene_bounds = convex.bounds;
   report.not_held = convex.not_held, report.perhaps_not_held = convex.perhaps_not_held;
@@ -172,9 +173,7 @@ void check_scene_in_parts(const WeldedMesh& mesh, const Surface& surface, Triang
   if (question.any() && report.not_held.count > 0) report.misplaced = any_misplaced(surface, scene, question, false);
 }
 
-}  // namespace
-
-CheckReport check_proxy(const IndexedMesh& proxy, TriangleSource* scene, const CheckOptions& options) {
+CheckReport check_as_read(const IndexedMesh& proxy, TriangleSource* scene, const CheckOptions& options) {
   CheckReport report;
   WeldedMesh mesh = weld(proxy, options.max_examples, report);
   report.wants_convex = options.convex;
@@ -192,6 +191,21 @@ CheckReport check_proxy(const IndexedMesh& proxy, TriangleSource* scene, const C
   } else {
     (options.inside ? check_scene_around : check_scene)(mesh, surface, *scene, options, report);
   }
+  return report;
+}
+
+}  // namespace
+
+CheckReport check_proxy(const IndexedMesh& proxy, TriangleSource* scene, const CheckOptions& options) {
+  CheckReport report = check_as_read(proxy, scene, options);
+  if (report.bad_faces.count > 0) return report;
+  const OtherDiagonals others = other_diagonals(proxy);
+  report.bent_faces = others.faces();
+  if (report.bent_faces == 0 || !report.holds()) return report;
+  CheckOptions question = options;
+  question.distances = false;
+  report.bent_faces_open =
+      others.larger > 0 || !may_be_mixed(proxy, others) || !check_as_read(others.mesh, scene, question).holds();
   return report;
 }
 

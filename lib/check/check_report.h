@@ -88,6 +88,10 @@ struct CheckReport {
   /// Index: first triangle of a closed component that no other surrounds and whose signed volume is not positive.
   Finding inverted_components;
 
+  std::uint64_t bent_faces = 0;  ///< faces of the proxy that are not flat
+  /// The proxy holds as it was read, and is not proven to if programs draw these faces over other diagonals.
+  bool bent_faces_open = false;
+
   // The scene against the proxy.
   bool has_scene = false;
   bool sides_decided = false;  ///< false: the proxy is not closed, so "outside" has no meaning and was not counted
@@ -158,7 +162,9 @@ struct CheckReport {
   [[nodiscard]] bool closed() const { return readable() && boundary_edges.count == 0; }
   [[nodiscard]] bool oriented() const { return misoriented_edges.count == 0; }
   [[nodiscard]] bool manifold() const { return nonmanifold_edges.count == 0 && nonmanifold_vertices.count == 0; }
-  [[nodiscard]] bool embedded() const { return self_intersections.count == 0; }
+  [[nodiscard]] bool embedded() const { return self_intersections.count == 0 && !pairs_open(); }
+  /// Returns whether the search for intersections was given up, since too many boxes of triangles overlap.
+  [[nodiscard]] bool pairs_open() const { return self_intersections.count == 0 && self_intersections.at_least; }
   [[nodiscard]] bool outward() const { return inverted_components.count == 0; }
   /// Returns whether every scene triangle with its boundary lies in the open interior of the proxy.
   [[nodiscard]] Answer enclosure() const {
@@ -178,7 +184,9 @@ struct CheckReport {
   [[nodiscard]] bool is_partial() const { return scene_counts.is_partial() || unfollowed.any(); }
   /// Returns whether scene or proxy may lie elsewhere: a part of the proxy that was not followed may enclose what seems
   /// to be outside.
-  [[nodiscard]] bool may_lie_elsewhere() const { return scene_counts.unfollowed.moves() || unfollowed.any(); }
+  [[nodiscard]] bool may_lie_elsewhere() const {
+    return scene_counts.unfollowed.moves() || unfollowed.draws_elsewhere();
+  }
   /// Returns a NO about places if it is sure. It is not sure if programs may draw the scene or the proxy elsewhere, or
   /// if coordinates were rounded and no corner shows it from farther away than the rounding.
   [[nodiscard]] Answer surely(Answer as_read) const {
@@ -208,15 +216,18 @@ struct CheckReport {
   [[nodiscard]] Answer hiddenness() const {
     if (!hidden_unknown.empty() || !place_unknown.empty()) return Answer::undecided;
     if (exposed.count > 0) return may_lie_elsewhere() ? Answer::undecided : Answer::refuted;
-    return is_partial() ? Answer::undecided : Answer::proven;
+    SceneCounts walls = scene_counts;
+    walls.unfollowed.hidden = 0;  // walls leave out what is hidden
+    return walls.is_partial() || unfollowed.any() ? Answer::undecided : Answer::proven;
   }
   /// Returns whether the proxy is sound as a mesh, without the scene.
   [[nodiscard]] Answer soundness() const {
     if (empty() || bad_faces.count + non_finite_vertices.count > 0) return Answer::refuted;
-    if (!sound() || !embedded() || !outward() || nonconvex_parts.count > 0) return Answer::refuted;
+    if (!sound() || self_intersections.count > 0 || !outward() || nonconvex_parts.count > 0) return Answer::refuted;
     const Answer edges =
         all_of(all_of(on_edges(boundary_edges.count == 0), on_edges(oriented())), on_edges(manifold()));
-    return undecidable_vertices.count + differing > 0 || unfollowed.any() ? all_of(edges, Answer::undecided) : edges;
+    const bool open = undecidable_vertices.count + differing > 0 || unfollowed.any() || pairs_open();
+    return open ? all_of(edges, Answer::undecided) : edges;
   }
   /// Returns the answer to a question about edges. Triangles at undecidable vertices are left out of all counts of
   /// edges, so a missing triangle there is no failure.
@@ -226,8 +237,9 @@ struct CheckReport {
   }
   /// Returns the answer to everything that was asked.
   [[nodiscard]] Answer answer() const {
-    if (!has_scene) return soundness();
-    const Answer place = all_of(soundness(), asks_hidden ? hiddenness() : wants_inside ? insideness() : enclosure());
+    const Answer mesh = bent_faces_open ? all_of(soundness(), Answer::undecided) : soundness();
+    if (!has_scene) return mesh;
+    const Answer place = all_of(mesh, asks_hidden ? hiddenness() : wants_inside ? insideness() : enclosure());
     return margin > 0 ? all_of(place, keeps_margin()) : place;
   }
   [[nodiscard]] bool holds() const { return answer() == Answer::proven; }

@@ -17,14 +17,23 @@ std::string not_followed(const Unfollowed& u) {
   };
   add(u.skins, "mesh part", " in a pose of joints");
   add(u.morphs, "mesh part", " with a morph target");
-  add(u.transforms, "node", " whose transform programs read in different ways (lookat, rotate)");
+  add(u.transforms, "node",
+      " whose transform programs read in different ways (lookat, rotate, rotations that are no turns, sheared "
+      "matrices, instances)");
   add(u.vertices, "mesh part", " whose vertices programs read in different ways");
   add(u.missing, "shape", " that is not read (in another file, or a solid)");
+  add(u.lines, "line", " that programs read in different ways (where it ends, words that others pass over)");
+  add(u.placed, "placement", " by the importer, in single precision");
+  add(u.culled, "mesh part", " beyond its min and max in the file, by which viewers cull");
+  add(u.hidden, "mesh part", " that viewers may hide");
+  add(u.variants, "document", " that shows more than one pose or scene (animations, no default scene)");
   return all;
 }
 
 std::string drawn_elsewhere(const char* whose, const Unfollowed& u) {
-  return fmt::format("programs may draw the {} elsewhere than it was read: {}", whose, not_followed(u));
+  const bool elsewhere = u.draws_elsewhere();
+  return fmt::format("programs may {} the {} {}: {}", elsewhere ? "draw" : "hide", whose,
+                     elsewhere ? "elsewhere than it was read" : "or parts of it", not_followed(u));
 }
 
 std::string left_out_lines(const SceneCounts& c, const std::string& indent) {

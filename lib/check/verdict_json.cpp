@@ -34,11 +34,9 @@ Json json_of(const std::optional<SampledDistance>& d) {
 }
 
 Json json_of(const Unfollowed& u) {
-  return {{"skins", u.skins},
-          {"morphs", u.morphs},
-          {"transforms", u.transforms},
-          {"vertices", u.vertices},
-          {"missing", u.missing}};
+  return {{"skins", u.skins},     {"morphs", u.morphs},    {"transforms", u.transforms}, {"vertices", u.vertices},
+          {"missing", u.missing}, {"lines", u.lines},      {"placed", u.placed},         {"culled", u.culled},
+          {"hidden", u.hidden},   {"variants", u.variants}};
 }
 
 Json scene_json(const CheckReport& r) {
@@ -92,13 +90,15 @@ Json json_of(const CheckReport& r, const std::string& proxy_name) {
   for (const FindingText& t : finding_texts())
     if (!is_unasked(r, t)) findings[t.key] = json_of(r.*t.finding, t);
   const Json faces = {{"triangles", r.faces.triangles}, {"quads", r.faces.quads}, {"polygons", r.faces.polygons}};
-  Json proxy = {{"name", proxy_name},
-                {"triangles", r.triangles},
-                {"faces", faces},
-                {"vertices", r.vertices},
-                {"merged_vertices", r.merged_vertices},
-                {"components", r.components},
-                {"euler", r.euler}};
+  Json proxy = {
+      {"name", proxy_name},
+      {"triangles", r.triangles},
+      {"faces", faces},
+      {"vertices", r.vertices},
+      {"not_flat", {{"faces", r.bent_faces}, {"not_proven_over_other_diagonals", r.holds() ? 0 : r.bent_faces}}},
+      {"merged_vertices", r.merged_vertices},
+      {"components", r.components},
+      {"euler", r.euler}};
   proxy["genus"] = r.genus ? Json(*r.genus) : Json(nullptr);
   if (r.unfollowed.any()) proxy["not_followed"] = json_of(r.unfollowed);
   const auto json_or_null = [](const std::optional<double>& x) { return x ? Json(*x) : Json(nullptr); };

@@ -50,7 +50,7 @@ std::string row(const char* question, bool yes) {
 
 std::string row(const char* question, Answer answer, const std::string& why) {
   if (answer != Answer::undecided) return row(question, answer == Answer::proven);
-  return fmt::format("  {:<28}not decided: {}\n", question, why);
+  return fmt::format("  {:<28}not decided: {}\n", question, one_line(why));
 }
 
 /// Returns the recipe that the proxy's file names, on which the answer depends.
@@ -93,7 +93,7 @@ std::string enclosure_row(const CheckReport& r) {
 std::string scene_lines(const CheckReport& r) {
   if (!r.has_scene) return "";
   const SceneCounts& c = r.scene_counts;
-  std::string text = fmt::format("scene {}: {}\n", r.scene_name, bp::counted(r.scene_triangles, "triangle"));
+  std::string text = fmt::format("scene {}: {}\n", one_line(r.scene_name), bp::counted(r.scene_triangles, "triangle"));
   text += left_out_lines(c, "  ");
   if (c.rounding.most > 0) text += fmt::format("  coordinates are read to within {:.2g}\n", c.rounding.most);
   if (c.kept_degenerate > 0)
@@ -157,16 +157,23 @@ std::string failures(const CheckReport& r) {
 }
 
 std::string verdict_text(const CheckReport& r, const std::string& proxy_name) {
-  std::string text = fmt::format("proxy {}: {}, {} vertices, {} component{}", proxy_name, r.faces.text(), r.vertices,
-                                 r.components, r.components == 1 ? "" : "s");
+  std::string text = fmt::format("proxy {}: {}, {} vertices, {} component{}", one_line(proxy_name), r.faces.text(),
+                                 r.vertices, r.components, r.components == 1 ? "" : "s");
   if (r.genus) text += fmt::format(", genus {}", *r.genus);
   text += "\n";
   if (r.unfollowed.any()) text += "  not followed: " + not_followed(r.unfollowed) + "\n";
+  if (r.bent_faces > 0 && r.holds())
+    text += fmt::format("  {} not flat, and proven over either diagonal\n",
+                        r.bent_faces == 1 ? "1 quad is" : fmt::format("{} quads are", r.bent_faces));
   text += scene_lines(r);
   for (const auto& [question, fine] :
        {std::pair{"closed", r.closed()}, {"oriented", r.oriented()}, {"2-manifold", r.manifold()}})
     text += row(question, r.on_edges(fine), "the proxy has coordinates that are too large or too small");
-  text += row("free of self-intersections", r.embedded());
+  text += row("free of self-intersections",
+              r.pairs_open() ? Answer::undecided
+              : r.embedded() ? Answer::proven
+                             : Answer::refuted,
+              "too many triangles lie side by side");
   text += row("facing outwards",
               !r.sides_decided ? Answer::undecided
               : r.outward()    ? Answer::proven
@@ -181,7 +188,7 @@ std::string verdict_text(const CheckReport& r, const std::string& proxy_name) {
   for (const FindingText& t : finding_texts())
     if (!is_aside(r, t)) text += finding_lines(r.*t.finding, t);
   text += measure_lines(r);
-  if (r.answer() == Answer::undecided) return text + fmt::format("not decided: {}\n", doubt_of(r));
+  if (r.answer() == Answer::undecided) return text + fmt::format("not decided: {}\n", one_line(doubt_of(r)));
   return text + (r.holds() ? "holds\n" : fmt::format("does not hold: {}\n", failures(r)));
 }
 
@@ -191,7 +198,8 @@ Answer answer_of(const std::vector<CheckReport>& levels) {
   return all;
 }
 
-std::string verdict_text(const std::vector<CheckReport>& levels, const std::string& proxy_name) {
+std::string verdict_text(const std::vector<CheckReport>& levels, const std::string& name) {
+  const std::string proxy_name = one_line(name);
   if (levels.size() == 1) return verdict_text(levels[0], proxy_name);
   std::string text, failed, open;
   for (std::size_t i = 0; i < levels.size(); ++i) {

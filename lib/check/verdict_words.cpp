@@ -140,6 +140,10 @@ std::string doubt_of(const CheckReport& r) {
   if (r.undecidable_vertices.count > 0) return "the proxy has coordinates that are too large or too small";
   if (r.differing > 0) return "the proxy's file holds " + held_twice(r.differing);
   if (r.soundness() == Answer::undecided && r.unfollowed.any()) return drawn_elsewhere("proxy", r.unfollowed);
+  if (r.pairs_open()) return "too many triangles of the proxy lie side by side to be tested for intersections";
+  if (r.bent_faces_open)
+    return fmt::format("{} of the proxy {} not flat, and not proven over other diagonals",
+                       bp::counted(r.bent_faces, "face"), r.bent_faces == 1 ? "is" : "are");
   if (r.margin > 0 && r.enclosure() == Answer::proven) return margin_doubt(r);
   return r.asks_hidden ? hidden_doubt(r) : scene_doubt(r);
 }

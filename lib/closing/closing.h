@@ -28,10 +28,6 @@ struct ClosingParams {
   }
 };
 
-/// Scales of whole voxels are a trap: the erosion, by an open ball, stops one voxel short of what a cube has added, on
-/// flat sides, too. The least scale above reaches as far, and its erosion takes that layer back.
-constexpr double kBeyondWholeVox = 1.0 / kScaleOne;
-
 /// Returns how far an element of scale `s`, cube or ball, reaches along an axis, in voxels.
 [[nodiscard]] std::int32_t element_reach(Scale s, const ClosingParams& params = {});
 

@@ -59,6 +59,9 @@ template <class C>
 [[nodiscard]] constexpr VoxelBox voxels_of(const BrickBox& b) {
   return {first_voxel(b.min), first_voxel(b.max)};
 }
+[[nodiscard]] constexpr VoxelBox voxels_of(BrickCoord c) {
+  return voxels_of(BrickBox{c, c + BrickCoord{1, 1, 1}});
+}
 /// Returns the bricks that hold at least one voxel of `v`.
 [[nodiscard]] constexpr BrickBox bricks_of(const VoxelBox& v) {
   if (v.empty()) return {};

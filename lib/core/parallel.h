@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <functional>
@@ -34,9 +35,10 @@ struct Cancelled {};
 /// can be told to stop.
 class WorkArena {
  public:
-  /// `threads`: at most so many, and at most all cores (0: all cores). `stop`: once it is true, the parallel loops and
-  /// pipelines of this work throw Cancelled before their next item; null: it is never stopped.
-  explicit WorkArena(int threads, const std::atomic<bool>* stop = nullptr);
+  /// `threads`: at most so many, and at most all cores (0: all cores). `stops`: once one of them is true, the parallel
+  /// loops and pipelines of this work throw Cancelled before their next item; null: never.
+  explicit WorkArena(int threads, std::array<const std::atomic<bool>*, 2> stops = {});
+  WorkArena(int threads, const std::atomic<bool>* stop) : WorkArena(threads, std::array{stop, stop}) {}
   ~WorkArena();
   WorkArena(const WorkArena&) = delete;
   WorkArena& operator=(const WorkArena&) = delete;
@@ -49,7 +51,7 @@ class WorkArena {
 };
 
 /// Throws Cancelled if the caller's work is to stop. Parallel loops do this before each item; long loops on one thread
-/// call it now and then. Cost: two loads.
+/// call it now and then. Cost: a few loads.
 void stop_if_asked();
 
 /// Calls body(i) for i in [0, n), in any order, in parallel. Rethrows the first exception.

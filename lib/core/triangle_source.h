@@ -56,19 +56,34 @@ struct Rounding {
 };
 
 /// Statements of a scene's files about their meshes that no reader follows. Other programs may draw these meshes
-/// elsewhere, or draw more.
+/// elsewhere, or draw more, or less.
 struct Unfollowed {
   std::uint64_t skins = 0;       ///< meshes that joints have moved or bent
   std::uint64_t morphs = 0;      ///< meshes with morph targets that show
   std::uint64_t transforms = 0;  ///< nodes whose transform is read in different ways
   std::uint64_t vertices = 0;    ///< meshes whose vertices are read in different ways
   std::uint64_t missing = 0;     ///< instances of meshes that are not read, or are in another file
+  std::uint64_t lines = 0;       ///< lines of a text that programs end elsewhere, or read more of
+  std::uint64_t placed = 0;      ///< files whose meshes the importer places, in single precision
+  std::uint64_t culled = 0;      ///< meshes that leave the bounds in their file, by which viewers cull
+  std::uint64_t hidden = 0;      ///< meshes that viewers may hide
+  std::uint64_t variants = 0;    ///< documents that show other poses or scenes, too: animations, no default scene
 
-  [[nodiscard]] bool any() const { return moves() || missing > 0; }
+  [[nodiscard]] bool any() const { return moves() || missing + culled + hidden + variants > 0; }
   /// Returns whether meshes that were read may lie elsewhere in other programs.
-  [[nodiscard]] bool moves() const { return skins + morphs + transforms + vertices > 0; }
+  [[nodiscard]] bool moves() const { return skins + morphs + transforms + vertices + lines + placed > 0; }
+  /// Returns whether other programs may draw what was read elsewhere, or draw more.
+  [[nodiscard]] bool draws_elsewhere() const { return moves() || missing > 0; }
+  /// Returns what matters to a proxy around all meshes: it encloses those that are not drawn, too.
+  [[nodiscard]] Unfollowed of_enclosed() const {
+    Unfollowed u = *this;
+    u.hidden = u.culled = u.variants = 0;
+    return u;
+  }
   void add(const Unfollowed& u) {
     skins += u.skins, morphs += u.morphs, transforms += u.transforms, vertices += u.vertices, missing += u.missing;
+    lines += u.lines, placed += u.placed, culled += u.culled, hidden += u.hidden;
+    variants += u.variants;
   }
 };
 
@@ -94,6 +109,12 @@ struct SceneCounts {
     rounding.add(c.rounding), unfollowed.add(c.unfollowed);
   }
   [[nodiscard]] bool has_area() const { return triangles > kept_degenerate; }
+  /// Returns the counts that matter to a proxy around all meshes.
+  [[nodiscard]] SceneCounts of_enclosed() const {
+    SceneCounts c = *this;
+    c.unfollowed = unfollowed.of_enclosed();
+    return c;
+  }
   /// Returns whether surfaces of the files were not delivered, or may be read differently by other programs.
   [[nodiscard]] bool is_partial() const { return non_finite + bad_faces + differing > 0 || unfollowed.any(); }
 };

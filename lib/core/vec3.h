@@ -1,5 +1,6 @@
 #pragma once
 #include <cmath>
+#include <limits>
 
 #include "lib/core/coords.h"
 
@@ -40,6 +41,14 @@ namespace bp {
 }
 [[nodiscard]] inline bool is_finite(const Vec3d& p) {
   return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
+}
+/// Returns whether all coordinates are finite. It has no branches, since it runs for every triangle that is read.
+[[nodiscard]] inline bool is_finite(const TriangleD& t) {
+  bool finite = true;
+  for (const Vec3d& p : t) {
+    for (const double c : p) finite &= std::abs(c) <= std::numeric_limits<double>::max();
+  }
+  return finite;
 }
 
 }  // namespace bp

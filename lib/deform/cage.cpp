@@ -94,7 +94,7 @@ Cage make_cage(const IndexedMesh& mesh, const std::string& name) {
     if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) edges.add(t);
   }
   if (edges.open_edges() > 0)
-    fail(ErrorCode::bad_input, "{}: is no closed cage: {} edges are open, or their faces face both ways", name,
+    fail(ErrorCode::bad_input, "{}: is no closed cage: edges that are open, or whose faces face both ways: {}", name,
          edges.open_edges());
   const double volume = cage.diagonal > 0 ? six_volumes(cage) : 0;
   if (!(std::abs(volume) > kLeastVolume)) fail(ErrorCode::bad_input, "{}: a cage without volume", name);

@@ -1,11 +1,11 @@
 #pragma once
-#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "lib/closing/closing.h"
 #include "lib/deform/weight_block.h"
+#include "lib/device/backends.h"
 #include "lib/grid/stream.h"
 #include "lib/voxel/fixed_triangle.h"
 #include "lib/voxel/winding.h"
@@ -52,8 +52,5 @@ class Backend {
  private:
   BitBox loaded_;  ///< box of close_from_shelf(); kept
 };
-
-/// One backend per worker thread. Stages hand tile i to any idle backend.
-using Backends = std::vector<std::unique_ptr<Backend>>;
 
 }  // namespace bp

@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 
@@ -107,20 +108,29 @@ class NearMasks::Mask {
     return true;
   }
 
-  [[nodiscard]] bool holds(const std::array<LatticeCoord, 3>& t) const {
-    const LatticeBox box = box_of(t[0], t[1], t[2]);
+  /// Returns the answer for a face or an edge with these bounds, if the voxels around it tell: all are in the mask, or
+  /// the box is too small to be cut.
+  [[nodiscard]] std::optional<bool> answer_for(const LatticeBox& box) const {
     const VoxelCoord low = voxel_of(box.min), high = voxel_of(box.max);
     const VoxelCoord size = high - low;
     const bool is_small = std::max({size.x, size.y, size.z}) <= 1;
-    if (is_small || std::int64_t(size.y + 1) * (size.z + 1) <= kMostRows) {
-      if (holds(low, high)) return true;
-      if (is_small) return false;
-    }
+    if (!is_small && std::int64_t(size.y + 1) * (size.z + 1) > kMostRows) return {};
+    if (holds(low, high)) return true;
+    return is_small ? std::optional(false) : std::nullopt;
+  }
+
+  [[nodiscard]] bool holds(const std::array<LatticeCoord, 3>& t) const {
+    if (const std::optional<bool> all = answer_for(box_of(t[0], t[1], t[2]))) return *all;
     const auto middle = [](const LatticeCoord& a, const LatticeCoord& b) {
       return LatticeCoord{(a.x + b.x) / 2, (a.y + b.y) / 2, (a.z + b.z) / 2};
     };
     const std::array<LatticeCoord, 3> m = {middle(t[0], t[1]), middle(t[1], t[2]), middle(t[2], t[0])};
     return holds(m) && holds({t[0], m[0], m[2]}) && holds({m[0], t[1], m[1]}) && holds({m[2], m[1], t[2]});
+  }
+  [[nodiscard]] bool holds(const LatticeCoord& a, const LatticeCoord& b) const {
+    if (const std::optional<bool> all = answer_for(box_of(a, b, b))) return *all;
+    const LatticeCoord m{(a.x + b.x) / 2, (a.y + b.y) / 2, (a.z + b.z) / 2};
+    return holds(a, m) && holds(m, b);
   }
   [[nodiscard]] std::uint64_t bytes() const { return bricks_.memory_bytes(); }
 
@@ -138,7 +148,8 @@ class NearMasks::Mask {
     const std::uint64_t row = (~std::uint64_t(0) << a.x) & (~std::uint64_t(0) >> (kBrickEdge - 1 - b.x));
     for (std::int32_t z = a.z; z <= b.z; ++z) {
       for (std::int32_t y = a.y; y <= b.y; ++y) {
-        if ((~(*bits)[std::size_t(z * kBrickEdge + y)] & row) != 0) return false;
+        const std::size_t at = std::size_t(z) * kBrickEdge + std::size_t(y);
+        if ((~(*bits)[at] & row) != 0) return false;
       }
     }
     return true;
@@ -197,6 +208,21 @@ bool NearMasks::is_near(std::span<const NewFace> faces, double distance) const {
   return std::all_of(faces.begin(), faces.end(), [&](const NewFace& f) {  // far corners refuse most
     return std::all_of(f.corners.begin(), f.corners.end(), is_set) && mask.holds(f.corners);
   });
+}
+
+bool NearMasks::is_near(const LatticeCoord& a, const LatticeCoord& b, double distance) const {
+  const Mask& mask = this->mask(distance);
+  const auto is_set = [&](const LatticeCoord& p) {
+    const VoxelCoord at = mask.voxel_of(p);
+    return mask.holds(at, at);
+  };
+  return is_set(a) && is_set(b) && mask.holds(a, b);
+}
+
+std::uint64_t NearMasks::bytes_of_mask(const BrickShelf& voxels) {
+  // A mask grows into bricks around those of the voxels, and has about kMostBricks at most.
+  constexpr std::uint64_t kGrowth = 2;
+  return std::min<std::uint64_t>(kGrowth * voxels.coords().size(), kMostBricks) * sizeof(BrickBits);
 }
 
 std::uint64_t NearMasks::bytes() const {

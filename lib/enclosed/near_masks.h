@@ -26,8 +26,12 @@ class NearMasks {
   /// face. Pieces are quartered until all voxels around a piece are set, or one around a piece of a voxel's size is
   /// not.
   [[nodiscard]] bool is_near(std::span<const NewFace> faces, double distance) const;
+  /// Returns the same for all points of the edge from a to b.
+  [[nodiscard]] bool is_near(const LatticeCoord& a, const LatticeCoord& b, double distance) const;
   void prepare(double distance) const { static_cast<void>(mask(distance)); }  ///< makes the mask for the distance
   [[nodiscard]] std::uint64_t bytes() const;                                  ///< bytes of all masks so far
+  /// Returns about the most bytes that a mask of such voxels takes.
+  [[nodiscard]] static std::uint64_t bytes_of_mask(const BrickShelf& voxels);
 
  private:
   class Mask;

@@ -1,5 +1,6 @@
 #pragma once
 #include "lib/fit/fit_place.h"
+#include "lib/mesh/half_edge_mesh.h"
 #include "lib/simplify/simplify.h"
 
 /// Fitting: levels of detail that need not enclose the scene ([CB17] §5.4). The closing has merged parts and closed

@@ -6,10 +6,6 @@ namespace bp {
 
 namespace {
 
-VoxelBox voxels_of(BrickCoord c) {
-  return bp::voxels_of(BrickBox{c, {c.x + 1, c.y + 1, c.z + 1}});
-}
-
 /// A range of places along an axis of a brick, [begin, end), not empty or [0, 0).
 struct BrickRange {
   std::int32_t begin = 0, end = 0;

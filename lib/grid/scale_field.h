@@ -33,6 +33,10 @@ struct ScaleLattice {
   return std::int32_t((std::uint32_t(s) * s + kScaleOne * kScaleOne - 1) / (kScaleOne * kScaleOne));
 }
 
+/// Scales of whole voxels are a trap: the erosion, by an open ball, stops one voxel short of what a cube has added, on
+/// flat sides, too. The least scale above reaches as far, and its erosion takes that layer back.
+constexpr double kBeyondWholeVox = 1.0 / kScaleOne;
+
 /// Returns the nearest multiple of 1/16 voxel. `scale` is in scene units and fits.
 [[nodiscard]] Scale scale_of(double scale, const GridFrame& frame);
 

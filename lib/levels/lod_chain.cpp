@@ -8,6 +8,7 @@
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/levels/detail/level_search.h"
+#include "lib/mesh/half_edge_mesh.h"
 
 namespace bp {
 

@@ -2,7 +2,6 @@
 #include <cstdint>
 #include <optional>
 
-#include "lib/closing/closing.h"
 #include "lib/grid/scale_field.h"
 
 /// The target of a level of detail, and the scale and the voxels that follow from it.

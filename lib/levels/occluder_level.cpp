@@ -2,14 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 #include <vector>
 
 #include "lib/closing/closing.h"
 #include "lib/core/error.h"
+#include "lib/enclosed/enclosed_voxels.h"
 #include "lib/grid/shelf_stream.h"
+#include "lib/levels/detail/silhouettes.h"
 #include "lib/pass/mesh/complement.h"
 #include "lib/pass/mesh/mesh_pass.h"
+#include "lib/volume/boundary_runs.h"
 
 namespace bp {
 
@@ -17,8 +21,6 @@ namespace {
 
 // The chosen scale hides at least this part of what the best one does.
 constexpr double kAsMuch = 0.95;
-// Standing on the ground must multiply what is hidden by more than this.
-constexpr double kGroundGains = 1.25;
 constexpr double kSidesOfWall = 2;    // the surface of walls, over that of what they hide
 constexpr double kLeastTriedVox = 2;  // the least scale that is tried
 // The largest scales that are tried, as parts of the scene's diagonal.
@@ -68,49 +70,107 @@ class HiddenSearch {
         scales_(asked_ ? std::vector<double>{*request.scale_world} : occluder_scales(header)),
         steps_(request.hidden.context, pass, "scales", scales_.size()),
         options_(steps_.within(request.hidden)),
+        more_than_(request.more_than_voxels),
         enclosed_(enclosed_voxels(header, touched, backends, options_)) {}
 
   HiddenScene run() {
-    for (const double scale : scales_) {
-      attempt(scale);
-      steps_.step();
+    const std::size_t last = scales_.size() - 1;
+    attempt(0);
+    if (asked_) return gives_up() ? HiddenScene{} : std::move(kept_.front());
+    if (last > 0) {
+      most_possible_ = std::max(most_possible_, closed_at(last).count);
+      if (gives_up()) return {};
+      if (!is_enough(most_)) search(last);
     }
     // The scales are a factor apart: where none hides anything, the largest that may be tried still can.
-    if (!asked_ && most_ == 0) attempt(largest_scale(header_));
-    HiddenScene best = std::move(promising_.front());
-    if (!asked_) best.tried = std::move(tried_);
-    return best;
+    if (most_ == 0) {
+      scales_.push_back(largest_scale(header_));
+      attempt(last + 1);
+    }
+    return best();
   }
 
  private:
-  /// Computes what is hidden at a scale. The voxels are kept only if they are more than at all scales before: else a
-  /// smaller scale hides as much.
-  void attempt(double scale) {
-    const bool first = tried_.empty();
-    const auto unreached = unreached_voxels(header_, *enclosed_, backends_, at_scale(options_, scale));
-    tried_.push_back({scale, first ? 0 : tried_.front().hidden_voxels});
-    if (!unreached && !first) return;  // nothing more is hidden than without a scale
+  [[nodiscard]] bool gives_up() const { return double(most_possible_) <= more_than_; }
+  /// Returns whether a scale that hides so much is taken before all larger ones.
+  [[nodiscard]] bool is_enough(std::uint64_t hidden) const {
+    return double(hidden) >= kAsMuch * double(most_possible_);
+  }
+
+  /// Tries the largest scale, and all that may hide kAsMuch of what it hides, the least first.
+  void search(std::size_t last) {
+    attempt(last);
+    std::size_t low = 0, first = last;  // the closing at `low` is too small
+    while (first - low > 1) {
+      const std::size_t middle = low + (first - low) / 2;
+      (double(closed_at(middle).count) >= kAsMuch * double(most_) ? first : low) = middle;
+    }
+    for (std::size_t i = first; i < last; ++i) {
+      attempt(i);
+      if (is_enough(tried_.back().hidden_voxels)) return;
+    }
+  }
+
+  /// Returns the closing at a scale, which is made once.
+  ClosedVoxels& closed_at(std::size_t i) {
+    const auto [found, is_new] = closed_.try_emplace(i);
+    if (is_new) {
+      found->second = closed_voxels(header_, *enclosed_, backends_, at_scale(options_, scales_[i]));
+      steps_.step();
+    }
+    return found->second;
+  }
+
+  /// Computes what is hidden at a scale, and keeps it if no smaller scale hides as much.
+  void attempt(std::size_t i) {
+    ClosedVoxels closed = std::move(closed_at(i));
+    if (i == 0) most_possible_ = closed.count;
+    tried_.push_back({scales_[i], tried_.empty() ? 0 : tried_.front().hidden_voxels});
+    if (!closed.has_rooms && i > 0) return;  // nothing more is hidden than without a scale
+    const HiddenOptions options = at_scale(options_, scales_[i]);
     HiddenScene hidden;
-    hidden.scale_world = scale;
+    hidden.scale_world = scales_[i];
+    const auto unreached =
+        closed.has_rooms ? unreached_voxels(header_, *enclosed_, std::move(closed), backends_, options) : nullptr;
     hidden.voxels = unseen_voxels(unreached ? *unreached : *enclosed_, touched_, options_);
     const std::uint64_t count = tried_.back().hidden_voxels = hidden.voxels.count;
-    if (count <= most_ && !first) return;
-    most_ = count;
-    std::erase_if(promising_, [&](const HiddenScene& h) { return double(h.voxels.count) < kAsMuch * double(most_); });
-    promising_.push_back(std::move(hidden));
+    most_ = std::max(most_, count);
+    keep(std::move(hidden));
+  }
+
+  /// Keeps what is hidden at a scale, if it is enough and no smaller scale hides as much; drops what it beats.
+  void keep(HiddenScene hidden) {
+    const auto beats = [](const HiddenScene& a, const HiddenScene& b) {
+      return a.scale_world < b.scale_world && a.voxels.count >= b.voxels.count;
+    };
+    const bool is_beaten = std::any_of(kept_.begin(), kept_.end(), [&](const auto& h) { return beats(h, hidden); });
+    std::erase_if(kept_, [&](const HiddenScene& h) {
+      return beats(hidden, h) || double(h.voxels.count) < kAsMuch * double(most_);
+    });
+    if (!is_beaten && double(hidden.voxels.count) >= kAsMuch * double(most_)) kept_.push_back(std::move(hidden));
+  }
+
+  HiddenScene best() {
+    const auto by_scale = [](const auto& a, const auto& b) { return a.scale_world < b.scale_world; };
+    std::sort(tried_.begin(), tried_.end(), by_scale);
+    HiddenScene best = std::move(*std::min_element(kept_.begin(), kept_.end(), by_scale));
+    best.tried = std::move(tried_);
+    return best;
   }
 
   const StreamHeader& header_;
   BrickShelf& touched_;
   Backends& backends_;
   const bool asked_;  // whether one scale is asked for
-  const std::vector<double> scales_;
+  std::vector<double> scales_;
   ShownSteps steps_;
   const HiddenOptions options_;
+  const double more_than_;
   const std::unique_ptr<BrickShelf> enclosed_;
+  std::map<std::size_t, ClosedVoxels> closed_;  // by the number of the scale; without voxels once they were used
   std::vector<HiddenScene::Tried> tried_;
-  std::vector<HiddenScene> promising_;  // the last ones hide more than those before
-  std::uint64_t most_ = 0;
+  std::vector<HiddenScene> kept_;
+  std::uint64_t most_ = 0, most_possible_ = 0;  // voxels that are hidden at a scale that was tried, and at any
 };
 
 /// Returns the header of the hidden voxels after an opening; scale 0: all of them.
@@ -131,6 +191,13 @@ MeshParams params_of(std::uint64_t faces, double least_part) {
   return params;
 }
 
+/// Returns the box around the hidden voxels, lattice units.
+LatticeBox box_of(const HiddenScene& hidden) {
+  const VoxelBox box = boundary_size(*hidden.voxels.voxels).box;
+  return {LatticeCoord{box.min.x, box.min.y, box.min.z} * kLatticePerVoxel,
+          LatticeCoord{box.max.x, box.max.y, box.max.z} * kLatticePerVoxel};
+}
+
 /// Makes the mesh within hidden voxels.
 class OccluderMesh {
  public:
@@ -142,7 +209,12 @@ class OccluderMesh {
         options_(request.hidden),
         openings_(occluder_openings(header)),
         steps_(options_.context, "meshing", "openings", openings_.size()),
-        faces_(request.faces) {}
+        outside_(options_.context.make_shelf()),
+        silhouettes_(box_of(hidden), header.frame.up),
+        faces_(request.faces) {
+    complement(*hidden.voxels.voxels, bricks_around(*hidden.voxels.voxels), *outside_);
+    enclosed_ = std::make_unique<EnclosedVoxels>(*outside_);
+  }
 
   LodLevel run() {
     steps_.show();
@@ -177,11 +249,14 @@ class OccluderMesh {
     return any;
   }
 
+  /// Keeps a mesh if it covers more of the silhouettes than the best one, and has no more faces than are wanted.
   bool keep_better(LodLevel level, double scale) {
+    const double covered = silhouettes_.share(level.mesh);
     const bool better = best_.mesh.triangles.empty() || (level.reached && !best_.reached) ||
-                        (level.reached == best_.reached && volume_of(level) > volume_of(best_));
+                        (level.reached == best_.reached && covered > covered_);
     if (!better) return false;
     best_ = std::move(level);
+    covered_ = covered;
     opening_ = scale;
     return true;
   }
@@ -206,7 +281,9 @@ class OccluderMesh {
     ShelfSource shelf(header_of(header_, hidden_, scale), *hidden_.voxels.voxels, opened_.get(),
                       ShelfSource::Keep::all);
     try {
-      level.mesh = std::move(mesh_stream(shelf, options_.context, params_of(faces_, least_part), level.counts).front());
+      MeshParams params = params_of(faces_, least_part);
+      params.enclosed = enclosed_.get();
+      level.mesh = std::move(mesh_stream(shelf, options_.context, params, level.counts).front());
     } catch (const Error& e) {
       if (scale == 0 || e.code() != ErrorCode::bad_input) throw;
       return false;
@@ -220,9 +297,13 @@ class OccluderMesh {
   const HiddenOptions& options_;
   const std::vector<double> openings_;
   ShownSteps steps_;
+  const std::unique_ptr<BrickShelf> outside_;  // all voxels that are not hidden
+  std::unique_ptr<EnclosedVoxels> enclosed_;   // the same, as the set that a mesh must not hold
+  const Silhouettes silhouettes_;
   std::unique_ptr<BrickShelf> opened_;  // the opening of the hidden voxels; null: all of them
   std::uint64_t faces_;                 // 0: not known
   LodLevel best_;
+  double covered_ = 0;  // silhouettes_.share() of the best one
   double opening_ = 0;
   int attempts_ = 0;
 };

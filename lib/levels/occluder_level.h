@@ -13,6 +13,8 @@ struct OccluderRequest {
   std::uint64_t faces = 0;            ///< 0: chosen by the parts that the scene hides
   std::optional<double> scale_world;  ///< scale at which openings are closed, scene units; none: the best of several
   HiddenOptions hidden;               ///< all but the scale
+  /// hidden_scene() gives up, and returns nothing hidden, as soon as no scale can hide more voxels than this.
+  double more_than_voxels = 0;
 };
 
 /// The faces that are chosen if none are asked for: kOccluderFaces, or kOccluderFacesOfPart for each part if that is
@@ -34,15 +36,18 @@ struct HiddenScene {
     double scale_world = 0;
     std::uint64_t hidden_voxels = 0;
   };
-  std::vector<Tried> tried;  ///< the scales that were tried; empty if one was asked for
+  std::vector<Tried> tried;  ///< the scales that were tried, from 0; empty if one was asked for
 };
 
 /// Returns what the scene hides at the scale that is asked for. Without one, it takes the least scale, up to a
-/// sixteenth of the scene's diagonal, that hides 0.95 of what the best one does. `touched` holds the bricks of
+/// sixteenth of the scene's diagonal, that hides 0.95 of what the best one does. Scales that cannot hide as much as one
+/// that was tried are left out: a closing bounds what it and all smaller ones hide. `touched` holds the bricks of
 /// `header`. `pass`: the name of the work in reports of progress. Throws as close_stream().
 [[nodiscard]] HiddenScene hidden_scene(const StreamHeader& header, BrickShelf& touched, Backends& backends,
                                        const OccluderRequest& request, const char* pass);
 
+/// The factor by which the ground must multiply what is hidden.
+constexpr double kGroundGains = 1.25;
 /// Returns whether a scene hides a quarter more if it stands on the ground, as many buildings without a floor do.
 [[nodiscard]] bool gains_on_ground(std::uint64_t on_ground, std::uint64_t without);
 /// Returns false if a scene of such voxels cannot hide a quarter more on the ground, since it would have to fill more
@@ -63,7 +68,7 @@ struct MadeOccluder {
 [[nodiscard]] std::uint64_t occluder_limit_before(const StreamHeader& header, BrickShelf& touched,
                                                   const OccluderRequest& request);
 /// Makes the mesh inside the hidden voxels, which must not be empty. Small and narrow parts are left out if the faces
-/// hide more without them.
+/// cover more of the silhouettes without them.
 [[nodiscard]] MadeOccluder make_occluder(const StreamHeader& header, const HiddenScene& hidden, Backends& backends,
                                          const OccluderRequest& request);
 

@@ -1,58 +1,20 @@
 #include "lib/live/live_closing.h"
 
-#include <bit>
+#include <atomic>
 #include <chrono>
-#include <set>
 
 #include "lib/core/error.h"
-#include "lib/core/parallel.h"
-#include "lib/pass/close/close_pass.h"
 #include "lib/pass/measure/orientation.h"
 #include "lib/pass/measure/shape_rules.h"
 
 namespace bp {
 
-namespace {
-
-VoxelBox voxels_of_brick(BrickCoord c) {
-  return voxels_of(BrickBox{c, {c.x + 1, c.y + 1, c.z + 1}});
-}
-
-/// Returns the voxels of a brick in which two shelves differ, as a box of whole rows and slices of the brick; empty if
-/// they agree.
-VoxelBox differing(const BrickShelf& a, const BrickShelf& b, BrickCoord brick) {
-  BrickBits of_a, of_b;
-  const BrickFill fill_a = a.get(brick, of_a), fill_b = b.get(brick, of_b);
-  VoxelBox box;
-  if (fill_a == fill_b && fill_a != BrickFill::mixed) return box;
-  const VoxelCoord first = first_voxel(brick);
-  for (std::int32_t i = 0; i < std::int32_t(of_a.size()); ++i) {
-    const std::uint64_t bits = of_a[std::size_t(i)] ^ of_b[std::size_t(i)];
-    if (bits == 0) continue;
-    const std::int32_t y = first.y + i % kBrickEdge, z = first.z + i / kBrickEdge;
-    box = hull(box, {{first.x + std::countr_zero(bits), y, z}, {first.x + 64 - std::countl_zero(bits), y + 1, z + 1}});
-  }
-  return box;
-}
-
-bool same(const ScaleLattice& a, const ScaleLattice& b) {
-  return a.origin == b.origin && a.size == b.size && a.samples == b.samples;
-}
-
-std::uint64_t count_voxels(const BrickShelf& shelf) {
-  std::uint64_t count = 0;
-  BrickBits bits;
-  for (const BrickCoord c : shelf.coords()) {
-    (void)shelf.get(c, bits);
-    for (const std::uint64_t word : bits) count += std::uint64_t(std::popcount(word));
-  }
-  return count;
-}
-
-}  // namespace
-
 LiveClosing::LiveClosing(LiveScene scene, Backends& backends, std::function<void()> changed)
-    : scene_(std::move(scene)), backends_(backends), changed_(std::move(changed)), thread_([this] { work(); }) {}
+    : scene_(std::move(scene)),
+      backends_(backends),
+      changed_(std::move(changed)),
+      surface_(scene_.context.make_shelf, scene_.most_faces),
+      thread_([this] { work(); }) {}
 
 LiveClosing::~LiveClosing() {
   {
@@ -83,16 +45,10 @@ void LiveClosing::wait() {
 
 LiveClosing::Status LiveClosing::status() const {
   const std::lock_guard lock(mutex_);
-  return status_;
-}
-
-std::vector<LiveClosing::Piece> LiveClosing::since(std::uint64_t generation) const {
-  const std::lock_guard lock(mutex_);
-  std::vector<Piece> some;
-  for (const auto& [brick, piece] : pieces_) {
-    if (piece.generation > generation) some.push_back(piece);
-  }
-  return some;
+  Status status = status_;
+  status.generation = surface_.generation();
+  status.drawn_voxel = surface_.drawn_voxel();
+  return status;
 }
 
 void LiveClosing::work() {
@@ -112,8 +68,6 @@ void LiveClosing::work() {
       continue;
     } catch (const std::exception& e) {
       error = e.what();
-      closing_.reset();  // all pieces are made again, because some may be of this request
-      lattices_.clear();
     }
     lock.lock();
     if (status_.asked == revision) status_.error = error;
@@ -130,11 +84,17 @@ void LiveClosing::close(const ScalePlan& plan, std::uint64_t revision, Clock::ti
   const ScalePlan found = measured(plan, scene_.header, *scene_.solid, {0, options.context});
   ClosingParams params = scene_.params;
   params.orientation = cubes_of(found);
-  auto closing = close_shelf(scene_.header, *scene_.solid, backends_, found.field, params, options);
+  const OrientationField upright;
+  const OrientationField& cubes = params.orientation != nullptr ? *params.orientation : upright;
+  if (closed_.voxels != nullptr && closed_cubes_ == cubes) options.earlier = &closed_;
+  const std::shared_ptr<BrickShelf> filled = scene_.context.make_shelf();
+  options.filled = filled.get();
+  EarlierClosing closed{found.field, close_shelf(scene_.header, *scene_.solid, backends_, found.field, params, options),
+                        filled};
   options.context.check();
-  make_pieces(*closing, found.field);
-  const std::uint64_t voxels = count_voxels(*closing);
-  closing_ = std::move(closing);
+  const std::uint64_t voxels = surface_.show(scene_.header.frame, closed.voxels, found.field);
+  closed_ = std::move(closed);
+  closed_cubes_ = cubes;
   const std::lock_guard lock(mutex_);
   status_.shown = revision;
   status_.voxels = voxels;
@@ -157,57 +117,6 @@ const OrientationField* LiveClosing::cubes_of(const ScalePlan& plan) {
     cubes_cell_vox_ = cell;
   }
   return cubes_.empty() ? nullptr : &cubes_;
-}
-
-std::vector<LiveClosing::Change> LiveClosing::changes(const BrickShelf& closing, const ScaleField& field) {
-  std::set<BrickCoord> there;
-  std::map<BrickCoord, bool> changed;  // whether its voxels changed; else only its scales did
-  for (const BrickCoord c : closing.coords()) there.insert(c);
-  std::set<BrickCoord> all = there;
-  if (closing_ != nullptr) {
-    for (const BrickCoord c : closing_->coords()) all.insert(c);
-  } else {
-    for (const auto& [brick, piece] : pieces_) changed[brick] = true;
-  }
-  for (const BrickCoord c : all) {
-    const VoxelBox box = closing_ == nullptr ? voxels_of_brick(c) : differing(*closing_, closing, c);
-    if (!box.empty()) for_each(bricks_of(box.grown(piece_apron())), [&](BrickCoord b) { changed[b] = true; });
-  }
-  const std::vector<BrickCoord> sampled(there.begin(), there.end());
-  std::vector<ScaleLattice> lattices(sampled.size());
-  parallel_for(std::int64_t(sampled.size()), [&](std::int64_t i) {
-    lattices[std::size_t(i)] = field.sample(scene_.header.frame, voxels_of_brick(sampled[std::size_t(i)]).grown(1));
-  });
-  for (std::size_t i = 0; i < sampled.size(); ++i) {
-    ScaleLattice& old = lattices_[sampled[i]];
-    if (!same(old, lattices[i])) changed.emplace(sampled[i], false);
-    old = std::move(lattices[i]);
-  }
-  std::vector<Change> all_changes;
-  for (const auto& [brick, voxels] : changed) all_changes.push_back({brick, voxels});
-  return all_changes;
-}
-
-void LiveClosing::make_pieces(const BrickShelf& closing, const ScaleField& field) {
-  const std::vector<Change> bricks = changes(closing, field);
-  std::vector<std::shared_ptr<const SurfacePiece>> made(bricks.size());
-  parallel_for(std::int64_t(bricks.size()), [&](std::int64_t i) {
-    const auto [brick, voxels] = bricks[std::size_t(i)];
-    static const ScaleLattice none;
-    const auto found = lattices_.find(brick);
-    const ScaleLattice& lattice = found == lattices_.end() ? none : found->second;
-    const auto old = pieces_.find(brick);  // only this thread changes the pieces
-    made[std::size_t(i)] = std::make_shared<const SurfacePiece>(voxels || old == pieces_.end()
-                                                                    ? piece_of(closing, brick, lattice)
-                                                                    : with_scales(*old->second.surface, lattice));
-  });
-  const std::lock_guard lock(mutex_);
-  if (bricks.empty()) return;
-  ++status_.generation;
-  for (std::size_t i = 0; i < bricks.size(); ++i) {
-    if (made[i]->triangles.empty() && !pieces_.contains(bricks[i].brick)) continue;
-    pieces_[bricks[i].brick] = {status_.generation, std::move(made[i])};
-  }
 }
 
 }  // namespace bp

@@ -32,7 +32,9 @@ class Joiner {
   void add(const SurfacePiece& piece) {
     std::vector<std::uint32_t> number(piece.vertices.size());
     for (std::size_t i = 0; i < number.size(); ++i) number[i] = vertex(piece, i);
-    for (const auto& t : piece.triangles) out_.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
+    for (const auto& face : piece.faces) {
+      for (const auto& t : triangles_of(face)) out_.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
+    }
   }
   SharedSurface take() { return std::move(out_); }
 

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "lib/core/pool.h"
 #include "lib/live/detail/blurred_box.h"
 #include "lib/volume/boundary_runs.h"
 
@@ -23,7 +24,7 @@ constexpr std::array<std::array<std::array<int, 3>, 4>, 3> kFace{{
     {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}},
 }};
 
-/// Makes the pieces of one thread.
+/// Makes pieces, one after the other.
 class PieceMaker {
  public:
   SurfacePiece make(const BrickShelf& shelf, BrickCoord brick, const ScaleLattice& scale) {
@@ -44,7 +45,7 @@ class PieceMaker {
     piece_.brick = brick;
     first_ = first_voxel(brick);
     scale_ = scale;
-    solid_.reset(voxels_of(BrickBox{brick, {brick.x + 1, brick.y + 1, brick.z + 1}}).grown(BlurredBox::kApron));
+    solid_.reset(voxels_of(brick).grown(BlurredBox::kApron));
   }
   SurfacePiece finish() {
     numbers_.assign(std::size_t(kCorners) * kCorners * kCorners, kNone);
@@ -80,8 +81,7 @@ class PieceMaker {
       const auto& step = kFace[std::size_t(axis)][greater ? i : 3 - i];
       v[i] = vertex(at[0] + step[0], at[1] + step[1], at[2] + step[2]);
     }
-    piece_.triangles.push_back({v[0], v[1], v[2]});
-    piece_.triangles.push_back({v[0], v[2], v[3]});
+    piece_.faces.push_back(v);
   }
 
   std::uint32_t vertex(int x, int y, int z) {
@@ -122,25 +122,28 @@ class PieceMaker {
   bool blurred_ = false;
 };
 
+/// Calls make(maker). There are as many makers as threads have made pieces at once.
+template <class Make>
+SurfacePiece with_maker(const Make& make) {
+  static Spares<PieceMaker> makers;
+  PieceMaker maker = makers.take();
+  SurfacePiece piece = make(maker);
+  makers.give(std::move(maker));
+  return piece;
+}
+
 }  // namespace
 
 std::int32_t piece_apron() {
   return BlurredBox::kApron;
 }
 
-SurfacePiece with_scales(SurfacePiece piece, const ScaleLattice& scale) {
-  for (std::size_t i = 0; i < piece.vertices.size(); ++i) piece.vertices[i].scale = scale.at(piece.corners[i]);
-  return piece;
-}
-
 SurfacePiece piece_of(const BrickShelf& shelf, BrickCoord brick, const ScaleLattice& scale) {
-  thread_local PieceMaker maker;
-  return maker.make(shelf, brick, scale);
+  return with_maker([&](PieceMaker& maker) { return maker.make(shelf, brick, scale); });
 }
 
 SurfacePiece piece_of(const BitBox& cells, BrickCoord brick) {
-  thread_local PieceMaker maker;
-  return maker.make(cells, brick);
+  return with_maker([&](PieceMaker& maker) { return maker.make(cells, brick); });
 }
 
 }  // namespace bp

@@ -30,19 +30,23 @@ struct SurfacePiece {
   static_assert(sizeof(Vertex) == 12);
   BrickCoord brick;
   std::vector<Vertex> vertices;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<std::array<std::uint32_t, 4>> faces;  ///< of voxels, counter-clockwise seen from outside
   std::vector<VoxelCoord> corners;  ///< corners of voxels that the vertices come from; they are not drawn
 };
+
+/// Returns the two triangles that a face is drawn as.
+[[nodiscard]] inline std::array<std::array<std::uint32_t, 3>, 2> triangles_of(
+    const std::array<std::uint32_t, 4>& face) {
+  return {{{face[0], face[1], face[2]}, {face[0], face[2], face[3]}}};
+}
 
 /// Returns how many voxels around a brick its piece depends on.
 [[nodiscard]] std::int32_t piece_apron();
 
 /// Returns the piece of a brick of `shelf`; empty if the brick has no face. `scale` has samples for the brick, grown by
-/// one voxel. Neighbours agree on the vertices that they share.
+/// one voxel. Neighbours agree on the vertices that they share. Memory while it is made: 4 MiB.
 [[nodiscard]] SurfacePiece piece_of(const BrickShelf& shelf, BrickCoord brick, const ScaleLattice& scale);
 /// Returns the piece of a brick of `cells`, which lie within their box, without scales.
 [[nodiscard]] SurfacePiece piece_of(const BitBox& cells, BrickCoord brick);
-/// Returns the piece with new scales, for a brick where only scales have changed.
-[[nodiscard]] SurfacePiece with_scales(SurfacePiece piece, const ScaleLattice& scale);
 
 }  // namespace bp

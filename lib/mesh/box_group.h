@@ -34,6 +34,9 @@ struct LatticeBox {
     max = {std::max(max.x, p.x), std::max(max.y, p.y), std::max(max.z, p.z)};
   }
 };
+/// The box of all lattice points, the cell of a whole mesh. None lies on its boundary.
+constexpr LatticeBox kEverywhere{{-(std::int64_t(1) << 40), -(std::int64_t(1) << 40), -(std::int64_t(1) << 40)},
+                                 {std::int64_t(1) << 40, std::int64_t(1) << 40, std::int64_t(1) << 40}};
 [[nodiscard]] inline LatticeBox box_of(const LatticeCoord& a, const LatticeCoord& b, const LatticeCoord& c) {
   LatticeBox box{a, a};
   box.add(b);

@@ -25,10 +25,6 @@ struct NewFace {
 
 using Triangle = std::array<VertexId, 3>;
 
-/// The cell of a whole mesh. No lattice point lies on its boundary.
-constexpr LatticeBox kEverywhere{{-(std::int64_t(1) << 40), -(std::int64_t(1) << 40), -(std::int64_t(1) << 40)},
-                                 {std::int64_t(1) << 40, std::int64_t(1) << 40, std::int64_t(1) << 40}};
-
 class HalfEdgeMesh {
  public:
   /// Differences of coordinates stay below twice this, so that sums of products of two of them fit in 64 bits.

@@ -1,6 +1,6 @@
 // [XLG09] also takes the boundary of voxels and smooths it. Here the boundary shrinks like a skin: each vertex moves to
-// the mean of its neighbours along quads, and inwards, as far as the enclosed set allows; at last to where the solid is
-// smallest.
+// the mean of its neighbours along quads, and inwards, as far as the enclosed set allows; then all go together, and at
+// last each alone, to where the solid is smallest.
 #include "lib/quads/quad_cage.h"
 
 #include <algorithm>
@@ -15,6 +15,7 @@ namespace bp {
 namespace {
 
 constexpr int kSweeps = 40;
+constexpr int kJointFits = 8;  // 16 change the volume by less than a hundredth
 constexpr int kFits = 4;
 
 /// Returns the mesh without erased faces. `number`: the new number of each face.
@@ -57,6 +58,7 @@ LatticeMesh shrunk_cage(const CellQuads& cage, const Enclosed& enclosed, const s
   ProxyEditor editor(mesh, kept, {});
   Skin skin(cage, mesh, editor, plane);
   for (int i = 0; i < kSweeps; ++i) skin.relax();
+  for (int i = 0; i < kJointFits; ++i) skin.fit_together();
   for (int i = 0; i < kFits; ++i) skin.fit();
   editor.erase_inner_shells();
   std::vector<FaceId> number;

@@ -1,5 +1,6 @@
 #pragma once
 #include "lib/mesh/half_edge_mesh.h"
+#include "lib/simplify/region_size.h"
 #include "lib/surface/piece.h"
 
 /// Parts of a closed surface that are changed at the same time, each in a cell of its own. A vertex of a region is free
@@ -8,8 +9,6 @@
 /// the changes in others (docs/bounding.md, "Regions"). Faces along the sides of cells are changed in another turn,
 /// whose cells lie elsewhere.
 namespace bp {
-
-constexpr std::uint64_t kFacesPerRegion = 2048;  ///< the default
 
 struct Region {
   LatticeBox cell;  ///< closed; those of different regions have no inner point in common

@@ -3,7 +3,6 @@
 
 #include "lib/mesh/box_group.h"
 #include "lib/mesh/edge_limit.h"
-#include "lib/mesh/half_edge_mesh.h"
 
 namespace bp {
 

@@ -2,14 +2,15 @@
 #include <cstdint>
 #include <string>
 
-#include "lib/enclosed/enclosed.h"
 #include "lib/simplify/refusal.h"
-#include "lib/simplify/regions.h"
+#include "lib/simplify/region_size.h"
 #include "lib/simplify/shape_limits.h"
 #include "lib/surface/piece_store.h"
 
 /// The parameters of simplification, and its counts.
 namespace bp {
+
+class Enclosed;
 
 struct SimplifyParams : ShapeLimits {
   std::uint64_t faces = 0;  ///< stop at this many triangles; 0: no target

@@ -25,6 +25,12 @@ std::uint64_t fewer(std::uint64_t n) {
   return n > 40 ? (n - 1) / 4 * 4 : (n - 1) / 2 * 2;
 }
 
+/// Returns whether a proxy holds clearly more than another one; of proxies inside, whether it holds clearly less.
+bool is_hopeless(const TightProxy& proxy, const TightProxy& best) {
+  const double now6 = double(volume6_of(proxy.mesh)), best6 = double(volume6_of(best.mesh));
+  return best6 > 0 ? now6 > kHopeless * best6 : now6 > best6 / kHopeless;
+}
+
 class HullsWay {
  public:
   HullsWay(const SurfaceSource& dense, const Enclosed& enclosed, const SimplifyParams& params)
@@ -36,7 +42,7 @@ class HullsWay {
     outer_.emplace(enclosed, HalfEdgeMesh(grown_.mesh));
     params_.dense = false;
     at_ = tight(grown_, kFewFaces);
-    if (!is_there() || components_of(at_.mesh).size() > 1) return;
+    if (!is_there() || volume6_of(at_.mesh) < 0 || components_of(at_.mesh).size() > 1) return;
     if (std::optional<ConvexHull> hull = hull_of(at_.mesh.vertices)) hull_.push_back(std::move(*hull));
   }
 
@@ -130,7 +136,7 @@ TightProxy tight_proxy_of_few(const SurfaceSource& dense, const Enclosed& enclos
   };
   while (way.is_there()) {
     offer(way.at());
-    if (best && double(volume6_of(way.at().mesh)) > kHopeless * double(volume6_of(best->mesh))) break;
+    if (best && is_hopeless(way.at(), *best)) break;
     if (!way.go()) break;
   }
   if (!best) {  // parts and handles need more faces

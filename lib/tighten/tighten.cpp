@@ -8,8 +8,8 @@
 
 #include "lib/exact/predicates.h"
 #include "lib/mesh/shells.h"
-#include "lib/tighten/detail/joint_fit.h"
 #include "lib/tighten/detail/step_planner.h"
+#include "lib/tighten/joint_fit.h"
 
 namespace bp {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <cstdint>
 
-#include "lib/simplify/regions.h"
+#include "lib/simplify/region_size.h"
 #include "lib/simplify/shape_limits.h"
 
 /// The parameters of tightening (tighten.h), and its counts.

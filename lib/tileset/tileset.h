@@ -43,7 +43,7 @@ struct Tile {
   Transform transform = kNoTransform;
   double geometric_error = 0;
   std::string refine;  ///< "ADD", "REPLACE"; empty: the parent's
-  std::string uri;     ///< of the content, percent-decoded: a file name; empty: no content
+  std::string uri;     ///< of the content, as a path beside the tileset; empty: no content
   /// The cell of the tile, in its own space: the tile answers for the scene in it (lib/check/tile_cover.h). Only our
   /// tilesets have it (extras.cell). Without a cell, the tile answers for the whole scene.
   std::optional<Bounds3d> cell;

@@ -31,9 +31,7 @@ void take_rects(Plane& plane, const Add& add) {
 class BrickFaces {
  public:
   BrickFaces(const BrickShelf& solid, BrickCoord brick, std::vector<FaceRect>& rects)
-      : first_(first_voxel(brick)),
-        voxels_(voxels_of(BrickBox{brick, {brick.x + 1, brick.y + 1, brick.z + 1}}).grown(1)),
-        rects_(rects) {
+      : first_(first_voxel(brick)), voxels_(voxels_of(brick).grown(1)), rects_(rects) {
     load_voxels(solid, voxels_);
   }
 

@@ -1,9 +1,11 @@
 #include "lib/volume/boundary_runs.h"
 
+#include <atomic>
 #include <bit>
 
 #include "lib/core/parallel.h"
 #include "lib/grid/clip.h"
+#include "lib/grid/count_bits.h"
 
 namespace bp {
 
@@ -34,7 +36,7 @@ template <class Body>
 void scan(const BrickShelf& solid, BrickCoord brick, const Body& body) {
   if (is_buried(solid, brick)) return;
   const VoxelCoord first = first_voxel(brick);
-  BitBox box(voxels_of(BrickBox{brick, {brick.x + 1, brick.y + 1, brick.z + 1}}).grown(1));
+  BitBox box(voxels_of(brick).grown(1));
   load_voxels(solid, box);
   for (std::int32_t z = first.z; z < first.z + kBrickEdge; ++z) {
     for (std::int32_t y = first.y; y < first.y + kBrickEdge; ++y) {
@@ -101,6 +103,17 @@ BoundarySize boundary_size(const BrickShelf& solid) {
     all.box = hull(all.box, part.box);
   }
   return all;
+}
+
+std::uint64_t count_voxels(const BrickShelf& solid) {
+  std::atomic<std::uint64_t> count{0};
+  const std::vector<BrickCoord> coords = solid.coords();
+  parallel_for(std::int64_t(coords.size()), [&](std::int64_t i) {
+    BrickBits bits;
+    (void)solid.get(coords[std::size_t(i)], bits);
+    count += count_bits(std::as_bytes(std::span(bits)));
+  });
+  return count;
 }
 
 std::uint64_t boundary_faces(const BrickShelf& solid, BrickCoord brick) {

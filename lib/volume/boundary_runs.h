@@ -35,6 +35,9 @@ struct BoundarySize {
 };
 [[nodiscard]] BoundarySize boundary_size(const BrickShelf& solid);
 
+/// Returns the number of voxels of a solid. Parallel.
+[[nodiscard]] std::uint64_t count_voxels(const BrickShelf& solid);
+
 /// Returns the number of faces between an occupied voxel of `brick` and an empty one, there or in the next brick.
 [[nodiscard]] std::uint64_t boundary_faces(const BrickShelf& solid, BrickCoord brick);
 

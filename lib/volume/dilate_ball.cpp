@@ -24,16 +24,12 @@ constexpr double kFixed = 8 << 20;  // of the ball's transform
 constexpr double kBitsPerByte = 8;
 constexpr std::int32_t kMostHalos = 8;  // edges of a tile: larger tiles are hardly faster
 
-VoxelBox box_of(const BrickCoord& c) {
-  return voxels_of(BrickBox{c, {c.x + 1, c.y + 1, c.z + 1}});
-}
-
 class BallDilater {
  public:
   BallDilater(const BrickShelf& voxels, double reach, const MemoryShare& memory)
       : voxels_(voxels), bound_(std::int32_t(std::ceil(reach * reach))), halo_(std::int32_t(std::ceil(reach)) + 1) {
     const std::vector<BrickCoord> bricks = voxels.coords();
-    for (const BrickCoord& c : bricks) solid_ = hull(solid_, box_of(c));
+    for (const BrickCoord& c : bricks) solid_ = hull(solid_, voxels_of(c));
     space_ = voxels_of(bricks_of(solid_.grown(halo_)));
     lay_tiles(bricks, memory);
   }
@@ -83,7 +79,7 @@ class BallDilater {
     tiles_ = TileGrid(space_, edge);
     std::set<TileCoord> reached;
     for (const BrickCoord& c : bricks)
-      for_each(tiles_.tiles_of(box_of(c).grown(halo_)), [&](const TileCoord& t) { reached.insert(t); });
+      for_each(tiles_.tiles_of(voxels_of(c).grown(halo_)), [&](const TileCoord& t) { reached.insert(t); });
     reached_.assign(reached.begin(), reached.end());
   }
 

@@ -22,7 +22,7 @@ std::int64_t characteristic_of(const BrickShelf& solid, BrickCoord brick) {
     full = solid.fill(brick + BrickCoord{i & 1, (i >> 1) & 1, i >> 2}) == BrickFill::full;
   if (full) return 0;
   const VoxelCoord first = first_voxel(brick);
-  BitBox box(voxels_of(BrickBox{brick, {brick.x + 1, brick.y + 1, brick.z + 1}}).grown(1));
+  BitBox box(voxels_of(brick).grown(1));
   load_voxels(solid, box);
   const auto count = [](std::uint64_t bits) { return std::int64_t(std::popcount(bits)); };
   std::int64_t sum = 0;

@@ -19,8 +19,7 @@ namespace bp {
 /// cores.
 class SharedRows {
  public:
-  SharedRows(BrickCoord brick, BrickBits& bits)
-      : box_(voxels_of(BrickBox{brick, brick + BrickCoord{1, 1, 1}})), bits_(bits) {}
+  SharedRows(BrickCoord brick, BrickBits& bits) : box_(voxels_of(brick)), bits_(bits) {}
   [[nodiscard]] const VoxelBox& box() const { return box_; }
   /// Sets the voxels [begin, end] along x.
   void set(std::int64_t begin, std::int64_t end, std::int64_t y, std::int64_t z) {

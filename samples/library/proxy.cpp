@@ -12,7 +12,7 @@ int main(int argc, char** argv) {
   try {
     const bp::Scene scene(argv[1]);
     const bp::Mesh proxy = bp::Grid(scene).close("1%").mesh(1000);
-    const bp::Verdict verdict(proxy, 0, scene);
+    const bp::Verdict verdict(proxy, scene);
     std::cout << proxy.triangles().size() / 3 << " triangles\n" << verdict.text();
     proxy.save(argv[2], true);
     return verdict.holds() ? 0 : 1;

@@ -1,5 +1,5 @@
 # The exported symbols of libbp are those of a list, which is added to and never shortened within a MAJOR version.
-#   cmake -DLIBRARY=libbp.so -DNM=nm -DLIST=symbols.txt -DHEADERS=<folder> -DVERSION=0.2.0 -P tests/api/check_symbols.cmake
+#   cmake -DLIBRARY=libbp.so -DNM=nm -DLIST=symbols.txt -DHEADERS=<folder> -DVERSION=0.3.0 -P tests/api/check_symbols.cmake
 execute_process(COMMAND ${NM} -D --defined-only ${LIBRARY} OUTPUT_VARIABLE output COMMAND_ERROR_IS_FATAL ANY)
 string(REGEX MATCHALL "[A-Za-z_0-9@]+\n" found "${output}")
 list(TRANSFORM found STRIP)

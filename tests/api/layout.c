@@ -22,6 +22,7 @@ int main(void) {
   SIZE(bp_grid_info);
   MEMBER(bp_grid_info, scale);
   MEMBER(bp_grid_info, voxels);
+  MEMBER(bp_grid_info, rules);
   SIZE(bp_mesh_options);
   MEMBER(bp_mesh_options, quads);
   SIZE(bp_mesh_view);

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The Python module gives the bytes of the tools."""
+import io
 import json
 import os
 import shutil
@@ -103,6 +104,39 @@ class Bytes(unittest.TestCase):
         (self.home / "rules.json").write_text(json.dumps(rules))
         wanted = pipe(path, self.home / "r.glb", [], ["--field", self.home / "rules.json"], ["--faces", "400"])
         self.assertEqual(self.saved(bp.proxy(vertices, triangles, 400, rules=rules)), wanted)
+
+    def test_fields_are_those_of_bpscale(self):
+        cases = {"box": {"base": "1%", "rules": [{"box": [[-3, -3, -1], [0, 3, 1]], "scale": "5%"}]}, "base": {"base": 0.1},
+                 "auto": {"base": "3%", "orientation": "auto"}, "gap": {"base": "3%", "rules": [{"gap": "8%"}]},
+                 "frames": {"base": "2%", "orientation": [{"at": [0, 0, 0], "frame": [0.966, 0, 0, 0.259]}]}}
+        for k, (case, rules) in enumerate(cases.items()):
+            path, vertices, triangles = self.scene_file(list(SCENES)[k % len(SCENES)])
+            (self.home / "rules.json").write_text(json.dumps(rules))
+            voxels = tool("bpvox", path, "--resolution", "64")
+            ruled = tool("bpscale", self.home / "rules.json", stdin=voxels)
+            closed = tool("bpclose", stdin=ruled)
+            tool("bpmesh", "--faces", "300", "-o", self.home / "f.glb", "--overwrite", stdin=closed)
+            with self.subTest(case=case):
+                grid = bp.voxelize(path, resolution=64).field(rules)
+                for mine, wanted in ((grid, ruled), (grid.close(), closed)):
+                    sink = io.BytesIO()
+                    mine.save(sink)
+                    self.assertEqual(sink.getvalue(), wanted)
+                of_arrays = bp.field(bp.voxelize(vertices, triangles, resolution=64), json.dumps(rules)).close()
+                self.assertEqual(self.saved(of_arrays.mesh(300)), (self.home / "f.glb").read_bytes())
+                told = tool("bpscale", self.home / "rules.json", "--explain", "-1,0.5,0", stdin=voxels).decode()
+                self.assertIn(f"{grid.scales([[-1, 0.5, 0]])[0]:.6g}", told)
+                self.assertEqual(of_arrays.rules, grid.rules)
+
+    def test_bytes_in_memory_are_those_of_files(self):
+        mesh = bp.proxy(*torus(), 200, "2%", resolution=64, quads=True)
+        for ending in ("ply", "obj"):
+            sink = io.BytesIO()
+            mesh.save(sink, format=ending)
+            self.assertEqual(sink.getvalue(), self.saved(mesh, ending))
+        levels = bp.levels(*torus(), [300, 60], resolution=64)
+        bp.save_levels(levels, self.home / "levels", "n")
+        self.assertEqual(bp.level_files(levels, "n"), {f.name: f.read_bytes() for f in (self.home / "levels").iterdir()})
 
     def test_levels_occluders_and_cages_are_the_files_of_bplod(self):
         makers = {"levels": bp.levels, "occluder": bp.occluder, "cage": bp.cage}

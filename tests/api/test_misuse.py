@@ -65,10 +65,12 @@ class Misuse(unittest.TestCase):
                 (bp.save_levels, (self.mesh, "out"), {}), (bp.Scene, (*self.scene,), {}), (bp.Scene(*self.scene).info, (), {}), (bp.Options, (), {}),
                 (bp.levels, (*self.scene, 60), dict(levels=1, resolution=16)), (bp.occluder, (*self.scene, 60), dict(resolution=24)),
                 (bp.cage, (*self.scene, 60), dict(resolution=16)), (bp.cage, (grid, 60), {}), (grid.dense, (), {}), (grid.brick, ([0, 0, 0],), {}),
-                (grid.brick_coords, (), {}), (grid.save, ("g.bpv",), {}), (self.mesh.save, ("m.ply",), {}), (weights.apply, (self.mesh.vertices,), {})]
+                (grid.brick_coords, (), {}), (grid.save, ("g.bpv",), {}), (self.mesh.save, ("m.ply",), {}), (weights.apply, (self.mesh.vertices,), {}),
+                (bp.field, (bp.voxelize(*self.scene, resolution=16), {"base": "3%"}), {}), (grid.scales, (self.scene[0],), {}),
+                (bp.level_files, (self.mesh,), {})]
         random = np.random.default_rng(7)
         made = 0
-        for turn in range(max(TURNS, 10 * len(base))):
+        for turn in range(max(TURNS, 20 * len(base))):
             function, positional, named = base[turn % len(base)]
             names = [n for n, p in inspect.signature(function).parameters.items() if p.kind not in (p.VAR_KEYWORD, p.VAR_POSITIONAL)]
             call = {**dict(zip(names, positional)), **named}

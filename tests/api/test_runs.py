@@ -1,6 +1,9 @@
 #!/usr/bin/env python3
 """Calls that run at once, are told of, are ended early, and leave nothing behind."""
+import contextlib
 import gc
+import io
+import multiprocessing
 import os
 import resource
 import signal
@@ -10,6 +13,7 @@ import threading
 import time
 import unittest
 from ctypes import byref, c_void_p
+from unittest import mock
 
 from scenes import np, soup, torus
 
@@ -70,6 +74,14 @@ class Runs(unittest.TestCase):
         bp.proxy(*torus(200, 100), faces=500, scale="3%", resolution=200, progress=progress)
         self.assertGreaterEqual(len({name for name, _, _ in heard}), 2)
 
+    def test_a_bar_without_tqdm_is_a_line_of_text_that_goes_away(self):
+        said = io.StringIO()
+        with mock.patch.dict(sys.modules, {"tqdm.auto": None}), contextlib.redirect_stderr(said):
+            bp.proxy(*torus(200, 100), faces=500, scale="3%", resolution=200, progress=True)
+        lines = said.getvalue().split("\r")
+        self.assertTrue(any(line.rstrip().endswith(" %") for line in lines), lines)
+        self.assertEqual((lines[-2].strip(), lines[-1]), ("", ""))
+
     def end_early(self, progress, kind):
         begin = time.monotonic()
         with self.assertRaises(kind):
@@ -100,6 +112,60 @@ class Runs(unittest.TestCase):
                 slowest = max(slowest, time.monotonic() - begin - step)
         print(f"longest wait for an end: {slowest:.3f} s", file=sys.stderr)
         self.assertLess(slowest, 5)
+
+    def in_children(self, work):
+        """Calls work() in two children of fork() at once. Returns what it returned there."""
+        context = multiprocessing.get_context("fork")
+        answers = context.SimpleQueue()
+        children = [context.Process(target=lambda: answers.put(work())) for _ in range(2)]
+        for child in children:
+            child.start()
+        for child in children:
+            child.join(120)
+            if child.exitcode is None:
+                child.kill()
+            self.assertEqual(child.exitcode, 0)
+        return [answers.get() for _ in children]
+
+    def test_calls_go_on_in_children_of_fork(self):
+        scene = torus(40, 20)
+        grid = bp.voxelize(*scene, resolution=64)
+        wanted = grid.close("3%").mesh(200).vertices
+
+        def work():
+            mesh = bp.proxy(*scene, faces=200, scale="3%", resolution=64, threads=2)
+            return [mesh.vertices, grid.close("3%").mesh(200).vertices, bp.check(mesh, scene).answer]
+
+        for mesh, of_grid, answer in self.in_children(work):
+            self.assertTrue(np.array_equal(mesh, wanted) and np.array_equal(of_grid, wanted))
+            self.assertEqual(answer, "proven")
+        self.assertTrue(np.array_equal(grid.close("3%").mesh(200).vertices, wanted))
+
+    def test_a_fork_during_a_call_of_another_thread_is_told(self):
+        begun, stopped = threading.Event(), threading.Event()
+
+        def progress(name, done, total):
+            begun.set()
+            return stopped.is_set()
+
+        def call():
+            with self.assertRaises(bp.CancelledError):
+                bp.proxy(*torus(400, 300), faces=2000, scale="6%", resolution=700, progress=progress)
+
+        def work():
+            try:
+                return len(bp.proxy(*torus(24, 12), faces=200, resolution=48).triangles)
+            except bp.FailedError as e:
+                return str(e)
+
+        other = threading.Thread(target=call)
+        other.start()
+        begun.wait(60)
+        answers = self.in_children(work)
+        stopped.set()
+        other.join()
+        for answer in answers:
+            self.assertRegex(str(answer), "forked while another thread was in a call of libbp; fork when no call runs")
 
     def test_memory_returns(self):
         vertices, triangles = torus(24, 12)

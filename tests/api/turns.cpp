@@ -13,6 +13,7 @@
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <random>
 #include <string>
 #include <thread>
@@ -24,7 +25,7 @@ using Bytes = std::vector<unsigned char>;
 
 class Turns {
  public:
-  explicit Turns(unsigned seed) : random_(seed) {}
+  explicit Turns(unsigned seed) : random_(seed), later_(seed) {}
 
   void turn() {
     make_scene();
@@ -60,7 +61,7 @@ class Turns {
     }
     ++refused;
     const std::string message = bp_error_message();
-    const bool known = status >= BP_FAILED && status <= BP_OUT_OF_RESOURCE;
+    const bool known = status >= BP_FAILED && status <= BP_CANCELLED;
     if (!known || message.size() < 12 || message.find("unexpected") != std::string::npos) {
       std::fprintf(stderr, "status %d: '%s'\n", int(status), message.c_str());
       std::exit(1);
@@ -199,6 +200,9 @@ class Turns {
     if (odd(4) && done(bp_hulls(mesh, 0, &of_hulls, run(), &hulls))) bp_mesh_free(hulls);
     if (odd(4)) done(bp_levels_save(mesh, "/proc/no such folder", odd(9) ? nullptr : "x", 1));
     if (odd(4)) done(bp_mesh_save(mesh, 0, "/proc/no such folder/x.glb", 1));
+    const char* const formats[] = {"glb", "gltf", "ply", "obj", "stl", "step", "", nullptr};
+    if (also(3)) done(bp_mesh_write(mesh, 0, formats[later_() % (also(5) ? 8 : 5)], also(20) ? nullptr : sink, this));
+    if (also(3)) done(bp_levels_write(mesh, also(9) ? "a/b" : "x", sink, this));
     bp_mesh_free(mesh);
   }
 
@@ -243,9 +247,39 @@ class Turns {
     }
   }
 
+  [[nodiscard]] bool also(unsigned n) { return later_() % n == 0; }
+
+  /// Takes some bytes, and then may refuse more.
+  static int sink(void* user, const char*, const void* bytes, std::size_t count) {
+    Turns& self = *static_cast<Turns*>(user);
+    const unsigned char* const first = static_cast<const unsigned char*>(bytes);
+    self.taken_ = std::accumulate(first, first + count, self.taken_);
+    return self.also(9) ? 1 : 0;
+  }
+
+  /// Gives the grid a scale field, asks for the scales, and closes by them.
+  void with_field(const bp_grid* grid) {
+    const char* const rules[] = {R"({"base": "3%"})",
+                                 R"({"base": "2%", "rules": [{"at": [0, 0, 0], "radius": 0.3, "scale": "9%"}]})",
+                                 R"({"base": "2%", "orientation": "auto"})",
+                                 R"({"base": "3%", "rules": [{"gap": "5%"}]})",
+                                 R"({"base": 1e300})",
+                                 "[",
+                                 nullptr};
+    bp_grid *ruled = nullptr, *closed = nullptr;
+    if (!done(bp_field(grid, rules[later_() % (also(9) ? 7 : 4)], &run_, &ruled))) return;
+    double points[6] = {0, 0.5, 0, 1, 0, also(20) ? 1e200 : 0}, scales[2];
+    done(bp_grid_scales(also(9) ? grid : ruled, points, 2, &run_, scales));
+    if (done(bp_close(ruled, nullptr, &run_, &closed)))
+      done(bp_grid_write(closed, also(20) ? nullptr : sink, this, &run_));
+    bp_grid_free(ruled);
+    bp_grid_free(closed);
+  }
+
   void from_grid(const bp_scene* scene, const bp_voxelize_options& of_voxels, const std::uint64_t* faces) {
     bp_grid *grid = nullptr, *closed = nullptr;
     if (!done(bp_voxelize(scene, &of_voxels, run(), &grid))) return;
+    if (also(2)) with_field(grid);
     bp_close_options closing;
     bp_close_defaults(&closing, sizeof closing);
     closing.scale = length(12, BP_PERCENT);
@@ -287,9 +321,11 @@ class Turns {
   }
 
   std::mt19937_64 random_;
+  std::mt19937_64 later_;  // of calls that came later, so that seeds which found a fault go on finding it
   bp_arrays arrays_{};
   bp_run run_{};
   Bytes vertices_, triangles_;
+  unsigned taken_ = 0;  // the sum of all bytes that the sink got
 };
 
 /// Returns the bytes that are allocated; 0 under a sanitizer, whose allocator does not tell, and which looks itself.

@@ -68,7 +68,7 @@ run(${PREFIX}-build/consumer)
 # The public headers, and nothing else.
 file(GLOB_RECURSE headers RELATIVE ${PREFIX}/include ${PREFIX}/include/*)
 list(SORT headers)
-if(NOT headers STREQUAL "bp/bp.h;bp/bp.hpp;bp/bp_experimental.h")
+if(NOT headers STREQUAL "bp/bp.h;bp/bp.hpp;bp/bp_experimental.h;bp/bp_experimental.hpp")
   message(FATAL_ERROR "headers are installed that are not public: ${headers}")
 endif()
 # pkg-config, and the Python module.

@@ -16,9 +16,9 @@ foreach(file ${files})
 endforeach()
 
 # Builds that compile the sources of a room as one (cmake/bp_unity.cmake) see what two of its unnamed namespaces both define.
-# lib/closing, tests/bench, tests/fuzz and the tools' own mains are compiled one by one.
+# lib/closing, tests/api, tests/bench, tests/fuzz and the tools' own mains are compiled one by one.
 file(GLOB_RECURSE files RELATIVE ${ROOT} "${ROOT}/lib/*.cpp" "${ROOT}/io/*.cpp" "${ROOT}/tools/*.cpp" "${ROOT}/tests/*.cpp")
-list(FILTER files EXCLUDE REGEX "^(lib/closing|tests/bench|tests/fuzz)/|^tools/[^/]*$")
+list(FILTER files EXCLUDE REGEX "^(lib/closing|tests/(api|bench|fuzz))/|^tools/[^/]*$")
 foreach(file ${files})
   string(REGEX REPLACE "(/detail)?/[^/]*$" "" room ${file})
   set(scope ${room})

@@ -33,5 +33,5 @@ trap 'kill $screen 2> /dev/null' EXIT
 for _ in $(seq 50); do [ -s "$TMPDIR/display" ] && break || sleep 0.1; done
 [ -s "$TMPDIR/display" ] || skip "Xvfb does not start"
 export DISPLAY=:$(cat "$TMPDIR/display") LIBGL_ALWAYS_SOFTWARE=1
-timeout 60 blender --factory-startup --python-expr 'import os; os._exit(0)' > /dev/null 2>&1 || skip "Blender opens no window here: no OpenGL 3.3"
-timeout 60 blender --factory-startup --enable-event-simulate --no-window-focus -p 0 0 800 600 -P "$here/window.py"
+timeout 200 blender --factory-startup --python-expr 'import os; os._exit(0)' > /dev/null 2>&1 || skip "Blender opens no window here: no OpenGL 3.3"
+timeout 200 blender --factory-startup --enable-event-simulate --no-window-focus -p 0 0 800 600 -P "$here/window.py"

@@ -58,6 +58,8 @@ class Manifest(unittest.TestCase):
         told = re.search(r'"version": \((\d+), (\d+), (\d+)\)', (FOLDER / "__init__.py").read_text(encoding="utf-8"))
         self.assertEqual(".".join(told.groups()), self.manifest["version"])
         self.assertEqual(os.environ.get("BP_VERSION", self.manifest["version"]), self.manifest["version"])
+        guide = (ROOT / "docs/guides/blender.md").read_text(encoding="utf-8")
+        self.assertIn(f"bounding_proxies_addon-{self.manifest['version']}.zip", guide)
 
 
 class Zip(unittest.TestCase):

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "tests/fuzz/hostile_scene.h"
@@ -110,6 +113,18 @@ void Document::add_instances(Json& node) {
   node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = attributes;
 }
 
+/// Adds the bounds of the finite numbers: without them, nothing of a file is decided.
+void add_bounds(const std::vector<float>& points, Json& positions) {
+  std::array<float, 3> min{}, max{};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!std::isfinite(points[i])) continue;
+    min[i % 3] = i < 3 ? points[i] : std::min(min[i % 3], points[i]);
+    max[i % 3] = i < 3 ? points[i] : std::max(max[i % 3], points[i]);
+  }
+  positions["min"] = min;
+  positions["max"] = max;
+}
+
 Json Document::primitive() {
   const Shape s = hostile_shape(c);
   std::vector<float> points;
@@ -122,6 +137,7 @@ Json Document::primitive() {
       indices.push_back(c.once_in(64) ? std::uint16_t(extreme_integer(c)) : std::uint16_t(v));
   }
   Json positions = accessor_of(view(points), 5126, "VEC3", s.points.size());
+  add_bounds(points, positions);
   if (c.once_in(8)) add_sparse(positions);
   vertices.push_back(s.points.size());
   Json p = {{"attributes", {{"POSITION", number(c, accessor(positions))}}}};

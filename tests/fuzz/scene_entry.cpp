@@ -49,10 +49,11 @@ void finish_pipe(Choices& c, Workplace& place, const std::string& scene, bool in
   // "Inside" is not decided for numbers below 1e-90, nor for open scenes, whose voxels may have an inside all the same
   // (docs/bpcheck.1.md).
   const auto says = [&](const char* text) { return verdict.output.find(text) != std::string::npos; };
-  // The record of a turn that no tool of the suite wrote leaves the answer open, and so does rounding by a reader.
+  // The record of a turn that no tool of the suite wrote leaves the answer open, and so do rounding by a reader and
+  // what it does not follow.
   const bool no_answer =
       verdict.status == 5 &&
-      (says("asset.extras.up") || says("rounded") ||
+      (says("asset.extras.up") || says("rounded") || says("not followed: ") ||
        (inside && (says("coordinates that are too large or too small") || says("the scene is open"))));
   require(verdict.done() || no_answer, "the proxy of a scene does not hold", verdict);
 }

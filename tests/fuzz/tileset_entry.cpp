@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "io/gltf/base64.h"
 #include "tests/fuzz/choices.h"
 #include "tests/fuzz/entries.h"
 #include "tests/fuzz/tool_runs.h"
@@ -52,26 +54,31 @@ Soup cut(const Soup& soup, const Cell& cell) {
   return out;
 }
 
-/// As glTF, which is y-up. Each triangle is a node, whose matrix holds its corners in double.
+/// As glTF, which is y-up. Coordinates are rounded to floats, by less than half of kError.
 std::string gltf_of(const Soup& soup) {
-  std::string nodes, numbers;
-  for (std::size_t i = 0; i < soup.size(); ++i) {
-    const Triangle& t = soup[i];
-    const auto column = [](const Point& p, const char* last) {
-      return text_of(p[0]) + "," + text_of(p[2]) + "," + text_of(-p[1]) + "," + last;
-    };
-    Point u, v;
-    for (std::size_t k = 0; k < 3; ++k) u[k] = t[1][k] - t[0][k], v[k] = t[2][k] - t[0][k];
-    const char* const comma = i == 0 ? "" : ",";
-    numbers += comma + std::to_string(i);
-    nodes += std::string(comma) + R"({"mesh":0,"matrix":[)" + column(u, "0,") + column(v, "0,") + "0,0,0,0," +
-             column(t[0], "1") + "]}";
+  std::string bytes;
+  std::array<float, 3> min{}, max{};
+  for (const Triangle& t : soup) {
+    for (const Point& p : t) {
+      const std::array<float, 3> corner{float(p[0]), float(p[2]), float(-p[1])};
+      for (std::size_t i = 0; i < 3; ++i) {
+        min[i] = bytes.empty() ? corner[i] : std::min(min[i], corner[i]);
+        max[i] = bytes.empty() ? corner[i] : std::max(max[i], corner[i]);
+      }
+      bytes.append(reinterpret_cast<const char*>(corner.data()), sizeof corner);
+    }
   }
-  return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[)" + numbers + R"(]}],"nodes":[)" + nodes +
-         R"(],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"accessors":[{"bufferView":0,)"
-         R"("componentType":5126,"count":3,"type":"VEC3"}],"bufferViews":[{"buffer":0,"byteLength":36}],)"
-         R"("buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,)"
-         R"(AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
+  Json json = {{"asset", {{"version", "2.0"}}}, {"scene", 0}};
+  json["scenes"] = {{{"nodes", {0}}}};
+  json["nodes"] = {{{"mesh", 0}}};
+  json["meshes"] = {{{"primitives", {{{"attributes", {{"POSITION", 0}}}}}}}};
+  json["accessors"] = {{{"bufferView", 0}, {"componentType", 5126}, {"count", 3 * soup.size()}, {"type", "VEC3"}}};
+  json["accessors"][0]["min"] = min;
+  json["accessors"][0]["max"] = max;
+  json["bufferViews"] = {{{"buffer", 0}, {"byteLength", bytes.size()}}};
+  const std::string uri = "data:application/octet-stream;base64," + bp::base64_of(bytes);
+  json["buffers"] = {{{"byteLength", bytes.size()}, {"uri", uri}}};
+  return json.dump();
 }
 
 std::string obj_of(const Soup& soup) {
@@ -108,7 +115,8 @@ class Maker {
         add_leaf(root, {x, y, z, x + 8, y + 8, z + 8});
       }
     }
-    Json json = {{"asset", {{"version", "1.1"}, {"extras", {{"up", "z"}}}}}, {"geometricError", real(40)}};
+    const Json ours = {{"up", "z"}, {"provenance", Json::array()}};
+    Json json = {{"asset", {{"version", "1.1"}, {"extras", ours}}}, {"geometricError", real(40)}};
     json["root"] = std::move(root);
     place_.write("tileset.json", raw_numbers(json.dump()));
     return damage_;

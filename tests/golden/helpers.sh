@@ -102,3 +102,12 @@ write_painted_cubes() {
       sed "s/^v \(.*\) \(.*\) \(.*\)$/echo v \$((\1 + 40 * $i)) \2 \3/e; s/^f \(.*\) \(.*\) \(.*\) \(.*\)$/f \1\/1 \2\/2 \3\/3 \4\/4/" cube.obj; } > part$i.obj
   done
 }
+
+# answer RIGHT NAME ARGUMENT...: what bpcheck answers to the arguments, and whether that is RIGHT: proven, refuted, undecided or refused.
+answer() {
+  local right=$1 name=$2 status=0 got
+  bpcheck "${@:3}" > verdict 2> note || status=$?
+  case $status in 0) got=proven;; 1) got=refuted;; 5) got=undecided;; 3) got=refused;; *) got="exit $status";; esac
+  [ "$got" = "$right" ] || echo "WRONG, is to be $right:"
+  echo "$name: $got; $(if [ $status = 3 ]; then cat note; else tail -1 verdict; fi)"
+}

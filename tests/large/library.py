@@ -2,6 +2,7 @@
 """Runs all functions of the Python module over models, and compares each with the bytes of the tools.
     PYTHONPATH=tools/python BP_LIBRARY=build/tools/api/libbp.so.0 PATH=build/tools:$PATH tests/large/library.py MODELS [MOST [MOST_BYTES]]
 MODELS: a folder of models, of which the MOST smallest (40) that the tools read are taken. Prints a line for each model, and what differs. Needs NumPy."""
+import io
 import json
 import shutil
 import sys
@@ -67,6 +68,23 @@ class Model:
             self.compare("proxy of arrays", self.bytes_of(bp.proxy(*self.arrays, faces=200, scale="2%", resolution=RESOLUTION), "glb"), wanted)
         return proxy
 
+    def field(self):
+        rules = self.home / "rules.json"
+        rules.write_text('{"base": "3%", "orientation": "auto", "rules": [{"gap": "4%"}]}')
+        grid = bp.voxelize(self.path, resolution=RESOLUTION)
+        voxels = tool("bpvox", self.path, *GRID)
+        try:
+            wanted = tool("bpscale", rules, stdin=voxels)
+        except AssertionError as e:
+            try:
+                grid.field(rules.read_text())
+            except bp.Error as f:
+                self.compare("field: refused", str(f).rsplit(":", 1)[-1] in str(e), True)
+            return
+        sink = io.BytesIO()
+        grid.field(rules.read_text()).save(sink)
+        self.compare("field", sink.getvalue(), wanted)
+
     def bplod(self, profile, make, how, options):
         theirs, mine = self.home / "theirs", self.home / "mine"
         options = [*options, *GRID, *(["--appearance", "off"] if profile == "levels" else ["--profile", profile])]
@@ -82,8 +100,10 @@ class Model:
         for name, scene in (("", (self.path,)), (" of arrays", self.arrays)):
             if scene is None:
                 continue
-            bp.save_levels(make(*scene, resolution=RESOLUTION, **how), mine, "n")
+            made = make(*scene, resolution=RESOLUTION, **how)
+            bp.save_levels(made, mine, "n")
             self.compare(profile + name, {f.name: f.read_bytes() for f in mine.iterdir()}, wanted)
+            self.compare(f"{profile}{name} in memory", bp.level_files(made, "n"), wanted)
             shutil.rmtree(mine)
         shutil.rmtree(theirs)
 
@@ -118,6 +138,7 @@ class Model:
     def run(self):
         self.read_arrays()
         proxy = self.pipe()
+        self.field()
         self.bplod("levels", bp.levels, dict(faces=[300, 80]), ["--faces", "300,80"])
         self.bplod("occluder", bp.occluder, dict(faces=80), ["--faces", "80"])
         self.bplod("cage", bp.cage, dict(faces=200, margin="1%"), ["--faces", "200", "--margin", "1%"])

@@ -30,7 +30,9 @@ P
 mv scenes/good07.obj linked.obj && ln -s ../linked.obj scenes/good07.obj
 
 # What a machine makes where nothing happens.
+begin=$(date +%s.%N)
 nightly quiet || fail "the quiet night ended with $?"
+long=$(awk "BEGIN { print $(date +%s.%N) - $begin }")
 levels quiet > quiet.sums
 
 # Hostile things among them, one of each kind.
@@ -44,6 +46,15 @@ printf 'ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\npropert
 printf '{"asset":{"version":"2.0"},"buffers":[{"byteLength":36,"uri":"../pipe"}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],"bufferViews":[{"buffer":0,"byteLength":36}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}]}' > scenes/buffer.gltf
 mkfifo pipe
 cp scenes/good00.obj $'scenes/a\ttab.obj'
+{ echo "mtllib ../pipe"; cat scenes/good01.obj; } > scenes/pipe-of-materials.obj
+{ echo "mtllib many.mtl"; cat scenes/good02.obj; } > scenes/many.obj
+seq -f 'newmtl m%.0f' 1000000 > scenes/many.mtl
+{ printf '{"asset":{"version":"2.0"},"extras":'; head -c 1000000 /dev/zero | tr '\0' '['; } > scenes/deep.gltf
+printf '{"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[' > scenes/nodes.gltf  # each node has the next one twice
+for n in {1..60}; do printf '{"children":[%d,%d]},' "$n" "$n"; done >> scenes/nodes.gltf
+printf '{}]}' >> scenes/nodes.gltf
+ln -s ../out/good00.obj/good00.glb scenes/output.glb
+ln -s /proc scenes/good03.proc && ln -s ../out scenes/good04.out && truncate -s 4T scenes/good05.dat
 hostile=$(find scenes -mindepth 1 ! -name 'good*' -printf x | wc -c)
 good_in() { tail -n +2 "$1.table" | grep -cE '^good[0-9]*\.obj.(made|same)' || true; }
 
@@ -66,12 +77,11 @@ for room in 24k 120k 260k; do
   umount disk
 done 2>&1
 
-# kill -9, at ten moments.
+# kill -9, at ten moments of a night, each with what the last one left.
 rm -rf killed
 for moment in 1 2 3 4 5 6 7 8 9 10; do
   setsid "$root/samples/nightly" scenes killed "${options[@]}" > /dev/null 2>&1 &
-  sleep "0.$((RANDOM % 9 + 1))"
-  sleep $((moment % 3))
+  sleep "$(awk "BEGIN { print $long * $moment / 11 }")"
   kill -9 -- -$! 2> /dev/null || true
   wait $! 2> /dev/null || true
 done
@@ -80,6 +90,18 @@ nightly killed || true
 levels killed | grep good > killed.sums; cmp killed.sums quiet.sums || fail "bytes differ after ten kills"
 find killed -name '*.partial*' -o -name '.*.new' -o -name '.*.old' | grep . && fail "something half done is left" || true
 echo "killed ten times: $(good_in killed) of 20 good scenes"
+
+# Kept tiles that have become pipes, and levels that are gone: what is made of neither has the same bytes.
+options+=(--profile 3dtiles)
+nightly tiles || true
+levels tiles | grep good > tiles.sums
+[ "$(good_in tiles)" = 20 ] || fail "$(good_in tiles) of 20 good scenes have tiles"
+find tiles/.cache -mindepth 2 -type f | while read -r kept; do rm "$kept" && mkfifo "$kept"; done
+find tiles -name tileset.json -exec rm {} +
+nightly tiles || true
+levels tiles | grep good > again.sums; cmp again.sums tiles.sums || fail "bytes of tiles differ after pipes in the cache"
+echo "after pipes in the cache: $(good_in tiles) of 20 good tilesets"
+unset 'options[-1]' 'options[-1]'
 
 # A share that is not mounted; damage; a link that leads elsewhere.
 mv scenes away && mkdir scenes

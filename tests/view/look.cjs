@@ -58,7 +58,7 @@ async function files(page) {
   return names;
 }
 
-/// The cut plane by keys: half of the closing goes, its inside is red, and a point that was cut away is not picked.
+/// The cut plane by keys: half of the closing goes, it is filled or its inside is red, and a point that was cut away is not picked.
 async function cutting(page) {
   const seen = () => colors(page, 200, 80, 500, 560);
   await page.locator('#view').focus();
@@ -69,13 +69,18 @@ async function cutting(page) {
   await page.keyboard.press('x');
   await sleep(300);
   const half = await seen();
-  check('a cut closing is smaller, and shows its inside', half.red > 0.02 && half.other < 0.9 * whole.other, whole, half);
+  check('a cut closing is smaller, and is filled', half.red < 0.001 && half.other < 0.9 * whole.other, whole, half);
   check('the plane tells its place', /^x = \S+; larger ones are left out$/.test(await page.textContent('#cut-place')), await page.textContent('#cut-place'));
   await page.mouse.move(425, 320);  // within the body
   await page.waitForFunction(() => document.getElementById('point').textContent !== '');
   const place = Number((await page.textContent('#cut-place')).split(/[ ;]+/)[2]), point = (await page.textContent('#point')).split(/\s+/).map(Number);
   check('a point that was cut away is not picked', point[0] <= place + 1e-3, point, place);
   await picture(page, folder, 'cut');
+  await page.keyboard.press('k');
+  await sleep(300);
+  const hollow = await seen();
+  check('a hollow closing shows its inside', hollow.red > 0.02 && Math.abs(hollow.other - half.other) < 0.02, half, hollow);
+  await page.keyboard.press('k');
   for (let i = 0; i < 60; ++i) await page.keyboard.press('.');
   await sleep(300);
   check('a plane beyond everything leaves nothing', (await seen()).other < 0.002, await seen());

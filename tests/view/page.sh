@@ -3,6 +3,7 @@
 #   tests/view/page.sh FOLDER [TEST]    FOLDER keeps the installed package and the pictures; the tools are on PATH
 #   TEST: page (default): brushed, undone, meshed, saved, reloaded; prints latencies
 #         look: what the suite made, shown beside the scene, cut and measured
+#         caps: layers that are cut, filled where they are closed
 #         keys: all of it but strokes, by the keyboard alone
 #         firefox: opened, brushed, undone and saved in Firefox
 set -euo pipefail

@@ -2,6 +2,7 @@
 """Who gets in to bpview, and what comes out: hosts, origins, tokens, paths, sizes, and bytes as the command line makes them.
    tests/view/server.py FOLDER      the tools are on PATH; FOLDER is made anew"""
 import json, math, os, random, shutil, signal, socket, struct, subprocess, sys, threading, time
+from designs import Steps, by_command_line, finished, live_surface, shown_surface, take, voxels_of
 from served import Served, comb, comb_boxes
 
 failed = 0
@@ -77,14 +78,6 @@ def what_is_asked(s):
     for body in ('{"file": 0}', '{"file": -1}', '{"file": "served.obj"}', "{}", "[]"):
         check("a file that was not named is not proven", s.ask("POST", "/api/check", body)[0] == 400, body)
     check("nothing was changed", s.state()["design"] == before)
-    # Slow clients: more than there are threads may wait, and go.
-    slow = [socket.create_connection(("127.0.0.1", s.port)) for _ in range(12)]
-    for one in slow:
-        one.send(b"GET /api/state HT")
-    begin = time.time()
-    check("slow clients keep nobody out", s.ask("GET", "/api/state")[0] == 200 and time.time() - begin < 15, time.time() - begin)
-    for one in slow:
-        one.close()
     generator = random.Random(1)
     for _ in range(300):
         line = bytes(generator.choice(b"GETPOS /:%.\\\r\n\0\xff?=&abc{}\"[]HTTP1") for _ in range(generator.randrange(400)))
@@ -96,45 +89,95 @@ def what_is_asked(s):
     check("noise ends nothing", s.ask("GET", "/api/state")[0] == 200 and s.process.poll() is None)
 
 
+def slow_clients(s):
+    """More clients than the server has threads, without the cookie: they send a byte now and then, or take no byte of their answers."""
+    def clients(request, receives):
+        all = []
+        for _ in range(40):
+            one = socket.socket()
+            if not receives:
+                one.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 2048)
+            one.settimeout(10)
+            one.connect(("127.0.0.1", s.port))
+            one.settimeout(0.05)
+            all.append(one)
+            send(one, request)
+        return all
+
+    def send(one, data):
+        try:
+            one.send(data)
+        except OSError:
+            pass  # it was ended
+
+    def longest(what, others):
+        done, waits = threading.Event(), []
+
+        def trickle():
+            while not done.wait(0.5):
+                for one in others:
+                    send(one, b"x")
+
+        trickling = threading.Thread(target=trickle)
+        trickling.start()
+        for _ in range(4):
+            begin = time.time()
+            try:
+                fine = s.ask("GET", "/api/state")[0] == 200
+            except OSError as error:
+                fine = error
+            waits.append(time.time() - begin)
+            check(what, fine is True and waits[-1] < 2, fine, waits)
+            if waits[-1] >= 2:
+                break
+            time.sleep(0.4)
+        done.set()
+        trickling.join()
+        for one in others:
+            one.close()
+        return max(waits)
+
+    host = b"Host: 127.0.0.1:%d\r\n" % s.port
+    page = b"GET / HTTP/1.1\r\n" + host + b"\r\n"
+    waits = [longest("clients that send byte by byte keep nobody out", clients(b"GET /api/state HTTP/1.1\r\n" + host + b"X: ", True)),
+             longest("clients that send nothing keep nobody out", clients(b"", True)),
+             longest("clients that ask again and again keep nobody out", clients(page, True)),
+             longest("clients that read nothing keep nobody out", clients(400 * page, False)),
+             longest("clients whose bodies are slow keep nobody out", clients(b"POST /session HTTP/1.1\r\n" + host + b"Origin: %s\r\nContent-Length: 100000\r\n\r\n" % s.origin.encode(), True))]
+    # Pages of the same person may be slow: they take a thread each, and no other one is ended.
+    own = b"GET /api/scene HTTP/1.1\r\n" + host + b"Cookie: " + s.cookie.encode() + b"\r\n\r\n"
+    waits.append(longest("slow pages of the same person keep nobody out", clients(own, False)[:8]))
+    print("longest waits beside slow clients:", " ".join(f"{wait:.2f}" for wait in waits), "s")
+
+
 def same_bytes(s, folder):
-    """A design of random strokes, undone and redone: what is saved is what the command line makes."""
-    generator = random.Random(4)
-    number = lambda low, high: round(generator.uniform(low, high), 3)
-    point = lambda: [number(-1, 11), number(-1, 5), number(-1, 7)]
+    """Designs of random steps: what is saved and shown is what the command line makes."""
+    steps = Steps(4, s)
     s.edit(op="live", live=False)
     for round_ in range(3):
         for _ in range(12):
-            what = generator.randrange(10)
-            if what < 6:
-                rule = {"at": generator.choice([point(), [point() for _ in range(3)]]), "radius": generator.choice(["4%", number(0.1, 2)]),
-                        "mode": generator.choice(["increase", "decrease", "erase"]), "scale": generator.choice(["1%", "3vx", number(0.05, 1)])}
-                if rule["mode"] == "erase":
-                    del rule["scale"]
-                image = {**rule, "at": [[10 - p[0], *p[1:]] for p in rule["at"]] if isinstance(rule["at"][0], list) else [10 - rule["at"][0], *rule["at"][1:]]}
-                s.edit(op="rule", rule=generator.choice([rule, [rule, image]]), again=generator.random() < 0.3)  # a list: with its mirror image
-            else:
-                frames = [{"at": point(), "frame": [number(0.5, 1), *(number(-1, 1) for _ in range(3))]} for _ in range(generator.randrange(1, 4))]
-                s.edit(**generator.choice([{"op": "undo"}, {"op": "redo"}, {"op": "base", "base": number(0.1, 0.9)}, {"op": "orientation", "orientation": frames},
-                                           {"op": "orientation", "orientation": generator.choice(["auto", frames, None]), "again": generator.random() < 0.3}]))
+            take(s, steps.step())
         s.edit(op="rule", rule={"node": "part_2", "scale": 0.1, "radius": 0.3})
         if round_ > 0:
             s.edit(op="orientation", orientation="auto" if round_ == 1 else [{"at": [5, 2, 3], "frame": [0.92, 0.1, 0, 0.38]}])
-        s.edit(op="faces", faces=generator.choice([60, 200, 500]))
-        s.post("/api/mesh")
-        state = s.wait(lambda q: q["proxy"]["step"] in ("ready", "failed") and q["proxy"]["current"] and q["closing"]["shown"] == q["design"]["revision"])
+        s.edit(op="faces", faces=(60, 200, 500)[round_])
+        state, _, proxy = finished(s, folder)
+        command = state["command"]
         check("the proxy is proven", (state["proxy"]["verdict"] or {}).get("answer") == "proven", state["proxy"])
-        s.post("/api/save", {"what": "rules"})
-        s.post("/api/save", {"what": "proxy"})
-        with open(f"{folder}/proxy.glb", "rb") as file:
-            mine = file.read()
-        closed = state["command"].split(" | bpmesh")[0]
-        check("the command names the files", state["command"].endswith("-o proxy.glb") and "bpscale rules.json" in state["command"], state["command"])
-        subprocess.run(["bash", "-c", "set -o pipefail; " + state["command"] + " --overwrite"], cwd=folder, check=True, stderr=subprocess.DEVNULL)
-        with open(f"{folder}/proxy.glb", "rb") as file:
-            check("the proxy has the bytes of the command line", file.read() == mine, state["command"])
-        told = subprocess.run(["bash", "-c", closed + " | bpinfo --json"], cwd=folder, check=True, capture_output=True).stdout
-        voxels = json.loads(told)["layers"]["closing"]["voxels"]
-        check("the closing has the voxels of the command line", voxels == state["closing"]["voxels"], voxels, state["closing"])
+        s.post("/api/mesh")
+        asked = s.state()["proxy"]
+        check("a proxy that is there is not made again", (asked["step"], asked["number"]) == ("ready", state["proxy"]["number"]), asked)
+        check("the command names the files", command.endswith("-o proxy.glb") and "bpscale rules.json" in command, command)
+        check("the proxy has the bytes of the command line", by_command_line(command, folder) == proxy, command)
+        check("the closing has the voxels of the command line", voxels_of(folder) == state["closing"]["voxels"], state["closing"])
+    other = Served("served.obj", "--resolution", "96", "--rules", "rules.json", "--show", "closed.bpv", cwd=folder)
+    other.enter()
+    other.wait(lambda q: q["closing"]["shown"] == q["design"]["revision"])
+    surface = live_surface(s)
+    check("the surface that follows steps is that of the command line's closing", surface == shown_surface(other, 0) and surface[0] > 0, surface[0])
+    check("the surface of saved rules is the same", surface == live_surface(other))
+    other.end()
+    os.remove(f"{folder}/closed.bpv")
 
 
 def from_box(p, low, high):
@@ -213,6 +256,24 @@ def refusals(folder):
     s.end()
 
 
+def memory(folder):
+    """The surface is made in parts when a page asks: it takes no memory in proportion to its faces."""
+    s = Served("served.obj", "--resolution", "700", "--memory", "160M", cwd=folder)
+    s.enter()
+    s.edit(op="live", live=False)
+    s.post("/api/stop")
+    s.wait(lambda q: q["closing"]["shown"] == q["design"]["revision"])
+    pages = [threading.Thread(target=lambda: s.ask("GET", "/api/surface?after=0")) for _ in range(2)]
+    for page in pages:
+        page.start()
+    for page in pages:
+        page.join()
+    with open(f"/proc/{s.process.pid}/status") as file:
+        peak = next(int(line.split()[1]) for line in file if line.startswith("VmHWM")) / 1024
+    check("bpview keeps to --memory", peak <= 160, f"{peak:.0f} MiB")
+    s.end()
+
+
 def ends_while_it_starts(folder):
     """Nobody writes to the pipe in place of the scene: bpvox waits for it, or, once it has read it, the page's reader."""
     os.mkfifo(f"{folder}/slow.stl")
@@ -244,6 +305,7 @@ def main():
     s = Served("served.obj", "--resolution", "96", "--faces", "200", cwd=folder)
     who_gets_in(s)
     what_is_asked(s)
+    slow_clients(s)
     same_bytes(s, folder)
     with open(f"{folder}/rules.json") as file:
         rules = file.read()
@@ -275,6 +337,7 @@ def main():
     check("no tool is left", left == "", left)
     distances(folder)
     refusals(folder)
+    memory(folder)
     ends_while_it_starts(folder)
     left = subprocess.run(["pgrep", "-f", "slow.stl"], capture_output=True, text=True).stdout
     check("no tool waits for a scene", left == "", left)

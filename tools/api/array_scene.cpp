@@ -7,6 +7,7 @@
 #include "io/scene/scene_reader.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
+#include "lib/core/vec3.h"
 #include "tools/api/structs.h"
 
 namespace bp::api {
@@ -20,8 +21,15 @@ T number_at(const std::byte* p) {
   return value;
 }
 
+constexpr std::uint64_t kMostTriangles = std::uint64_t(1) << 40;
+
 std::size_t bytes_of(std::int32_t type) {
   return type == BP_FLOAT64 || type == BP_UINT64 || type == BP_INT64 ? 8 : 4;
+}
+
+/// Borrowed numbers may have changed since they were checked.
+[[noreturn]] void fail_changed(std::size_t triangle) {
+  fail(ErrorCode::bad_input, "triangle {}: the arrays of the scene were changed after it was made", triangle);
 }
 
 /// The same triangles as a file of them would give.
@@ -61,7 +69,7 @@ ArrayScene::Rows ArrayScene::rows(const void* data, std::size_t count, std::size
   const std::size_t row = 3 * bytes_of(type);
   if (data == nullptr && count > 0) fail(ErrorCode::bad_argument, "{} are NULL, and there are to be {}", name, count);
   if (stride != 0 && stride < row)
-    fail(ErrorCode::bad_argument, "{}: a stride of {} bytes is less than the {} of a row", name, stride, row);
+    fail(ErrorCode::bad_argument, "{}: its stride is {}, less than the {} bytes of a row", name, stride, row);
   return {static_cast<const std::byte*>(data), stride == 0 ? row : stride, count, type};
 }
 
@@ -71,6 +79,8 @@ ArrayScene::ArrayScene(const bp_arrays& a) : triangle_count_(a.triangle_count), 
   if (a.triangle_type < BP_UINT32 || a.triangle_type > BP_INT64)
     fail(ErrorCode::bad_argument, "triangle_type: triangles are BP_UINT32, BP_INT32, BP_UINT64 or BP_INT64");
   if (a.vertex_count > 0xffffffffU) fail(ErrorCode::bad_argument, "{} vertices are more than 2^32 - 1", a.vertex_count);
+  if (a.triangle_count > kMostTriangles)
+    fail(ErrorCode::bad_argument, "{} triangles are more than 2^40", a.triangle_count);
   vertices_ = rows(a.vertices, a.vertex_count, a.vertex_stride, a.vertex_type, "the vertices");
   triangles_ = rows(a.triangles, a.triangle_count, a.triangle_stride, a.triangle_type, "the triangles");
   if (a.triangle_count == 0) fail(ErrorCode::bad_input, "there are no triangles");
@@ -101,11 +111,18 @@ Vec3d ArrayScene::vertex(std::size_t i) const {
 TriangleD ArrayScene::triangle(std::size_t i) const {
   TriangleD t;
   for (std::size_t k = 0; k < 3; ++k) {
-    // Borrowed numbers may have changed since they were checked. A wrong place is reported later, by the hash.
     const auto v = std::size_t(index(i, k));
-    t[k] = v < vertices_.count ? vertex(v) : Vec3d{};
+    if (v >= vertices_.count) fail_changed(i);
+    t[k] = vertex(v);
   }
+  if (!is_finite(t)) fail_changed(i);
   return t;
+}
+
+std::string ArrayScene::index_text(std::size_t triangle, std::size_t corner) const {
+  const std::byte* const p = triangles_.data + triangle * triangles_.stride + corner * bytes_of(triangles_.type);
+  return triangles_.type == BP_UINT64 ? fmt::to_string(number_at<std::uint64_t>(p))
+                                      : fmt::to_string(index(triangle, corner));
 }
 
 void ArrayScene::check() {
@@ -121,7 +138,8 @@ void ArrayScene::check() {
       for (std::size_t k = 0; k < 3 && !part.fault; ++k) {
         const std::int64_t v = index(std::size_t(i), k);
         if (v < 0 || std::uint64_t(v) >= vertices_.count) {
-          part.fault = fmt::format("triangle {} names vertex {}, and there are {}", i, v, vertices_.count);
+          part.fault = fmt::format("triangle {} names vertex {}, and the number of vertices is {}", i,
+                                   index_text(std::size_t(i), k), vertices_.count);
           break;
         }
         const Vec3d p = vertex(std::size_t(v));

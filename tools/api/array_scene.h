@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "io/scene/raw_source.h"
@@ -18,6 +19,7 @@ class ArrayScene {
   explicit ArrayScene(const bp_arrays& arrays);
 
   [[nodiscard]] std::size_t size() const { return triangle_count_; }
+  /// Throws bad_input if borrowed arrays were changed so that it is none any more.
   [[nodiscard]] TriangleD triangle(std::size_t i) const;
   [[nodiscard]] const Bounds3d& bounds() const { return bounds_; }
   [[nodiscard]] std::optional<UpAxis> up() const { return up_; }
@@ -37,7 +39,9 @@ class ArrayScene {
   };
   [[nodiscard]] static Rows rows(const void* data, std::size_t count, std::size_t stride, std::int32_t type,
                                  const char* name);
+  /// Numbers above those of std::int64_t become the largest of these.
   [[nodiscard]] std::int64_t index(std::size_t triangle, std::size_t corner) const;
+  [[nodiscard]] std::string index_text(std::size_t triangle, std::size_t corner) const;
   [[nodiscard]] Vec3d vertex(std::size_t i) const;
   void check();
   void copy();

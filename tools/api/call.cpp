@@ -1,21 +1,29 @@
 #include "tools/api/call.h"
 
-#include <cctype>
+#include <pthread.h>
+#include <signal.h>
+
 #include <cmath>
-#include <cstring>
+#include <condition_variable>
 #include <filesystem>
 #include <new>
 #include <optional>
+#include <stdexcept>
+#include <stop_token>
 #include <system_error>
+#include <thread>
 
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "tools/api/structs.h"
+#include "tools/api/words.h"
 #include "tools/cli/advice.h"
 
 namespace bp::api {
 
 namespace {
+
+constexpr std::chrono::milliseconds kSilence{100};
 
 thread_local std::string last_message;
 
@@ -42,6 +50,37 @@ bp_status status_of(ErrorCode code) {
   return BP_FAILED;
 }
 
+std::atomic<int> calls_running{0};
+std::atomic<bool> forked_in_a_call{false};
+
+/// Counts a call while it runs.
+class Running {
+ public:
+  Running() { ++calls_running; }
+  ~Running() { --calls_running; }
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
+};
+
+[[maybe_unused]] const int registered = ::pthread_atfork(nullptr, nullptr, [] {
+  if (calls_running > 0) forked_in_a_call = true;
+});
+
+/// Starts a thread that takes none of the process's signals.
+template <class Body>
+std::jthread without_signals(const Body& body) {
+  sigset_t all, before;
+  ::sigfillset(&all);
+  (void)::pthread_sigmask(SIG_SETMASK, &all, &before);
+  std::jthread thread;
+  try {
+    thread = std::jthread(body);
+  } catch (const std::system_error&) {  // the call goes on without reminders
+  }
+  (void)::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  return thread;
+}
+
 CommonOptions common_of(const bp_run& run) {
   CommonOptions common;
   constexpr std::int32_t kMostThreads = 4096;
@@ -63,9 +102,45 @@ const std::atomic<bool>* Call::stop() const {
   return run_.stop == nullptr ? nullptr : &run_.stop->set;
 }
 
-void Call::tell(const char* pass, const char* unit, std::uint64_t done, std::uint64_t total) const {
+void Call::tell(const char* pass, const char* unit, std::uint64_t done, std::uint64_t total) {
   const std::lock_guard lock(mutex_);
-  if (run_.progress(run_.user, pass, unit, done, total) != 0) throw Cancelled{};
+  if (ended_) throw Cancelled{};
+  told_ = {pass, unit, done, total, Clock::now()};
+  if (run_.progress(run_.user, pass, unit, done, total) == 0) return;
+  ended_ = true;
+  throw Cancelled{};
+}
+
+Clock::time_point Call::remind() {
+  const std::lock_guard lock(mutex_);
+  const Clock::time_point due = told_.when + kSilence, now = Clock::now();
+  if (ended_ || told_.pass.empty()) return now + kSilence;
+  if (due > now) return due;
+  told_.when = now;
+  try {
+    ended_ = run_.progress(run_.user, told_.pass.c_str(), told_.unit.c_str(), told_.done, told_.total) != 0;
+  } catch (...) {  // of a caller in C++
+    ended_ = true;
+  }
+  return now + kSilence;
+}
+
+void Call::run(const std::function<void()>& body) {
+  const auto work = [&] { WorkArena(common_.threads, {stop(), &ended_}).run(body); };
+  if (run_.progress == nullptr) return work();
+  {
+    std::mutex mutex;
+    std::condition_variable_any woken;
+    const std::jthread reminder = without_signals([&](const std::stop_token& over) {
+      std::unique_lock lock(mutex);
+      for (Clock::time_point next = Clock::now() + kSilence; !over.stop_requested();) {
+        woken.wait_until(lock, over, next, [] { return false; });
+        if (!over.stop_requested()) next = remind();
+      }
+    });
+    work();
+  }
+  if (ended_) throw Cancelled{};  // the last answer may have come after the last piece of work
 }
 
 PassProgress Call::progress() {
@@ -75,7 +150,7 @@ PassProgress Call::progress() {
   };
 }
 
-void Call::begin(const char* pass) const {
+void Call::begin(const char* pass) {
   stop_if_asked();
   if (run_.progress != nullptr) tell(pass, "steps", 0, 0);
 }
@@ -96,7 +171,7 @@ std::vector<std::uint64_t> falling_faces(const std::uint64_t* first, std::size_t
   return faces;
 }
 
-bp_status guarded(const std::function<void()>& body) noexcept {
+bp_status with_status(const std::function<void()>& body) noexcept {
   try {
     body();
     return BP_OK;
@@ -110,6 +185,9 @@ bp_status guarded(const std::function<void()>& body) noexcept {
       remember("out of memory");
     }
     return status_of(e.code());
+  } catch (const std::length_error&) {
+    remember("a number of elements is larger than any memory");
+    return BP_BAD_ARGUMENT;
   } catch (const std::bad_alloc&) {
     remember("out of memory; use a smaller memory, fewer threads or larger voxels");
     return BP_OUT_OF_RESOURCE;
@@ -128,10 +206,21 @@ bp_status guarded(const std::function<void()>& body) noexcept {
   }
 }
 
+bp_status guarded(const std::function<void()>& body) noexcept {
+  const Running running;
+  return with_status([&] {
+    if (forked_in_a_call)
+      fail(ErrorCode::failed,
+           "this process was forked while another thread was in a call of libbp; fork when no call runs, or start "
+           "processes anew (in Python: multiprocessing's method spawn)");
+    body();
+  });
+}
+
 bp_status guarded_call(const bp_run* run, const std::function<void(Call&)>& body) noexcept {
   return guarded([&] {
     Call call(run);
-    WorkArena(call.threads(), call.stop()).run([&] {
+    call.run([&] {
       call.prepare();
       body(call);
     });
@@ -139,21 +228,18 @@ bp_status guarded_call(const bp_run* run, const std::function<void(Call&)>& body
   });
 }
 
-std::string in_words_of_library(const std::string& text) {
-  const auto is_word = [](char c) { return std::islower(static_cast<unsigned char>(c)) != 0; };
-  std::string out;
-  for (std::size_t i = 0; i < text.size();) {
-    const bool begins = i == 0 || std::isalnum(static_cast<unsigned char>(text[i - 1])) == 0;
-    for (const char* tool : {"bpvox --", "bpclose --", "bpmesh --", "bplod --"}) {
-      if (begins && text.compare(i, std::strlen(tool), tool) == 0) i += std::strlen(tool) - 2;
-    }
-    if (!begins || text.compare(i, 2, "--") != 0 || i + 2 == text.size() || !is_word(text[i + 2])) {
-      out += text[i++];
-      continue;
-    }
-    for (i += 2; i < text.size() && (is_word(text[i]) || text[i] == '-'); ++i) out += text[i] == '-' ? '_' : text[i];
-  }
-  return out;
+std::string file_name(const char* path) {
+  std::string name = &needed(path, "the name of the file");
+  if (name == "-") fail(ErrorCode::bad_argument, "'-' is no name of a file; the library uses neither stdin nor stdout");
+  return name;
+}
+
+std::unique_ptr<OutputFile> output_of(bp_sink_fn sink, void* user, const std::string& name, bool several) {
+  (void)needed(sink, "the sink");
+  return std::make_unique<OutputFile>(
+      name, OutputFile::Sink([=](std::span<const std::byte> bytes) {
+        if (sink(user, several ? name.c_str() : nullptr, bytes.data(), bytes.size()) != 0) throw Cancelled{};
+      }));
 }
 
 Length length_of(const bp_length& length, const char* name) {
@@ -193,7 +279,7 @@ void bp_stop_free(bp_stop* stop) {
 }
 
 void bp_run_defaults(bp_run* run, size_t size) {
-  (void)guarded([&] { put_struct(run, size, bp_run{}); });
+  put_defaults(run, size, bp_run{});
 }
 
 bp_status bp_length_parse(const char* text, bp_length* out) {

@@ -51,8 +51,8 @@ double margin_of(const bp_length& margin, TriangleSource* scene) {
 }
 
 /// `steps`: that made the proxy, empty if they are not known.
-bp_verdict* verdict_of(const ArrayScene& proxy, const std::vector<std::string>& steps, const bp_scene* scene,
-                       const bp_check_options* given, Call& call) {
+bp_verdict verdict_of(const ArrayScene& proxy, const std::vector<std::string>& steps, const bp_scene* scene,
+                      const bp_check_options* given, Call& call) {
   const bp_check_options o = take_struct(given, bp_check_options{}, "bp_check_options");
   if (o.inside != 0 && scene == nullptr)
     fail(ErrorCode::bad_argument, "inside: it asks for a place within a scene, and none is given");
@@ -76,14 +76,11 @@ bp_verdict* verdict_of(const ArrayScene& proxy, const std::vector<std::string>& 
     walls = walls_of(
         extras, [&](bool opaque_only) { return open_for_check(*scene->scene, call.common(), memory, opaque_only); });
   options.hidden = walls.question;
-  auto verdict = std::make_unique<bp_verdict>();
-  verdict->report = check_proxy(proxy.mesh(), source.get(), options);
-  const CheckReport& report = verdict->report;
+  CheckReport report = check_proxy(proxy.mesh(), source.get(), options);
   if (source && !report.scene_counts.has_area()) refuse_empty_scene(report.scene_name, report.scene_counts);
-  verdict->reasons = failures(report);
-  verdict->text = verdict_text(report, "the proxy");
-  verdict->json = verdict_json(report, "the proxy");
-  return verdict.release();
+  bp_verdict verdict{{}, failures(report), verdict_text(report, "the proxy"), verdict_json(report, "the proxy")};
+  verdict.report = std::move(report);
+  return verdict;
 }
 
 double number_or_nan(const std::optional<double>& number) {
@@ -120,27 +117,25 @@ using namespace bp::api;
 extern "C" {
 
 void bp_check_defaults(bp_check_options* options, size_t size) {
-  (void)guarded([&] { put_struct(options, size, bp_check_options{}); });
+  put_defaults(options, size, bp_check_options{});
 }
 
 bp_status bp_check(const bp_arrays* proxy, const bp_scene* scene, const bp_check_options* options, const bp_run* run,
                    bp_verdict** out) {
-  return guarded_call(run, [&](Call& call) {
-    bp_verdict*& result = needed(out, "the result");
+  return guarded_result(run, out, [&](Call& call) {
     bp_arrays arrays{};
     arrays.triangle_type = BP_UINT32;
     arrays = take_struct(&needed(proxy, "proxy"), arrays, "bp_arrays");
     arrays.borrow = 1;
-    result = verdict_of(ArrayScene(arrays), {}, scene, options, call);
+    return verdict_of(ArrayScene(arrays), {}, scene, options, call);
   });
 }
 
 bp_status bp_check_mesh(const bp_mesh* proxy, size_t index, const bp_scene* scene, const bp_check_options* options,
                         const bp_run* run, bp_verdict** out) {
-  return guarded_call(run, [&](Call& call) {
-    bp_verdict*& result = needed(out, "the result");
+  return guarded_result(run, out, [&](Call& call) {
     const Mesh& mesh = mesh_at(proxy, index);
-    result = verdict_of(ArrayScene(mesh.arrays()), mesh.steps(), scene, options, call);
+    return verdict_of(ArrayScene(mesh.arrays()), mesh.steps(), scene, options, call);
   });
 }
 

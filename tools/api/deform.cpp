@@ -24,6 +24,7 @@ namespace bp::api {
 namespace {
 
 using Place = CoordinateRows::Place;
+constexpr std::size_t kMostPoints = 0xffffffff;
 
 /// Returns the cage with its vertices in the caller's order.
 IndexedMesh cage_of(const bp_arrays* given) {
@@ -53,34 +54,35 @@ void check_places(const std::vector<std::vector<Place>>& places, std::size_t blo
        outside, points.size(), first, p[0], p[1], p[2]);
 }
 
-std::unique_ptr<bp_weights> bind(const bp_arrays* cage, const double* points, std::size_t count,
-                                 const bp_bind_options* given, Call& call) {
+bp_weights bind(const bp_arrays* cage, const double* points, std::size_t count, const bp_bind_options* given,
+                Call& call) {
   const bp_bind_options o = take_struct(given, bp_bind_options{}, "bp_bind_options");
   const auto kind = choice<CoordinateKind>(o.kind, 3, "kind");
   const bool carry = o.carry_outside != 0;
   if (count > 0) (void)needed(points, "points");
+  if (count > kMostPoints) fail(ErrorCode::bad_argument, "count: {} points are more than 2^32 - 1", count);
   call.begin("binding");
-  auto weights = std::make_unique<bp_weights>();
+  bp_weights weights;
   const IndexedMesh mesh = cage_of(cage);
-  weights->cage = mesh.vertices;
-  weights->coordinates = std::make_unique<CageCoordinates>(make_cage(mesh, "the cage"), kind);
-  weights->points.resize(count);
-  if (count > 0) std::memcpy(weights->points.data(), points, count * sizeof(Vec3d));
-  const std::size_t columns = weights->coordinates->columns();
-  weights->block = points_of_block(columns);
-  const std::size_t blocks = (count + weights->block - 1) / weights->block;
-  weights->blocks.resize(blocks);
+  weights.cage = mesh.vertices;
+  weights.coordinates = std::make_unique<CageCoordinates>(make_cage(mesh, "the cage"), kind);
+  weights.points.resize(count);
+  if (count > 0) std::memcpy(weights.points.data(), points, count * sizeof(Vec3d));
+  const std::size_t columns = weights.coordinates->columns();
+  weights.block = points_of_block(columns);
+  const std::size_t blocks = (count + weights.block - 1) / weights.block;
+  weights.blocks.resize(blocks);
   std::vector<std::vector<Place>> places(blocks);
   parallel_for(std::int64_t(blocks), [&](std::int64_t b) {
-    const std::size_t first = std::size_t(b) * weights->block, n = std::min(weights->block, count - first);
-    WeightBlock& out = weights->blocks[std::size_t(b)];
+    const std::size_t first = std::size_t(b) * weights.block, n = std::min(weights.block, count - first);
+    WeightBlock& out = weights.blocks[std::size_t(b)];
     out = WeightBlock(n, columns);
     places[std::size_t(b)].resize(n);
     CoordinateRows rows;
-    weigh_points(*weights->coordinates, std::span(weights->points).subspan(first, n), carry, rows, out,
+    weigh_points(*weights.coordinates, std::span(weights.points).subspan(first, n), carry, rows, out,
                  places[std::size_t(b)]);
   });
-  check_places(places, weights->block, carry, weights->points);
+  check_places(places, weights.block, carry, weights.points);
   return weights;
 }
 
@@ -119,31 +121,34 @@ using namespace bp::api;
 extern "C" {
 
 bp_status bp_cage(const bp_grid* grid, uint64_t faces, const bp_run* run, bp_mesh** out) {
-  return guarded_call(run, [&](Call& call) {
-    bp_mesh*& result = needed(out, "the result");
+  return guarded_result(run, out, [&](Call& call) {
     bp_mesh_options options{};
     options.size = sizeof options;
     options.faces = &faces;
     options.levels = 1;
     options.mode = BP_MODE_BOUNDING;
-    result = new bp_mesh{mesh(*needed(grid, "grid").grid, &options, call, true), {}};
+    return bp_mesh{mesh(*needed(grid, "grid").grid, &options, call, true), {}};
   });
 }
 
 void bp_bind_defaults(bp_bind_options* options, size_t size) {
-  (void)guarded([&] { put_struct(options, size, bp_bind_options{}); });
+  put_defaults(options, size, bp_bind_options{});
 }
 
 bp_status bp_bind(const bp_arrays* cage, const double* points, size_t count, const bp_bind_options* options,
                   const bp_run* run, bp_weights** out) {
-  return guarded_call(run, [&](Call& call) {
-    bp_weights*& result = needed(out, "the result");
-    result = bind(cage, points, count, options, call).release();
-  });
+  return guarded_result(run, out, [&](Call& call) { return bind(cage, points, count, options, call); });
 }
 
 bp_status bp_weights_apply(const bp_weights* weights, const double* moved, const bp_run* run, double* out) {
-  return guarded_call(run, [&](Call&) { apply(needed(weights, "weights"), moved, out); });
+  return guarded_call(run, [&](Call& call) {
+    call.begin("moving points");
+    apply(needed(weights, "weights"), moved, out);
+  });
+}
+
+size_t bp_weights_cage_count(const bp_weights* weights) {
+  return weights == nullptr ? 0 : weights->cage.size();
 }
 
 size_t bp_weights_count(const bp_weights* weights) {

@@ -20,6 +20,13 @@ const StreamTotals& VoxelGrid::totals() const {
   return totals_;
 }
 
+const std::string& VoxelGrid::rules() const {
+  std::call_once(written_, [&] {
+    if (header.has_field || header.has_closing) rules_ = to_json(header.scale);
+  });
+  return rules_;
+}
+
 const BrickShelf* VoxelGrid::layer(std::int32_t layer) const {
   if (layer != BP_SOLID && layer != BP_CLOSING) fail(ErrorCode::bad_argument, "layer: {} is none of its values", layer);
   return layer == BP_SOLID ? solid.get() : closing.get();
@@ -28,7 +35,8 @@ const BrickShelf* VoxelGrid::layer(std::int32_t layer) const {
 namespace {
 
 std::shared_ptr<const VoxelGrid> load(const char* path, Call& call) {
-  BrickReader reader(&needed(path, "the name of the file"));
+  BrickReader reader(file_name(path));
+  call.begin("reading");
   const ShelfFactory shelves =
       make_shelf_factory(UsableMemory(call.common().memory_bytes, kVoxelProgram).bytes / 2, call.common().temp);
   auto grid = std::make_shared<VoxelGrid>();
@@ -43,8 +51,8 @@ std::shared_ptr<const VoxelGrid> load(const char* path, Call& call) {
   return grid;
 }
 
-void save(const VoxelGrid& grid, const char* path, bool overwrite) {
-  OutputFile file(&needed(path, "the name of the file"), overwrite);
+void write(const VoxelGrid& grid, OutputFile& file, Call& call) {
+  call.begin("writing");
   BrickWriter writer(file, grid.header);
   ShelfSource source = grid.open();
   for (Brick brick; source.read(brick);) {
@@ -77,6 +85,7 @@ bp_grid_info info_of(const VoxelGrid& grid) {
     info.bricks[i] = grid.totals().layers[i].bricks;
     info.voxels[i] = grid.totals().layers[i].voxels;
   }
+  info.rules = grid.rules().c_str();
   return info;
 }
 
@@ -152,7 +161,15 @@ bp_status bp_grid_load(const char* path, const bp_run* run, bp_grid** out) {
 }
 
 bp_status bp_grid_save(const bp_grid* grid, const char* path, int overwrite, const bp_run* run) {
-  return guarded_call(run, [&](Call&) { save(*needed(grid, "grid").grid, path, overwrite != 0); });
+  return guarded_call(run, [&](Call& call) {
+    bp::OutputFile file(file_name(path), overwrite != 0);
+    write(*needed(grid, "grid").grid, file, call);
+  });
+}
+
+bp_status bp_grid_write(const bp_grid* grid, bp_sink_fn sink, void* user, const bp_run* run) {
+  return guarded_call(
+      run, [&](Call& call) { write(*needed(grid, "grid").grid, *output_of(sink, user, "the stream"), call); });
 }
 
 bp_status bp_grid_read_info(const bp_grid* grid, bp_grid_info* info, size_t size) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <memory>
 #include <mutex>
+#include <string>
 
 #include "io/stream/brick_stream.h"
 #include "lib/grid/shelf_stream.h"
@@ -19,14 +20,22 @@ struct VoxelGrid {
 
   /// Returns the stream of its bricks. It keeps a reference to this object.
   [[nodiscard]] ShelfSource open() const { return {header, *solid, closing.get(), ShelfSource::Keep::all}; }
+  /// Opens the triangles of the scene's arrays; null if it is of files, which the header names, or not known.
+  [[nodiscard]] std::unique_ptr<TriangleSource> open_arrays(const SceneOptions& options) const {
+    return scene && scene->arrays ? scene->open(options) : nullptr;
+  }
   /// Returns counts and checksum; computed once.
   [[nodiscard]] const StreamTotals& totals() const;
+  /// Returns the scale field as JSON; empty if there is none. Computed once.
+  [[nodiscard]] const std::string& rules() const;
   /// Returns the layer; null: the grid does not have it.
   [[nodiscard]] const BrickShelf* layer(std::int32_t layer) const;
 
  private:
   mutable std::once_flag counted_;
   mutable StreamTotals totals_;
+  mutable std::once_flag written_;
+  mutable std::string rules_;
 };
 
 /// Returns the options of the tools that say the same.

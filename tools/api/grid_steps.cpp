@@ -147,7 +147,7 @@ using namespace bp::api;
 extern "C" {
 
 void bp_voxelize_defaults(bp_voxelize_options* options, size_t size) {
-  (void)guarded([&] { put_struct(options, size, bp_voxelize_options{}); });
+  put_defaults(options, size, bp_voxelize_options{});
 }
 
 bp_status bp_voxelize(const bp_scene* scene, const bp_voxelize_options* options, const bp_run* run, bp_grid** out) {
@@ -155,7 +155,7 @@ bp_status bp_voxelize(const bp_scene* scene, const bp_voxelize_options* options,
 }
 
 void bp_close_defaults(bp_close_options* options, size_t size) {
-  (void)guarded([&] { put_struct(options, size, bp_close_options{}); });
+  put_defaults(options, size, bp_close_options{});
 }
 
 bp_status bp_close(const bp_grid* grid, const bp_close_options* options, const bp_run* run, bp_grid** out) {

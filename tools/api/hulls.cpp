@@ -47,7 +47,7 @@ using namespace bp::api;
 extern "C" {
 
 void bp_hulls_defaults(bp_hulls_options* options, size_t size) {
-  (void)guarded([&] { put_struct(options, size, bp_hulls_options{}); });
+  put_defaults(options, size, bp_hulls_options{});
 }
 
 bp_status bp_hulls(const bp_mesh* mesh, size_t index, const bp_hulls_options* options, const bp_run* run,

@@ -153,31 +153,59 @@ bp_mesh occluder(const Scene& scene, const bp_voxelize_options* voxels, const bp
   return out;
 }
 
-/// Writes them with the names and bytes of bplod.
-void save(const bp_mesh& all, const char* folder, const char* name, bool overwrite) {
+/// Meshes of a handle as the steps of bplod take them.
+struct Outputs {
+  BuildOptions options;
+  CompleteLevels made;
+  double diameter = 0;  ///< of the scene
+
+  [[nodiscard]] std::vector<std::string> files() const {
+    return profile_files(options.profile, options.name, made.levels.size());
+  }
+  void write(OutputFolder& out) const {
+    (void)write_profile(options, made, diameter, {}, {}, out);
+    out.commit();
+  }
+};
+
+Outputs outputs_of(const bp_mesh& all, const char* name) {
   if (all.files == nullptr)
     fail(ErrorCode::bad_argument,
-         "bp_levels_save() writes what bp_levels(), bp_occluder() and bp_scene_cage() make; "
+         "bp_levels_save() and bp_levels_write() write what bp_levels(), bp_occluder() and bp_scene_cage() make; "
          "save other meshes one by one, with bp_mesh_save()");
-  BuildOptions o;
+  Outputs out;
+  BuildOptions& o = out.options;
   o.profile = all.files->profile;
   o.proxy.mode = all.files->mode;
   o.name = &needed(name, "name");
   if (o.name.empty()) fail(ErrorCode::bad_argument, "name: is empty");
   check_name(o);
-  CompleteLevels made;
   for (const Mesh& mesh : all.meshes) {
-    made.levels.emplace_back().mesh = *mesh.lattice;
-    LevelFacts& facts = made.facts.emplace_back();
+    out.made.levels.emplace_back().mesh = *mesh.lattice;
+    LevelFacts& facts = out.made.facts.emplace_back();
     facts.faces = mesh.lattice->triangles.size();
     facts.error_world = mesh.info.error_bound;
   }
-  OutputFolder out(&needed(folder, "folder"), profile_files(o.profile, o.name, made.levels.size()), overwrite,
-                   [](const std::string& path, bool replace) { return std::make_unique<OutputFile>(path, replace); });
-  o.out = folder;
-  if (o.profile == LodProfile::gltf) take_away_longer_list(o, made.levels.size(), out);
-  (void)write_profile(o, made, all.files->diameter, {}, {}, out);
-  out.commit();
+  out.diameter = all.files->diameter;
+  return out;
+}
+
+/// Writes them with the names and bytes of bplod.
+void save(const bp_mesh& all, const char* folder, const char* name, bool overwrite) {
+  Outputs outputs = outputs_of(all, name);
+  outputs.options.out = &needed(folder, "folder");
+  OutputFolder out(folder, outputs.files(), overwrite, [](const std::string& path, bool replace) {
+    return std::make_unique<OutputFile>(path, replace, NamedBy::file);
+  });
+  if (outputs.options.profile == LodProfile::gltf)
+    take_away_longer_list(outputs.options, outputs.made.levels.size(), out);
+  outputs.write(out);
+}
+
+void write(const bp_mesh& all, const char* name, bp_sink_fn sink, void* user) {
+  const Outputs outputs = outputs_of(all, name);
+  OutputFolder out(outputs.files(), [&](const std::string& file, bool) { return output_of(sink, user, file, true); });
+  outputs.write(out);
 }
 
 }  // namespace
@@ -189,7 +217,7 @@ using namespace bp::api;
 extern "C" {
 
 void bp_levels_defaults(bp_levels_options* options, size_t size) {
-  (void)guarded([&] { put_struct(options, size, bp_levels_options{}); });
+  put_defaults(options, size, bp_levels_options{});
 }
 
 bp_status bp_levels(const bp_scene* scene, const bp_voxelize_options* voxelize, const bp_levels_options* options,
@@ -199,7 +227,7 @@ bp_status bp_levels(const bp_scene* scene, const bp_voxelize_options* voxelize, 
 }
 
 void bp_occluder_defaults(bp_occluder_options* options, size_t size) {
-  (void)guarded([&] { put_struct(options, size, bp_occluder_options{}); });
+  put_defaults(options, size, bp_occluder_options{});
 }
 
 bp_status bp_occluder(const bp_scene* scene, const bp_voxelize_options* voxelize, const bp_occluder_options* options,
@@ -209,7 +237,7 @@ bp_status bp_occluder(const bp_scene* scene, const bp_voxelize_options* voxelize
 }
 
 void bp_cage_defaults(bp_cage_options* options, size_t size) {
-  (void)guarded([&] { put_struct(options, size, bp_cage_options{}); });
+  put_defaults(options, size, bp_cage_options{});
 }
 
 bp_status bp_scene_cage(const bp_scene* scene, const bp_voxelize_options* voxelize, const bp_cage_options* options,
@@ -220,6 +248,10 @@ bp_status bp_scene_cage(const bp_scene* scene, const bp_voxelize_options* voxeli
 
 bp_status bp_levels_save(const bp_mesh* meshes, const char* folder, const char* name, int overwrite) {
   return guarded([&] { save(needed(meshes, "meshes"), folder, name, overwrite != 0); });
+}
+
+bp_status bp_levels_write(const bp_mesh* meshes, const char* name, bp_sink_fn sink, void* user) {
+  return guarded([&] { write(needed(meshes, "meshes"), name, sink, user); });
 }
 
 }  // extern "C"

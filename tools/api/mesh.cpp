@@ -34,7 +34,8 @@ std::vector<std::string> Mesh::steps() const {
 
 const Mesh& mesh_at(const bp_mesh* meshes, std::size_t index) {
   const Meshes& all = needed(meshes, "mesh").meshes;
-  if (index >= all.size()) fail(ErrorCode::bad_argument, "index: {}, and there are {} meshes", index, all.size());
+  if (index >= all.size())
+    fail(ErrorCode::bad_argument, "index: {}, and the number of meshes is {}", index, all.size());
   return all[index];
 }
 
@@ -56,29 +57,29 @@ Mesh loaded(const IndexedMesh& from) {
 }
 
 Meshes load_meshes(const char* path, Call& call) {
+  call.begin("reading");
   SceneOptions options;
   options.memory_bytes = UsableMemory(call.common().memory_bytes, kMeshProgram).bytes / 8;
   options.temp_dir = call.common().temp;
   options.keep_extremes = true;
   options.document = document_budget(call.common().memory_bytes, kMeshProgram, 1);
   Meshes out;
-  for (const IndexedMesh& level : read_levels(&needed(path, "the name of the file"), options))
-    out.push_back(loaded(level));
+  for (const IndexedMesh& level : read_levels(file_name(path), options)) out.push_back(loaded(level));
   const MeshExtras extras = mesh_extras(path);
   for (Mesh& mesh : out) mesh.loaded_steps = extras.provenance;
   return out;
 }
 
-void save_mesh(const Mesh& mesh, const char* path, bool overwrite) {
-  const std::string name = &needed(path, "the name of the file");
-  const MeshFormat format = mesh_format_of(name);
+/// Opens the output by `open` once nothing speaks against it.
+void write(const Mesh& mesh, MeshFormat format, const std::string& name,
+           const std::function<std::unique_ptr<OutputFile>(const std::string& name)>& open) {
   if (!mesh.lattice)
     fail(ErrorCode::bad_argument, "the mesh was loaded, and libbp writes the meshes that it makes; copy the file");
   if (!mesh.quads.empty() && format != MeshFormat::obj && format != MeshFormat::ply)
     fail(ErrorCode::bad_argument, "{}: only .obj and .ply hold quads", name);
-  OutputFile file(name, overwrite);
-  write_mesh(*mesh.lattice, file, format, mesh.write);
-  file.commit();
+  const auto file = open(name);
+  write_mesh(*mesh.lattice, *file, format, mesh.write);
+  file->commit();
 }
 
 }  // namespace
@@ -117,7 +118,21 @@ bp_status bp_mesh_read_info(const bp_mesh* mesh, size_t index, bp_mesh_info* inf
 }
 
 bp_status bp_mesh_save(const bp_mesh* mesh, size_t index, const char* path, int overwrite) {
-  return guarded([&] { save_mesh(mesh_at(mesh, index), path, overwrite != 0); });
+  return guarded([&] {
+    const std::string file = file_name(path);
+    write(mesh_at(mesh, index), bp::mesh_format_of(file), file,
+          [&](const std::string& name) { return std::make_unique<bp::OutputFile>(name, overwrite != 0); });
+  });
+}
+
+bp_status bp_mesh_write(const bp_mesh* mesh, size_t index, const char* format, bp_sink_fn sink, void* user) {
+  return guarded([&] {
+    const std::string extension = &needed(format, "format");
+    const auto known = bp::mesh_format_named(extension);
+    if (!known) bp::fail(bp::ErrorCode::bad_argument, "{}: no mesh format; glb, gltf, ply, obj and stl are", extension);
+    write(mesh_at(mesh, index), *known, "mesh." + extension,
+          [&](const std::string& name) { return output_of(sink, user, name); });
+  });
 }
 
 void bp_mesh_free(bp_mesh* mesh) {

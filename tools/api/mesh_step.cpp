@@ -57,12 +57,11 @@ MeshOptions options_of(const bp_mesh_options& given, const VoxelGrid& grid, Call
 /// Opens the grid's scene for its triangles; null: its header names files, or nobody knows them.
 std::unique_ptr<TriangleSource> scene_again(const VoxelGrid& grid, const PieceMemory& memory,
                                             const CommonOptions& common) {
-  if (!grid.scene || !grid.scene->arrays) return {};
   SceneOptions options;
   options.memory_bytes = memory.bytes() / 2;
   options.temp_dir = common.temp;
   options.keep_degenerate = true;
-  return grid.scene->open(options);
+  return grid.open_arrays(options);
 }
 
 void set_info(Mesh& mesh, const LevelCounts& counts, std::uint64_t asked, const std::string& enclosed) {
@@ -114,7 +113,7 @@ Meshes mesh(const VoxelGrid& grid, const bp_mesh_options* given, Call& call, boo
     out.back().write = write_options(o.proxy.mode, {});
     set_info(out.back(), counts.levels[i], i < o.levels.faces.size() ? o.levels.faces[i] : 0, enclosed);
   }
-  note_shortfalls(call.report(), o, counts, facts);
+  if (!cage) note_shortfalls(call.report(), o, counts, facts);  // a cage counts no steps
   return out;
 }
 
@@ -125,7 +124,7 @@ using namespace bp::api;
 extern "C" {
 
 void bp_mesh_defaults(bp_mesh_options* options, size_t size) {
-  (void)guarded([&] { put_struct(options, size, bp_mesh_options{}); });
+  put_defaults(options, size, bp_mesh_options{});
 }
 
 bp_status bp_mesh_make(const bp_grid* grid, const bp_mesh_options* options, const bp_run* run, bp_mesh** out) {

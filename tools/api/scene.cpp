@@ -25,9 +25,7 @@ Scene scene_of_files(const char* const* paths, std::size_t count, const char* fo
   if (count == 0) fail(ErrorCode::bad_argument, "no file is named");
   (void)needed(paths, "the list of files");
   for (std::size_t i = 0; i < count; ++i) {
-    const std::string path = &needed(paths[i], "the name of a file");
-    if (path == "-") fail(ErrorCode::bad_argument, "'-' is no name of a file; the library does not read stdin");
-    scene.files.push_back(tileset_in(path));
+    scene.files.push_back(tileset_in(file_name(paths[i])));
   }
   if (format != nullptr) scene.format = format;
   check_scene_format(scene.format, scene.files);
@@ -68,7 +66,7 @@ void bp_arrays_defaults(bp_arrays* arrays, size_t size) {
   bp_arrays defaults{};
   defaults.vertex_type = BP_FLOAT64;
   defaults.triangle_type = BP_UINT32;
-  (void)guarded([&] { put_struct(arrays, size, defaults); });
+  put_defaults(arrays, size, defaults);
 }
 
 bp_status bp_scene_from_arrays(const bp_arrays* arrays, const char* name, bp_scene** out) {

@@ -24,12 +24,6 @@ bool lies_within(const Bounds3d& inner, const Bounds3d& outer) {
   return true;
 }
 
-/// Returns why a content cannot be read; empty if it can.
-std::string out_of_reach(const std::string& uri) {
-  if (uri.find("://") != std::string::npos) return "lies on the network; download it";
-  return uri.starts_with("data:") ? "is embedded, which is not read" : "";
-}
-
 }  // namespace
 
 CoverTiles::CoverTiles(const Tileset& tileset, std::string folder, const SceneOptions& options, TilePart part)
@@ -104,9 +98,8 @@ TileContent CoverTiles::look_at(const Tile& tile, ContentCounts& counts) {
   }
   ++counts.contents;
   counts.leaves += noted.leaf_error.has_value();
-  known.complaint = out_of_reach(tile.uri);
   known.answer = Answer::undecided;
-  if (known.complaint.empty()) read(content_path(folder_, tile.uri), noted, known, counts);
+  read(content_path(folder_, tile.uri), noted, known, counts);
   return known;
 }
 
@@ -125,6 +118,8 @@ void CoverTiles::read(const std::string& path, CoverTile& noted, TileContent& kn
     known.vertices = std::move(content.mesh.vertices);
     known.not_understood = std::move(content.unread.moves);
     if (content.mesh.differing > 0) known.not_understood.push_back("it holds " + held_twice(content.mesh.differing));
+    if (content.mesh.unfollowed.any())
+      known.not_understood.push_back(drawn_elsewhere("content", content.mesh.unfollowed));
     if (noted.leaf_error) return;  // a leaf shows the scene itself, so its looks are not compared
     for (std::string& line : content.unread.see_through) known.not_understood.push_back(std::move(line));
   } catch (const Unfit& e) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "io/scene/scene_format.h"
 #include "lib/check/verdict_text.h"
 #include "lib/core/error.h"
 #include "lib/core/vec3.h"
@@ -57,6 +58,11 @@ std::string written_anew_hint(const std::string& proxy) {
 
 }  // namespace
 
+bool is_gltf(const std::string& path) {
+  const std::string format = scene_format_of(path);
+  return format == "gltf" || format == "glb";
+}
+
 MeshExtras extras_of(const std::string& path) {
   if (!is_file(path)) return {};
   try {
@@ -67,7 +73,8 @@ MeshExtras extras_of(const std::string& path) {
 }
 
 std::optional<Vec3d> told_origin(const std::vector<std::string>& scenes, const std::string& proxy) {
-  const std::optional<Vec3d> origin = extras_of(proxy).origin;
+  const MeshExtras extras = extras_of(proxy);
+  const std::optional<Vec3d> origin = extras.recorded ? extras.origin : std::nullopt;
   if (scenes.empty() || !origin || !is_finite(*origin)) return {};
   for (const std::string& scene : scenes) {
     if (extras_of(scene).origin == origin) return {};
@@ -146,8 +153,19 @@ std::string rounding_hint(const std::string& scene, const std::string& proxy,
                        [&](const CheckReport& r) { return r.answer() == Answer::undecided && unfollowed(r).any(); });
   };
   const bool of_scene = undecided([](const CheckReport& r) { return r.scene_counts.unfollowed; });
-  if (of_scene || undecided([](const CheckReport& r) { return r.unfollowed; }))
-    return fmt::format("write {} as glTF, whose nodes, skins and morph targets are followed", of_scene ? scene : proxy);
+  if (of_scene || undecided([](const CheckReport& r) { return r.unfollowed; })) {
+    const std::string& file = of_scene ? scene : proxy;
+    if (is_gltf(file))
+      return fmt::format(
+          "{}: give rotations the length 1, weights of a skin the sum 1, POSITION its min and max; show its nodes in a "
+          "scene",
+          file);
+    const std::string format = scene_format_of(file);
+    if (format == "obj" || format == "ply" || format == "off" || format == "stl")
+      return fmt::format("{}: end each line with LF, without a backslash, and with no more words than the format has",
+                         file);
+    return fmt::format("write {} as glTF, whose nodes, skins and morph targets are followed", file);
+  }
   for (const CheckReport& r : verdicts) {
     if (r.answer() == Answer::undecided && is_doubt_of_rounding(r))
       return r.scene_counts.rounding.any() ? rounded_hint(scene) : written_anew_hint(proxy);

@@ -14,6 +14,7 @@ namespace bp {
 /// Returns what a file says beside its triangles. If the file cannot be read again, it is empty: a hint is no reason to
 /// fail, or to wait for a pipe.
 [[nodiscard]] MeshExtras extras_of(const std::string& path);
+[[nodiscard]] bool is_gltf(const std::string& path);  ///< by its name
 
 /// Returns the point that --origin subtracted from the vertices of `proxy`, as its file says. It must be added back
 /// before the proxy is compared with `scenes`. Returns nothing if nothing was subtracted, if there is no scene, or if a

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "io/scene/scene_format.h"
 #include "tools/check/hints.h"
 #include "tools/cli/names.h"
 #include "tools/run/origin.h"
@@ -12,11 +11,6 @@
 namespace bp {
 
 namespace {
-
-bool is_gltf(const std::string& path) {
-  const std::string format = scene_format_of(path);
-  return format == "gltf" || format == "glb";
-}
 
 bool holds(const Bounds3d& outer, const Bounds3d& inner) {
   for (std::size_t i = 0; i < 3; ++i) {
@@ -47,8 +41,9 @@ std::string turn_note(const std::string& file, UpAxis up) {
 std::vector<std::string> place_notes(const std::vector<std::string>& files, std::optional<UpAxis> up) {
   std::vector<std::string> notes;
   for (const std::string& scene : std::vector<std::string>(files.begin(), files.end() - 1)) {
-    const std::optional<UpAxis> axis = up_axis_named(extras_of(scene).up.value_or("y"));
-    if (axis && *axis != UpAxis::y) notes.push_back(turn_note(scene, *axis));
+    const MeshExtras extras = extras_of(scene);
+    const std::optional<UpAxis> axis = up_axis_named(extras.up.value_or("y"));
+    if (extras.recorded && axis && *axis != UpAxis::y) notes.push_back(turn_note(scene, *axis));
   }
   const std::string& proxy = files.back();
   if (up && *up != UpAxis::y) notes.push_back(turn_note(proxy, *up));

@@ -27,8 +27,10 @@ std::string complaint_of(const CheckReport& r) {
   add(!r.oriented() || !r.outward(), "is not oriented outwards");
   add(!r.manifold(), "is not 2-manifold");
   add(!r.sound(), "has degenerate or repeated triangles");
-  add(!r.embedded(), std::string("meets itself in ") + (r.self_intersections.at_least ? "at least " : "") +
-                         counted(r.self_intersections.count, "place"));
+  add(r.pairs_open(), "cannot be decided: too many triangles lie side by side");
+  add(r.self_intersections.count > 0, std::string("meets itself in ") +
+                                          (r.self_intersections.at_least ? "at least " : "") +
+                                          counted(r.self_intersections.count, "place"));
   add(r.touching.count > 0, "is touched by " + counted(r.touching.count, "triangle") + " of the scene");
   add(r.outside.count > 0, "leaves " + counted(r.outside.count, "triangle") + " of the scene outside");
   add(r.within_rounding.count > 0, "cannot be decided: it is as near to " +
@@ -59,7 +61,9 @@ std::vector<TileFinding> check_whole(const CoverTiles& cover, TriangleSource& sc
 /// Checks what the contents enclose, and whether a viewer draws them.
 CoverReport check_scene(const CoverTiles& cover, const Tileset& tileset, TriangleSource& scene, const Bounds3d& bounds,
                         std::uint64_t memory_bytes, TilePart part) {
-  std::vector<TileFinding> findings = check_drawn(cover.tiles(), tileset.geometric_error, bounds);
+  // Some viewers scale the tileset's own error by the root, others do not.
+  const double error = tileset.geometric_error * std::min(1.0, largest_scale(tileset.root.transform));
+  std::vector<TileFinding> findings = check_drawn(cover.tiles(), error, bounds);
   const auto content = [&](std::size_t i) { return cover.content(i); };
   CoverReport report = cover.has_cells() ? check_cover(cover.tiles(), content, scene, memory_bytes, part)
                                          : CoverReport{check_whole(cover, scene)};
@@ -119,9 +123,10 @@ Json TilesetVerdict::part_json() const {
   return {{"number", part.number + 1}, {"of", part.of}};
 }
 
-std::string TilesetVerdict::text(const std::string& name) const {
+std::string TilesetVerdict::text(const std::string& file) const {
+  const std::string name = one_line(file);
   std::string lines;
-  for (const std::string& finding : findings) lines += finding + "\n";
+  for (const std::string& finding : findings) lines += one_line(finding) + "\n";
   if (scene && up != UpAxis::z)
     lines += fmt::format("{}: says that {} is up in the scene, and is compared so\n", name, name_of(up));
   if (scene && leaves > 0)
@@ -133,7 +138,7 @@ std::string TilesetVerdict::text(const std::string& name) const {
   if (holes > 0)
     lines += fmt::format("{}: images of {} may cut holes, which are not looked at\n", name, counted(holes, "content"));
   if (flat > 0) lines += fmt::format("{}: {} parts of the scene that rounding flattens may be missing\n", name, flat);
-  if (placement) lines += fmt::format("{}: {}\n", name, placement_line(*placement));
+  if (placement) lines += fmt::format("{}: {}\n", name, one_line(placement_line(*placement)));
   const std::string which = part.of == 1 ? "" : fmt::format("part {} of {}: ", part.number + 1, part.of);
   return lines + fmt::format("{}: {}{}, {}, {}{}: {}\n", name, which, counted(tiles, "tile"),
                              counted(contents, "content"), counted(triangles, "triangle"),
@@ -184,7 +189,7 @@ TilesetVerdict check_tileset_file(const Tileset& tileset, const std::string& pat
   verdict.triangles = counts.triangles, verdict.holes = counts.holes;
   if (!scene) return verdict;
   const Bounds3d bounds = bounds_of(*scene);
-  verdict.scene_counts = scene->counts();
+  verdict.scene_counts = scene->counts().of_enclosed();
   if (!verdict.scene_counts.has_area()) refuse_empty_scene(scene->name(), verdict.scene_counts);
   const CoverReport report = check_scene(cover, tileset, *scene, bounds, memory_bytes, part);
   verdict.tolerance = 3 * report.leaf_error;

@@ -39,7 +39,7 @@ const char* text_of(Remedy remedy) {
     case Remedy::flood_fill:
       return "use --fill flood";
     case Remedy::fill_inside:
-      return "make the stream with bpvox --fill inside";
+      return "voxelize with bpvox --fill inside";
     case Remedy::mode_inside:
       return "use --mode inside";
     case Remedy::enclose_closing:

@@ -209,10 +209,10 @@ void forget_outputs() {
   refuse_outputs(nullptr);
 }
 
-std::unique_ptr<OutputFile> open_output(const std::string& path, bool overwrite, bool binary) {
+std::unique_ptr<OutputFile> open_output(const std::string& path, bool overwrite, bool binary, NamedBy named_by) {
   if (binary) refuse_terminal(path);
   const std::string name = free_name(path);
-  auto file = std::make_unique<OutputFile>(path, overwrite);
+  auto file = std::make_unique<OutputFile>(path, overwrite, named_by);
   if (!name.empty()) named_outputs().insert(name);
   return file;
 }

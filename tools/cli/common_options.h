@@ -75,7 +75,8 @@ void keep_inputs(const std::vector<std::string>& paths);
 void forget_outputs();
 /// Opens the tool's data output. Throws bad_argument if binary data would go to a terminal, if the file exists and
 /// `overwrite` is false, if it is an input that is kept, or if this name was opened before.
-[[nodiscard]] std::unique_ptr<OutputFile> open_output(const std::string& path, bool overwrite, bool binary = true);
+[[nodiscard]] std::unique_ptr<OutputFile> open_output(const std::string& path, bool overwrite, bool binary = true,
+                                                      NamedBy named_by = NamedBy::user);
 /// The check of open_output() for a terminal, for a writer that opens the file itself.
 void refuse_terminal(const std::string& path);
 

@@ -47,7 +47,7 @@ std::string skipped(const SceneCounts& c) {
                     c.posed == 1 ? "1 mesh loses its skin or" : fmt::format("{} meshes lose their skins or", c.posed),
                     c.posed == 1 ? "stays" : "stay", c.posed == 1 ? "it" : "them");
   }
-  if (c.unfollowed.any())
+  if (c.unfollowed.draws_elsewhere())
     text += (text.empty() ? "" : "; ") + not_followed(c.unfollowed) +
             ": programs may draw them elsewhere than they are read here; glTF leaves nothing of that open";
   if (c.animations > 0) text += (text.empty() ? "" : "; ") + counted(c.animations, "animation") + " not followed";

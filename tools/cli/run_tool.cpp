@@ -11,6 +11,7 @@
 
 #include "io/files/kept_files.h"
 #include "io/files/partial_outputs.h"
+#include "lib/check/counted.h"
 #include "lib/core/error.h"
 #include "tools/cli/advice.h"
 #include "tools/cli/common_options.h"
@@ -49,13 +50,10 @@ void install_handlers() {
 }
 
 /// Prints the message as one line, whatever characters a file name or a parser put into it.
-int complain(const char* tool, std::string message, int status) {
+int complain(const char* tool, const std::string& message, int status) {
   // Outputs are being removed because of a signal: wait for the thread that dies of it.
   while (making_has_ended()) ::pause();
-  for (char& c : message) {
-    if ((unsigned char)c < 0x20 || c == 0x7f) c = ' ';
-  }
-  const std::string line = fmt::format("{}: {}\n", tool, message);
+  const std::string line = fmt::format("{}: {}\n", tool, one_line(message));
   (void)!::write(2, line.data(), line.size());
   return status;
 }

@@ -10,6 +10,7 @@
 #include "io/scene/scene_reader.h"
 #include "io/stream/brick_shelf.h"
 #include "lib/core/error.h"
+#include "lib/device/backend.h"
 #include "lib/geometry/triangle_bvh.h"
 #include "lib/grid/shelf_stream.h"
 #include "lib/levels/voxel_choice.h"

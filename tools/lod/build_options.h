@@ -59,6 +59,7 @@ struct BuildOptions {
   PlaceOptions place;             ///< where on the globe a tileset stands
   std::optional<JobRange> tiles;  ///< the jobs to do without writing a tileset; empty: all jobs, and the tileset
   bool explain = false;           ///< print the plan only
+  std::string inputs;             ///< file for the names of what was read; empty: none
   Appearance appearance = Appearance::automatic;
 
   [[nodiscard]] bool colors() const { return appearance != Appearance::off; }

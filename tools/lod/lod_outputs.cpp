@@ -65,9 +65,20 @@ std::vector<WrittenFile> write_cage_profile(const std::string& name, const Latti
 }  // namespace
 
 OutputFolder::OutputFolder(std::string path, const std::vector<std::string>& names, bool overwrite, Open open)
-    : path_(std::move(path)), overwrite_(overwrite), open_(open), made_(path_), names_(names) {
-  if (open_ == nullptr) open_ = [](const std::string& name, bool replace) { return open_output(name, replace); };
-  for (const std::string& name : names) files_.push_back(open_(path_ + "/" + name, overwrite));
+    : path_(std::move(path)), overwrite_(overwrite), open_(std::move(open)), names_(names) {
+  made_.emplace(path_);
+  if (open_ == nullptr)
+    open_ = [](const std::string& name, bool replace) { return open_output(name, replace, true, NamedBy::file); };
+  for (const std::string& name : names) files_.push_back(open_(path_of(name), overwrite));
+}
+
+OutputFolder::OutputFolder(const std::vector<std::string>& names, Open open)
+    : overwrite_(false), open_(std::move(open)), names_(names) {
+  for (const std::string& name : names) files_.push_back(open_(name, overwrite_));
+}
+
+std::string OutputFolder::path_of(const std::string& name) const {
+  return path_.empty() ? name : path_ + "/" + name;
 }
 
 OutputFile& OutputFolder::file(const std::string& name) {
@@ -78,7 +89,7 @@ OutputFile& OutputFolder::file(const std::string& name) {
 
 OutputFile& OutputFolder::add(const std::string& name, const std::string& next) {
   const auto at = std::find(names_.begin(), names_.end(), next) - names_.begin();
-  files_.insert(files_.begin() + at, open_(path_ + "/" + name, overwrite_));
+  files_.insert(files_.begin() + at, open_(path_of(name), overwrite_));
   names_.insert(names_.begin() + at, name);
   return *files_[std::size_t(at)];
 }
@@ -94,9 +105,9 @@ void OutputFolder::leave_out(const std::string& name) {
 void OutputFolder::commit() {
   OutputFile::commit_all(files_);
   if (overwrite_) {  // without --overwrite none was there before
-    for (const std::string& name : left_out_) (void)remove_file(path_ + "/" + name);
+    for (const std::string& name : left_out_) (void)remove_file(path_of(name));
   }
-  made_.keep();
+  if (made_) made_->keep();
 }
 
 std::uint64_t OutputFolder::bytes() const {

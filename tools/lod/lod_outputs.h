@@ -1,5 +1,7 @@
 #pragma once
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,8 +21,10 @@ class OutputFolder {
  public:
   /// Makes the folder if it does not exist. Without commit() neither files nor new folders stay. Throws bad_argument if
   /// a file exists and `overwrite` is false. `open`: null is open_output(), which gives each name once in a process.
-  using Open = std::unique_ptr<OutputFile> (*)(const std::string& path, bool overwrite);
+  using Open = std::function<std::unique_ptr<OutputFile>(const std::string& path, bool overwrite)>;
   OutputFolder(std::string path, const std::vector<std::string>& names, bool overwrite, Open open = nullptr);
+  /// Files that lie in no folder: `open` gets their names.
+  OutputFolder(const std::vector<std::string>& names, Open open);
   [[nodiscard]] OutputFile& file(const std::string& name);
   /// Opens one more file, which is committed before `next`. Throws as the constructor.
   OutputFile& add(const std::string& name, const std::string& next);
@@ -34,10 +38,11 @@ class OutputFolder {
   [[nodiscard]] std::uint64_t bytes(const std::string& name) const;
 
  private:
-  std::string path_;
+  [[nodiscard]] std::string path_of(const std::string& name) const;
+  std::string path_;  ///< empty: there is no folder
   bool overwrite_;
   Open open_;
-  MadeFolder made_;
+  std::optional<MadeFolder> made_;
   std::vector<std::string> names_, left_out_;
   std::vector<std::unique_ptr<OutputFile>> files_;
 };

@@ -168,7 +168,7 @@ BuiltOccluder make(Build& build) {
   built.scene = read_scene(build, {});
   const StreamHeader& header = built.scene.voxels.header;
   const LevelRequest levels = request_of(o, header.bounds.diagonal(), header.frame.voxel);
-  const OccluderRequest request{
+  OccluderRequest request{
       levels.faces.empty() ? 0 : levels.faces.front(), levels.scale_world, {0, o.closing.element, build.context()}};
   naming_limit([] { check_outputs(); },
                [&] { return occluder_limit_before(header, *built.scene.voxels.solid, request); });
@@ -179,6 +179,7 @@ BuiltOccluder make(Build& build) {
   built.hidden = hidden_of(built.scene.voxels, "closing openings");
   const std::uint64_t without = built.hidden.voxels.count;
   if (can_read_again(o) && may_gain_on_ground(header, without)) {
+    request.more_than_voxels = kGroundGains * double(without);
     HiddenScene grounded =
         hidden_of(read_scene(build, {0, nullptr, true, false}).voxels, "closing openings above the ground");
     built.ground = gains_on_ground(grounded.voxels.count, without);

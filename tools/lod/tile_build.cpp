@@ -9,6 +9,7 @@
 #include "io/store/scratch.h"
 #include "io/tiles/tileset_file.h"
 #include "io/tiles/tileset_folder.h"
+#include "lib/check/counted.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/levels/lod_chain.h"
@@ -123,8 +124,8 @@ MadeTileset make_tileset(const Shop& shop) {
   made.plan = plan_tileset(request, shop.cells(), header);
   made.tree.emplace(header.frame.up, shop.cells());
   if (shop.task == Task::some_jobs && o.tiles->begin >= made.plan.jobs())
-    shop.build.note(fmt::format("--tiles {}..{}: there are {} jobs, numbered from 0: nothing is done", o.tiles->begin,
-                                o.tiles->end, made.plan.jobs()));
+    shop.build.note(fmt::format("--tiles {}..{}: this tileset has {}, numbered from 0: nothing is done", o.tiles->begin,
+                                o.tiles->end, counted(made.plan.jobs(), "job")));
   shop.build.report.begin("measure the scene");
   const TilesetMemory limit({shop.build, made.scene, made.plan, made.held_looks.get(), cut_options(shop, made), share});
   LodOptions lod = lod_options(shop.build, made.scene, {}, share, made.plan.cut.size());

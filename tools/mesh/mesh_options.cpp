@@ -1,5 +1,7 @@
 #include "tools/mesh/mesh_options.h"
 
+#include <cmath>
+
 #include "io/scene/scene_reader.h"
 #include "lib/core/error.h"
 #include "tools/run/inputs.h"
@@ -14,6 +16,10 @@ MeshOptions parse_mesh_options(Args& args) {
   args.option("-o,--output", "FILE", o.out, "proxy, as .glb .gltf .ply .obj or .stl; - is stdout, as GLB");
   o.levels.add_of_stream(args);
   args.option("--volume", "RATIO", o.volume, "largest volume, as a multiple of the voxels' volume; 0: no limit");
+  args.option(
+      "--edge-factor", "N", o.edge_factor,
+      "longest edge, as a multiple of the scale along it, whatever --faces asks for (default: 4 where the scale "
+      "differs from place to place; longer near the closing, and where --faces needs it)");
   o.proxy.add_of_stream(args);
   args.flag("--quads", o.quads, "join triangles to quads, safe for either diagonal; for .obj and .ply");
   args.removed("--format", "the name of the output tells it; -o - writes GLB");
@@ -29,6 +35,8 @@ MeshOptions parse_mesh_options(Args& args) {
   if (!args.given("--output"))
     fail(ErrorCode::bad_argument, "name the output with -o{}",
          stdout_is_pipe() ? "; bpmesh comes last in the pipe, after bpvox and bpclose" : "");
+  if (o.edge_factor && !(*o.edge_factor > 0 && *o.edge_factor < HUGE_VAL))
+    fail(ErrorCode::bad_argument, "--edge-factor {}: not above 0", *o.edge_factor);
   o.proxy.mode_given = args.given("--mode");
   o.proxy.check();
   std::vector<std::string> inputs = o.proxy.enclose.files;

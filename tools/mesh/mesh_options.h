@@ -16,6 +16,7 @@ struct MeshOptions {
   ProxyOptions proxy;
   LevelOptions levels;
   double volume = 0;
+  std::optional<double> edge_factor;  ///< none: edges follow the scale and the shape
   bool quads = false;
 
   /// Returns the bound of --error, if given.

@@ -69,6 +69,7 @@ Provenance mesh_provenance(const MeshOptions& o, const GridFrame& frame, const s
       .add("volume", o.volume)
       .add("enclose", enclosed)
       .add("tighten", true);
+  if (o.edge_factor) text.add("edge_factor", *o.edge_factor);
   if (o.quads) text.add("quads", o.quads);
   if (o.levels.faces.size() > 1) text.add("level", level);
   if (o.proxy.mode == MeshMode::inside) add_recipe({{frame}, false, false, frame.up}, text);
@@ -82,9 +83,13 @@ void fill_report(Report& report, const MeshOptions& o, const MeshCounts& c) {
                     {"volume", o.volume},
                     {"enclose", o.proxy.enclose.text()},
                     {"origin", o.proxy.origin.text()}};
+  if (o.edge_factor) report.options["edge_factor"] = *o.edge_factor;
   Json levels = Json::array();
-  for (std::size_t i = 0; i < c.levels.size(); ++i)
-    levels.push_back(json_of(c.levels[i], i < o.levels.faces.size() ? o.levels.faces[i] : 0));
+  for (std::size_t i = 0; i < c.levels.size(); ++i) {
+    Json& level = levels.emplace_back(json_of(c.levels[i], i < o.levels.faces.size() ? o.levels.faces[i] : 0));
+    if (c.levels[i].edge_factor > 0 && !o.edge_factor)
+      level["edges_longer_near_closing"] = o.proxy.mode == MeshMode::bounding;
+  }
   report.counts = {{"voxels", c.voxels},
                    {"voxels_repaired", c.repaired},
                    {"parts_dropped", c.dropped_parts},

@@ -1,6 +1,7 @@
 #include "tools/mesh/mesh_step.h"
 
 #include "io/store/scratch.h"
+#include "lib/core/error.h"
 #include "lib/geometry/signed_volume.h"
 #include "lib/pass/mesh/mesh_pass.h"
 #include "tools/mesh/enclosure.h"
@@ -12,8 +13,18 @@ namespace bp {
 
 namespace {
 
-/// Edges follow the scale where it differs from place to place: no edge is longer than so many scales.
+/// Edges follow the scale where it differs from place to place: none is longer than so many scales, except near the
+/// closing.
 constexpr double kEdgeFactor = 4;
+
+/// Sets the limit on edges: the promise that the user asked for, or the default, which may give way.
+void set_edges(const MeshOptions& o, const StreamHeader& header, MeshParams& params) {
+  if (o.edge_factor && !header.has_closing)
+    fail(ErrorCode::bad_argument, "--edge-factor: the stream is not closed, so it has no scale; use bpclose");
+  if (!header.scale.constant()) params.edge_factor = kEdgeFactor;
+  if (o.edge_factor) params.edge_factor = *o.edge_factor;
+  params.edges_yield = params.edges_by_shape = !o.edge_factor;
+}
 
 }  // namespace
 
@@ -26,8 +37,7 @@ MeshParams mesh_params(const MeshOptions& o, const StreamHeader& header) {
   params.volume_ratio = o.volume;
   if (o.proxy.mode == MeshMode::inside) params.least_part = MeshParams::kLeastPart;
   params.quads = o.quads;
-  if (!header.scale.constant()) params.edge_factor = kEdgeFactor;
-  params.edges_yield = true;
+  set_edges(o, header, params);
   // A result that may lie beyond --error is measured, so that a note can tell.
   const bool chosen = o.proxy.enclose.kind != EncloseOption::Kind::automatic;
   params.distances = o.error() && (chosen || o.levels.faces.size() > 1);

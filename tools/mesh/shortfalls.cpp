@@ -95,6 +95,8 @@ std::string obstacle_text(const MeshOptions& o, const MeshCounts& c, std::size_t
   const LevelCounts& level = c.levels[i];
   const std::string& by = level.stopped_by;
   if (by == "error" && o.error()) return fmt::format("--error {} was reached first", o.error()->text());
+  if (by == "edge-length" && o.edge_factor)
+    return fmt::format("--edge-factor {:.4g} was reached first", *o.edge_factor);
   if (by == "volume") return fmt::format("--volume {} was reached first", o.volume);
   return merged_note(level.simplify.faces_out, level.measures.shells, level.measures.handles, advice_of(o, facts));
 }

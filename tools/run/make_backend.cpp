@@ -1,6 +1,9 @@
 #include "tools/run/make_backend.h"
 
+#include <pthread.h>
+
 #include <algorithm>
+#include <atomic>
 #include <cstdlib>
 #include <mutex>
 #include <numeric>
@@ -44,6 +47,18 @@ Backends make_cpu_backends() {
 }
 
 #ifdef BP_HAVE_CUDA
+// A child of fork() cannot use GPUs that its parent has begun to use.
+std::atomic<bool> gpu_was_begun{false};
+std::atomic<bool> gpu_is_lost{false};
+[[maybe_unused]] const int registered = ::pthread_atfork(nullptr, nullptr, [] {
+  if (gpu_was_begun) gpu_is_lost = true;
+});
+
+std::vector<CudaDevice> begin_gpus() {
+  gpu_was_begun = true;
+  return cuda_devices();
+}
+
 constexpr double kGpuStartSeconds = 0.25;  ///< start of the driver, about
 constexpr int kBackendsPerGpu = 8;         ///< while some copy and compute, others gather and scatter bricks
 
@@ -64,7 +79,11 @@ std::string list_of(const std::vector<CudaDevice>& devices) {
 
 /// Makes backends for --device cuda.
 Backends make_gpu_backends(const Wish& wish) {
-  const std::vector<CudaDevice> there = cuda_devices();
+  if (gpu_is_lost)
+    fail(ErrorCode::out_of_resource,
+         "{0} cuda: this process was forked after its parent had begun to use a GPU; start it anew, or use {0} cpu",
+         wish.by);
+  const std::vector<CudaDevice> there = begin_gpus();
   if (there.empty())
     fail(ErrorCode::out_of_resource, "{0} cuda: no GPU was found; check the driver, or use {0} cpu", wish.by);
   std::vector<int> ids = wish.choice.ids;
@@ -82,7 +101,7 @@ Backends make_gpu_backends(const Wish& wish) {
 /// DeviceError of the first.
 Backends make_on_first_gpu() {
   std::optional<DeviceError> first;
-  for (const CudaDevice& device : cuda_devices()) {
+  for (const CudaDevice& device : begin_gpus()) {
     try {
       return make_backends_on({device.index});
     } catch (const DeviceError& e) {
@@ -96,7 +115,7 @@ Backends make_on_first_gpu() {
 /// Makes backends for --device auto: on a GPU, if the cores would need longer than the GPU takes to start. Empty if no
 /// GPU works.
 Backends make_gpu_backends_if_worth(const CommonOptions& common, double core_seconds, Report* report) {
-  if (report == nullptr || core_seconds / thread_count() < kGpuStartSeconds) return {};
+  if (report == nullptr || gpu_is_lost || core_seconds / thread_count() < kGpuStartSeconds) return {};
   Backends backends;
   try {
     backends = make_on_first_gpu();

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "io/files/file.h"
+#include "io/files/json_shape.h"
 #include "tools/cli/report.h"
 
 namespace bp {
@@ -40,6 +41,7 @@ MeshExtras from_comments(const std::string& head) {
         extras.origin = p;
     }
   }
+  extras.recorded = !extras.provenance.empty();
   return extras;
 }
 
@@ -197,6 +199,7 @@ MeshExtras from_gltf(const std::string& text) {
   if (std::none_of(std::begin(keys), std::end(keys),
                    [&](const char* key) { return text.find(key) != std::string::npos; }))
     return {};
+  if (json_shape(text).is_too_deep()) return {};
   const Json document = Json::parse(text, nullptr, false);
   static const Json::json_pointer tile("/asset/extras/tile_origin");
   MeshExtras extras;

@@ -15,7 +15,7 @@ struct MeshExtras {
   std::optional<Vec3d> origin;    ///< the point that --origin subtracted from its vertices
   std::string contract;           ///< name of the contract that it claims (docs/contracts.md); empty: none
   std::optional<std::string> up;  ///< glTF: asset.extras.up; as JSON if it is no text
-  bool recorded = false;          ///< glTF: asset.extras.provenance exists, as in files of this suite
+  bool recorded = false;          ///< there is a provenance, as in files of this suite
   /// glTF: largest error of a coordinate, in scene units, in a program that applies the translations and scales of
   /// nodes in 32-bit floats. 0: none, or not known, since nodes turn or have children.
   double rounding = 0;

@@ -33,6 +33,8 @@ class RuledSource final : public BrickSource {
   RuledSource(BrickSource& source, const PassContext& context, std::uint64_t memory, const std::string& temp);
   /// Reads the rules, and measures all rules by shape. Throws bad_input also if the stream is the input of an opening.
   [[nodiscard]] ScalePlan read_rules(const RulesText& rules, bool may_orient = false);
+  /// How the scene is read again within `memory`.
+  [[nodiscard]] const SceneOptions& scene_options() const { return scene_; }
 
   [[nodiscard]] const StreamHeader& header() const override { return source_.header(); }
   bool read(Brick& out) override;

@@ -11,8 +11,8 @@
 namespace bp {
 
 OrientationField make_orientation(const std::string& json, const std::string& file, const StreamHeader& header,
-                                  const ScaleField& scale) {
-  const TriangleReader read_scene = [&](const auto& take) { read_again(header.scene, header.bounds, {}, take); };
+                                  const ScaleField& scale, const SceneOptions& scene) {
+  const TriangleReader read_scene = [&](const auto& take) { read_again(header.scene, header.bounds, scene, take); };
   return make_orientation(parse_orientation(json, file), header, scale.base, read_scene);
 }
 

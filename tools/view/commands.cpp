@@ -34,7 +34,7 @@ ToolCommand voxelize(const ViewOptions& o) {
     command.insert(command.end(), {"--resolution", std::to_string(resolution)});
   }
   if (o.voxels.fill != FillMode::flood) command.insert(command.end(), {"--fill", name_of(o.voxels.fill)});
-  if (o.voxels.up) command.insert(command.end(), {"--up", name_of(*o.voxels.up)});
+  if (o.voxels.up) command.push_back(std::string("--up=") + name_of(*o.voxels.up));
   return command;
 }
 

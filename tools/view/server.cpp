@@ -2,12 +2,16 @@
 
 #include <httplib.h>
 
+#include <algorithm>
 #include <atomic>
 #include <charconv>
 #include <mutex>
 
 #include "lib/core/error.h"
+#include "tools/cli/advice.h"
 #include "tools/view/access.h"
+#include "tools/view/connections.h"
+#include "tools/view/geometry/wire.h"
 #include "tools/view/page_files.h"
 
 namespace bp {
@@ -23,6 +27,8 @@ constexpr int kThreads = 24;                ///< each holds one connection
 constexpr int kMostListeners = 8;
 constexpr int kReadSeconds = 5, kWriteSeconds = 20, kIdleSeconds = 2;
 constexpr std::chrono::seconds kPing{10};
+constexpr const char* kBytes = "application/octet-stream";
+constexpr std::size_t kAtATime = 1 << 18;  ///< bytes of a scene that are handed over together
 
 const httplib::Headers& headers() {
   static const httplib::Headers all{
@@ -54,7 +60,7 @@ void answer(Response& response, const Make& make) {
     make();
   } catch (const Error& e) {
     response.status = status_of(e.code());
-    response.set_content(Json{{"error", e.what()}}.dump(-1, ' ', false, Json::error_handler_t::replace),
+    response.set_content(Json{{"error", advised(e)}}.dump(-1, ' ', false, Json::error_handler_t::replace),
                          "application/json");
   }
 }
@@ -72,7 +78,11 @@ std::uint64_t number_in(const Request& request, const char* key) {
 /// Binds the port that is wanted, or any free one. Returns the port, or -1. Connections inherit the options of this
 /// socket.
 int bound(httplib::Server& http, int wanted) {
-  http.set_tcp_nodelay(true);  // else each small answer waits 40 ms for the client's acknowledgement
+  http.set_tcp_nodelay(true);                    // else each small answer waits 40 ms for the client's acknowledgement
+  http.set_socket_options([](socket_t socket) {  // httplib would share the port with others
+    const int yes = 1;
+    (void)::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+  });
   if (wanted == 0) return http.bind_to_any_port("127.0.0.1");
   return http.bind_to_port("127.0.0.1", wanted) ? wanted : -1;
 }
@@ -91,21 +101,22 @@ struct Server::State {
   void add_routes();
   void add_page();
   void listen(const Request& request, Response& response);
+  void send_scene(Response& response);
+  void send_surface(std::uint64_t after, Response& response);
   [[nodiscard]] bool is_open(const Request& request) const;
   /// Handles a step of the design or the like.
   httplib::Server::Handler doing(const std::function<void(const std::string& body)>& act);
 
   Session& session;
-  httplib::Server http;
+  PatientServer http{kThreads};
   const int port;
   Access access;
   std::atomic<int> listeners{0};
-  std::mutex layers;  ///< one layer is made at a time
+  std::mutex meshes;  ///< one mesh is made at a time
 };
 
 Server::State::State(Session& of, int wanted) : session(of), port(bound(http, wanted)), access(port) {
   if (port <= 0) fail(ErrorCode::out_of_resource, "no port of 127.0.0.1 can be had, or --port names one that is taken");
-  http.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
   http.set_payload_max_length(kMostBody);
   http.set_read_timeout(kReadSeconds);
   http.set_write_timeout(kWriteSeconds);
@@ -143,8 +154,9 @@ Handled Server::State::check(const Request& request, Response& response) {
   if (const std::string site = request.get_header_value("Sec-Fetch-Site");
       !is_open(request) && !site.empty() && site != "same-origin")
     return stop(403, "another site may not read the design");
-  if (!is_open(request) && !access.has_cookie(request.get_header_value("Cookie")))
-    return stop(401, "open the link that bpview printed");
+  const bool own = access.has_cookie(request.get_header_value("Cookie"));
+  if (!is_open(request) && !own) return stop(401, "open the link that bpview printed");
+  if (own) PatientServer::welcome();
   return Handled::Unhandled;
 }
 
@@ -180,16 +192,19 @@ void Server::State::add_routes() {
   });
   const auto bytes = [this](const char* path, const auto& make) {
     http.Get(path, [make](const Request& request, Response& response) {
-      answer(response, [&] { response.set_content(make(request), "application/octet-stream"); });
+      answer(response, [&] { response.set_content(make(request), kBytes); });
     });
   };
-  bytes("/api/scene", [this](const Request&) { return session.scene(); });
+  http.Get("/api/scene", [this](const Request&, Response& response) { send_scene(response); });
+  http.Get("/api/surface", [this](const Request& request, Response& response) {
+    answer(response, [&] { send_surface(number_in(request, "after"), response); });
+  });
   bytes("/api/proxy", [this](const Request& request) {
+    const std::lock_guard one(meshes);  // each takes memory while it is made
     return session.proxy(number_in(request, "number"), number_in(request, "distances") == 1);
   });
-  bytes("/api/surface", [this](const Request& request) { return session.surface(number_in(request, "after")); });
   bytes("/api/layer", [this](const Request& request) {
-    const std::lock_guard one(layers);  // each takes memory while it is made
+    const std::lock_guard one(meshes);
     return session.layer(number_in(request, "file"), number_in(request, "level"), number_in(request, "distances") == 1);
   });
   http.Get("/api/state",
@@ -206,6 +221,31 @@ void Server::State::add_routes() {
   http.Post("/api/check", doing([this](const std::string& body) { session.check(body); }));
   http.Post("/api/mesh", doing([this](const std::string&) { session.mesh(); }));
   http.Post("/api/stop", doing([this](const std::string&) { session.stop(); }));
+}
+
+/// Sends the scene from where it is: a copy for each page would take its memory again.
+void Server::State::send_scene(Response& response) {
+  const std::string& bytes = session.scene();
+  if (bytes.empty()) return response.set_content("", kBytes);
+  response.set_content_provider(bytes.size(), kBytes,
+                                [&bytes](std::size_t at, std::size_t left, httplib::DataSink& sink) {
+                                  return sink.write(bytes.data() + at, std::min(left, kAtATime));
+                                });
+}
+
+/// Sends a surface in the parts in which it is made.
+void Server::State::send_surface(std::uint64_t after, Response& response) {
+  const auto parts = std::make_shared<SurfaceParts>(session.surface(after));
+  response.set_chunked_content_provider(kBytes, [parts](std::size_t, httplib::DataSink& sink) {
+    try {
+      const std::string some = parts->next();
+      if (!some.empty()) return sink.write(some.data(), some.size());
+      sink.done();
+      return true;
+    } catch (const std::exception&) {
+      return false;  // the page sees an answer without an end
+    }
+  });
 }
 
 /// Sends events: the state, whenever it changes, and a comment now and then, so that the server notices a page that is

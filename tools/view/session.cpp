@@ -1,9 +1,11 @@
 #include "tools/view/session.h"
 
-#include <cmath>
+#include <algorithm>
 #include <filesystem>
 
 #include "io/files/file.h"
+#include "io/files/json_shape.h"
+#include "io/scene/scene_format.h"
 #include "io/scene/scene_reader.h"
 #include "io/stream/brick_shelf.h"
 #include "io/stream/brick_stream.h"
@@ -13,20 +15,20 @@
 #include "tools/run/part_boxes.h"
 #include "tools/run/read_again.h"
 #include "tools/run/scene_budget.h"
-#include "tools/view/geometry/wire.h"
 
 namespace bp {
 
 namespace {
 
-/// triangles: a page that draws more is slow, and its bytes do not fit where memory is short
-constexpr std::uint64_t kMostShown = 2'000'000;
+constexpr std::uint64_t kMostShown = 2'000'000;  ///< triangles: a page that draws more is slow
+constexpr std::uint64_t kBytesOfTriangle = 320;  ///< while its mesh and its message are made
 constexpr std::uint64_t kMostFaces = 10'000'000;
 constexpr std::uint64_t kMostFiles = 1'000'000;
 constexpr const char* kFirstRules = R"({"base": "2%"})";
 
 Json parse_request(const std::string& text) {
-  Json json = Json::parse(text, nullptr, false);
+  const bool is_deep = json_shape(text).is_too_deep();
+  Json json = is_deep ? Json() : Json::parse(text, nullptr, false);
   if (!json.is_object()) fail(ErrorCode::bad_input, "the request is no JSON object");
   return json;
 }
@@ -64,6 +66,17 @@ const char* step_name(ProxyJob::Step step) {
   return kNames[std::size_t(step)];
 }
 
+/// Returns how many triangles a page shows: as many as half of --memory suffices for.
+std::uint64_t most_shown(const ViewOptions& o) {
+  return std::min(kMostShown, o.common.memory_bytes / 2 / kBytesOfTriangle);
+}
+
+bool has_part_names(const ViewOptions& o) {
+  return std::any_of(o.voxels.scenes.begin(), o.voxels.scenes.end(), [&](const std::string& scene) {
+    return names_parts(o.voxels.format.empty() ? scene_format_of(scene) : o.voxels.format);
+  });
+}
+
 SceneOptions scene_options(const ViewOptions& o) {
   SceneOptions scene{o.voxels.format, o.common.memory_bytes / 8, o.common.temp};
   scene.document = document_budget(o.common.memory_bytes, kVoxelProgram, 2);
@@ -72,9 +85,10 @@ SceneOptions scene_options(const ViewOptions& o) {
 
 }  // namespace
 
-Session::Session(const ViewOptions& options, Backends& backends) : options_(options), faces_(options.faces) {
+Session::Session(const ViewOptions& options, Backends& backends)
+    : options_(options), most_shown_(most_shown(options)), faces_(options.faces) {
   open_stream();
-  read_scene();
+  if (header_.scene.triangles <= most_shown_) std::call_once(read_, [this] { read_scene(); });
   const auto open = [this] { return open_scenes(options_.voxels.scenes, scene_options(options_)); };
   distances_ = std::make_unique<SceneDistances>(open, middle_, options_.common.memory_bytes / 4);
   begin_design();
@@ -122,16 +136,20 @@ void Session::open_stream() {
 }
 
 void Session::read_scene() {
+  const bool shown = header_.scene.triangles <= most_shown_;
+  if (!shown && !has_part_names(options_)) return;
   SceneOptions scene = scene_options(options_);
   scene.part_names = std::make_shared<PartNames>();
   const auto source = open_scenes(options_.voxels.scenes, scene);
   std::vector<TriangleD> all, some;
-  while (source->read(some)) {
-    triangles_ += some.size();
-    if (triangles_ <= kMostShown) all.insert(all.end(), some.begin(), some.end());
+  if (shown) all.reserve(header_.scene.triangles);
+  while (!events_.ended() && source->read(some)) {
+    if (shown && all.size() + some.size() > most_shown_)
+      fail(ErrorCode::bad_input, "{}: has changed while it was read", source->name());
+    if (shown) all.insert(all.end(), some.begin(), some.end());
   }
   parts_ = *scene.part_names;
-  if (triangles_ <= kMostShown) scene_bytes_ = shown_smooth(all, minus(middle_)).bytes();
+  if (shown) scene_bytes_ = shown_smooth(all, minus(middle_)).bytes();
 }
 
 void Session::begin_design() {
@@ -210,6 +228,8 @@ std::uint64_t Session::edit(const std::string& json) {
 
 void Session::mesh() {
   const std::lock_guard lock(mutex_);
+  const ProxyJob::Status proxy = job_->status();
+  if (proxy.step == ProxyJob::Step::ready && is_current(proxy)) return;  // it would have the same bytes
   request_proxy();
 }
 
@@ -236,6 +256,7 @@ void Session::save(const std::string& json) {
         fail(ErrorCode::bad_input, "there is no proxy of the design as it is now");
       write(options_.out, *proxy.file, options_.common.overwrite || proxy_saved_);
       proxy_saved_ = true;
+      saved_proxy_ = proxy.number;
     } else {
       fail(ErrorCode::bad_input, "the request's 'what' is neither rules nor proxy");
     }
@@ -243,13 +264,9 @@ void Session::save(const std::string& json) {
   events_.tell();
 }
 
-std::string Session::surface(std::uint64_t after) const {
-  // Read first: pieces that change in between are sent twice.
-  const std::uint64_t generation = closing_->status().generation;
-  return surface_bytes(closing_->since(after), generation);
-}
-
-std::string Session::parts() const {
+/// Names of a scene that is not shown are read when a page asks: its closing comes first.
+std::string Session::parts() {
+  std::call_once(read_, [this] { read_scene(); });
   Json names = Json::array();
   for (const std::string& name : parts_.names) {
     if (names.size() < kMostNames) names.push_back(name);
@@ -273,11 +290,14 @@ std::string Session::proxy(std::uint64_t number, bool distances) const {
   const auto file = proxy_file(number);
   if (file == nullptr) return "";
   const MemoryFile glb(*file);
-  return bytes_of(shown_mesh(read_mesh(glb.path(), scene_options(options_)), minus(middle_)), distances);
+  const IndexedMesh mesh = read_mesh(glb.path(), scene_options(options_));
+  if (mesh.triangles.size() > most_shown_)
+    fail(ErrorCode::out_of_resource, "the proxy has more than {} triangles, and is not shown", most_shown_);
+  return bytes_of(shown_mesh(mesh, minus(middle_)), distances);
 }
 
 std::string Session::layer(std::uint64_t file, std::uint64_t level, bool distances) const {
-  return bytes_of(read_level(layers_->file(file), level, middle_, kMostShown, scene_options(options_)), distances);
+  return bytes_of(read_level(layers_->file(file), level, middle_, most_shown_, scene_options(options_)), distances);
 }
 
 void Session::check(const std::string& json) {
@@ -310,6 +330,7 @@ Json Session::proxy_json() const {
           {"revision", p.revision},
           {"faces", p.faces},
           {"number", p.number},
+          {"saved", p.number != 0 && p.number == saved_proxy_},
           {"bytes", p.file ? p.file->size() : 0},
           {"mesh_seconds", p.mesh_seconds},
           {"check_seconds", p.check_seconds},
@@ -326,8 +347,9 @@ std::string Session::state() const {
     files.push_back(std::filesystem::path(scene).filename().string());
   const Json state{{"scene",
                     {{"files", files},
-                     {"triangles", triangles_},
+                     {"triangles", header_.scene.triangles},
                      {"shown", !scene_bytes_.empty()},
+                     {"most_shown", most_shown_},
                      {"min", b.min},
                      {"max", b.max},
                      {"diagonal", b.diagonal()},
@@ -340,6 +362,7 @@ std::string Session::state() const {
                     {{"asked", c.asked},
                      {"shown", c.shown},
                      {"generation", c.generation},
+                     {"drawn_voxel", c.drawn_voxel},
                      {"voxels", c.voxels},
                      {"seconds", c.seconds},
                      {"error", c.error}}},

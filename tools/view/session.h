@@ -22,14 +22,15 @@ class Session {
   [[nodiscard]] Events& events() { return events_; }
   [[nodiscard]] std::string state() const;  ///< JSON of everything but geometry; events tell when it changes
   /// As ShownMesh::bytes(); empty: the scene has too many triangles.
-  [[nodiscard]] std::string scene() const { return scene_bytes_; }
-  [[nodiscard]] std::string surface(std::uint64_t after)
-      const;  /// Returns the names of the scene's parts as a JSON list, for rules by name: the first kMostNames.
-  [[nodiscard]] std::string parts() const;
+  [[nodiscard]] const std::string& scene() const { return scene_bytes_; }
+  /// Returns the pieces of the closing's surface that changed after a generation.
+  [[nodiscard]] LiveSurface::Change surface(std::uint64_t after) const { return closing_->surface().since(after); }
+  /// Returns the names of the scene's parts as a JSON list, for rules by name: the first kMostNames.
+  [[nodiscard]] std::string parts();
   static constexpr std::size_t kMostNames = 1000;
-  /// Returns the proxy with a number as ShownMesh::bytes(), with distances from the
-  /// scene if they are asked for. Number
-  /// 0: the last one, or nothing if there is none. Throws bad_argument if the proxy is not kept.
+  /// Returns the proxy with a number as ShownMesh::bytes(), with distances from the scene if they are asked for. Number
+  /// 0: the last one, or nothing if there is none. Throws bad_argument if the proxy is not kept, out_of_resource if it
+  /// has too many triangles.
   [[nodiscard]] std::string proxy(std::uint64_t number, bool distances) const;
 
   /// Returns a level of a file of --show, likewise. Throws as read_level() and SceneDistances::add_to().
@@ -50,6 +51,7 @@ class Session {
 
  private:
   void open_stream();
+  /// Reads the names of parts, and the triangles if the page shows them.
   void read_scene();
   void begin_design();
   void changed();  ///< called by the closing and the proxy job, on their threads
@@ -66,19 +68,20 @@ class Session {
   StreamHeader header_;
   std::unique_ptr<BrickShelf> solid_;  ///< until the closing takes it
   Vec3d middle_{};                     ///< of the scene; it is subtracted from positions that are sent
+  const std::uint64_t most_shown_;     ///< triangles of a scene or file
   std::string scene_bytes_;
   PartNames parts_;
+  std::once_flag read_;  ///< of read_scene()
   std::unique_ptr<SceneDistances> distances_;
-  std::uint64_t triangles_ = 0;
 
   mutable std::mutex mutex_;  ///< guards all that follows
   std::optional<Design> design_;
   std::uint64_t faces_ = 0;
   bool live_ = true;
   bool ends_ = false;
-  std::uint64_t meshed_ = 0, meshed_faces_ = 0;     ///< last request to job_
-  bool rules_saved_ = false, proxy_saved_ = false;  ///< saved by this session, so that their files may be replaced
-  std::uint64_t saved_revision_ = 0;
+  std::uint64_t meshed_ = 0, meshed_faces_ = 0;         ///< last request to job_
+  bool rules_saved_ = false, proxy_saved_ = false;      ///< saved by this session, so that their files may be replaced
+  std::uint64_t saved_revision_ = 0, saved_proxy_ = 0;  ///< the design and the number of the proxy that were saved last
   std::optional<MadeProxies> made_;
 
   // The closing, the job and the layers call changed(), so they are made last and destroyed first.

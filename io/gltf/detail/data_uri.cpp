@@ -1,5 +1,7 @@
 #include "io/gltf/detail/data_uri.h"
 
+#include <charconv>
+
 #include "io/gltf/base64.h"
 #include "io/scene/byte_stream.h"
 #include "lib/core/error.h"
@@ -37,6 +39,7 @@ class JsonLifter {
   [[nodiscard]] bool is_base64(std::size_t start) const;
   void lift(std::size_t start);
   void decode(ScratchFile* out);
+  char escaped();
   void flush(ScratchFile* out);
 
   std::string name_;
@@ -82,13 +85,17 @@ void JsonLifter::lift(std::size_t start) {
   json_.data.push_back(part_of(view_of(scratch_, name_), begin, scratch_->size() - begin));
 }
 
-// Decodes base64 up to the closing quote. JSON may write '/' as "\/".
+// Decodes base64 up to the closing quote. Other characters are refused: programs skip them, take them as digits, or
+// end there.
 void JsonLifter::decode(ScratchFile* out) {
   std::uint32_t group = 0;
   int bits = 0;
+  bool ended = false;
   for (char c = next(); c != '"'; c = next()) {
-    if (c == '\\' || c == '=') continue;
-    const int digit = base64_digit(c);
+    if (c == '\\') c = escaped();
+    ended = ended || c == '=';
+    if (c == '=') continue;
+    const int digit = ended ? -1 : base64_digit(c);
     if (digit < 0) fail(ErrorCode::bad_input, "{}: byte {}: broken base64 data", name_, bytes_.offset() - 1);
     group = group << 6 | std::uint32_t(digit);
     bits += 6;
@@ -99,6 +106,19 @@ void JsonLifter::decode(ScratchFile* out) {
     if (decoded_.size() >= 65536) flush(out);
   }
   flush(out);
+}
+
+// Returns the character that JSON escapes as \/ or \u002B, behind its backslash; a backslash for any other escape.
+char JsonLifter::escaped() {
+  constexpr int kHexDigits = 4, kHex = 16, kLastAscii = 127;
+  const char c = next();
+  if (c != 'u') return c == '/' ? c : '\\';
+  std::string hex;
+  for (int i = 0; i < kHexDigits; ++i) hex += next();
+  int code = 0;
+  const auto [end, error] = std::from_chars(hex.data(), hex.data() + hex.size(), code, kHex);
+  const bool whole = error == std::errc() && end == hex.data() + hex.size();
+  return whole && code >= 0 && code <= kLastAscii ? char(code) : '\\';
 }
 
 void JsonLifter::flush(ScratchFile* out) {

@@ -253,11 +253,19 @@ std::array<double, 4> GltfMaterials::base_color(std::uint64_t i) const {
   return rgba;
 }
 
-// Returns whether a material can be seen through: masks have holes, and blended materials show what is behind. The
-// alpha of an opaque material is ignored.
+bool transmits_light(const GltfObject& material) {
+  constexpr const char* kName = "KHR_materials_transmission";
+  if (!material.has_extension(kName)) return false;
+  const GltfObject glass = material.object("extensions").object(kName);
+  return glass.has("transmissionFactor") && glass.real("transmissionFactor") > 0;
+}
+
+// Returns whether a material can be seen through: masks have holes, and blended materials and glass show what is
+// behind. The alpha of an opaque material is ignored by viewers, but tells what its author meant.
 bool GltfMaterials::see_through(std::uint64_t i) const {
   const GltfObject material = doc_.root().item("materials", i);
-  return (material.has("alphaMode") && material.text("alphaMode") != "OPAQUE") || base_color(i)[3] < 1;
+  return (material.has("alphaMode") && material.text("alphaMode") != "OPAQUE") || base_color(i)[3] < 1 ||
+         transmits_light(material);
 }
 
 }  // namespace bp

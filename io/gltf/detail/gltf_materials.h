@@ -3,6 +3,9 @@
 
 namespace bp {
 
+/// Returns whether a material is glass by KHR_materials_transmission, whatever its alphaMode is.
+[[nodiscard]] bool transmits_light(const GltfObject& material);
+
 /// Reads the materials of a document. Throws bad_input where they are broken.
 class GltfMaterials {
  public:

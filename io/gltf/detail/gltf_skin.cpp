@@ -1,12 +1,15 @@
 #include "io/gltf/detail/gltf_skin.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace bp {
 
 namespace {
 
 constexpr std::size_t kEach = 4;  // joints of a vertex in one pair of attributes
+// Distance of the sum of a vertex' weights from 1: eight bytes, each rounded by half a step.
+constexpr double kMostOffOne = 1.0 / 64;
 
 void add(Affine& sum, double weight, const Affine& joint) {
   for (std::size_t i = 0; i < 3; ++i) {
@@ -16,6 +19,16 @@ void add(Affine& sum, double weight, const Affine& joint) {
       sum.m[i][j] = number.value;
       sum.off.set(i, j, number.bound());
     }
+  }
+}
+
+/// Throws Unfit unless inverse bind matrix `k` is affine. Exporters round its last row.
+void check_affine(const GltfObject& skin, const std::vector<double>& inverses, std::size_t k) {
+  constexpr double kMostOff = 1e-5;
+  constexpr std::array<double, 4> kLastRow{0, 0, 0, 1};
+  for (std::size_t j = 0; j < 4 && !inverses.empty(); ++j) {
+    if (!(std::abs(inverses[k * kMatrixNumbers + 4 * j + 3] - kLastRow[j]) <= kMostOff))
+      skin.unfit("has an inverse bind matrix whose last row is not 0 0 0 1");
   }
 }
 
@@ -32,6 +45,7 @@ GltfSkin::GltfSkin(GltfDocument& doc, const GltfObject& skin, const std::vector<
       skin.broken(fmt::format("has {} joints and {} matrices", count, inverses.size() / kMatrixNumbers));
   }
   for (std::size_t k = 0; k < count; ++k) {
+    check_affine(skin, inverses, k);
     const std::uint64_t node = skin.index("joints", k);
     if (node >= places.size() || !places[node]) skin.broken(fmt::format("has the joint {} outside the scene", node));
     Affine bound;
@@ -63,6 +77,7 @@ GltfSkin::Shares GltfSkin::read_shares(const GltfObject& attributes, const std::
                  parts = doc_.accessor(attributes.number(weights.c_str()), kEach);
   if (numbers.type != ComponentType::u8 && numbers.type != ComponentType::u16)
     attributes.broken(fmt::format("have {} that are not unsigned integers of 8 or 16 bits", joints));
+  if (numbers.normalized) attributes.unfit(fmt::format("have {} that are normalized", joints));
   if (numbers.count != vertices || parts.count != vertices) attributes.broken("have different counts");
   Shares shares{doc_.numbers(numbers, "the joints of vertices"), doc_.numbers(parts, "the weights of vertices")};
   for (const double joint : shares.joints) {
@@ -91,6 +106,21 @@ Affine GltfSkin::blend(const std::vector<Shares>& shares, std::uint64_t vertex) 
   }
   sum.blur(0x1p-48);  // rounding of a sum of at most 16 weights, and of the division
   return sum;
+}
+
+bool GltfSkin::are_whole(const GltfObject& attributes, std::uint64_t vertices) const {
+  const std::vector<Shares> shares = shares_of(attributes, vertices);
+  for (std::size_t set = 1; set < shares.size(); ++set) {  // many programs read the first one only
+    const std::vector<double>& weights = shares[set].weights;
+    if (std::any_of(weights.begin(), weights.end(), [](double weight) { return weight != 0; })) return false;
+  }
+  for (std::uint64_t v = 0; v < vertices; ++v) {
+    double all = 0;
+    for (const Shares& s : shares)
+      for (std::uint64_t i = kEach * v; i < kEach * (v + 1); ++i) all += s.weights[i];
+    if (!(std::abs(all - 1) <= kMostOffOne)) return false;
+  }
+  return true;
 }
 
 template <class Move>

@@ -18,6 +18,9 @@ class GltfSkin {
   /// share of a vertex: JOINTS_n and WEIGHTS_n, which need not sum to 1. A vertex without weight follows its first
   /// joint. In double. Throws out_of_resource if a primitive takes more than SceneOptions::document.
   [[nodiscard]] Accessor points(const GltfObject& attributes, const Accessor& positions) const;
+  /// Returns whether the weights of each vertex have the sum 1, but for the rounding of bytes. Programs disagree on
+  /// others: some divide by the sum, some do not.
+  [[nodiscard]] bool are_whole(const GltfObject& attributes, std::uint64_t vertices) const;
   /// As points(), for normals of any length.
   [[nodiscard]] Accessor normals(const GltfObject& attributes, const Accessor& normals) const;
 

@@ -101,6 +101,13 @@ std::vector<std::byte> in_type(const std::vector<std::uint32_t>& indices, Compon
   return out;
 }
 
+/// Throws Unfit for a primitive of Draco that is no list of triangles.
+void refuse_strip(const GltfObject& primitive) {
+  constexpr std::uint64_t kTriangles = 4;
+  if (primitive.number("mode", kTriangles) != kTriangles)
+    primitive.unfit("is a strip or a fan that Draco compressed, which programs unpack in different ways");
+}
+
 }  // namespace
 
 std::vector<std::byte> GltfDocument::packed_bytes(const View& view) const {
@@ -164,29 +171,49 @@ GltfDocument::View GltfDocument::unpacked(std::uint64_t i, const GltfObject& pac
                                same_data(*bytes_, own->address, what, plain));
     if (!same) ++differing_;
   }
-  const View view{keep(plain), plain.size(), what.stride};
+  const View view{keep(plain), plain.size(), root().item("bufferViews", i).number("byteStride", 0), what.stride};
   unpacked_.emplace(i, view);
   return view;
 }
 
-bool GltfDocument::unpack(const GltfObject& primitive) {
-  if (!primitive.has_extension(kDraco)) return false;
-  const GltfObject packed = primitive.object("extensions").object(kDraco), ids = packed.object("attributes");
+void GltfDocument::note_use(const GltfObject& primitive, std::uint64_t accessor, std::uint64_t packed_in) {
+  const auto [use, is_first] = packed_in_.emplace(accessor, packed_in);
+  if (!is_first && use->second != packed_in)
+    primitive.unfit(
+        fmt::format("shares accessors[{}] with a primitive whose data are compressed in another place", accessor));
+}
+
+void GltfDocument::note_plain_use(const GltfObject& primitive) {
   const GltfObject attributes = primitive.object("attributes");
-  const std::uint64_t numbers = primitive.number("indices");
+  if (primitive.has("indices")) note_use(primitive, primitive.number("indices"), kNotPacked);
+  for (const std::string& name : attribute_names()) {
+    if (attributes.has(name.c_str())) note_use(primitive, attributes.number(name.c_str()), kNotPacked);
+  }
+}
+
+bool GltfDocument::unpack(const GltfObject& primitive) {
+  const GltfObject attributes = primitive.object("attributes");
+  if (!primitive.has_extension(kDraco)) {
+    note_plain_use(primitive);
+    return false;
+  }
+  const GltfObject packed = primitive.object("extensions").object(kDraco), ids = packed.object("attributes");
+  refuse_strip(primitive);
+  const std::uint64_t numbers = primitive.number("indices"), packed_in = packed.number("bufferView");
+  note_use(primitive, numbers, packed_in);
   const GltfObject indices = root().item("accessors", numbers);
   const std::uint64_t triangles = indices.number("count") / 3;
-  const View bytes = view(packed.number("bufferView"));
+  const View bytes = view(packed_in);
   check_document(options_, file_->name(), "a primitive that is compressed",
                  bytes.size + std::min(triangles, std::uint64_t(1) << 50) * kDracoBytesPerTriangle,
                  options_.document.bytes);
   std::vector<DracoAttribute> values;
   std::vector<std::uint64_t> accessors;
-  // Another primitive may share its accessors: all of them or none.
   const bool known = unpacked_numbers_.contains(numbers);
   for (const std::string& name : attribute_names()) {
     if (!ids.has(name.c_str()) || !attributes.has(name.c_str())) continue;
     accessors.push_back(attributes.number(name.c_str()));
+    note_use(primitive, accessors.back(), packed_in);
     if (unpacked_numbers_.contains(accessors.back()) != known)
       packed.broken("shares some of its accessors with another primitive, and not all");
     values.push_back(attribute_of(root().item("accessors", accessors.back()), ids.number(name.c_str())));
@@ -203,6 +230,28 @@ bool GltfDocument::unpack(const GltfObject& primitive) {
     unpacked_numbers_[accessors[k]] = {keep(values[k].values), mesh.vertices};
   unpacked_numbers_[numbers] = {keep(in_type(mesh.indices, type)), mesh.indices.size()};
   return true;
+}
+
+/// Throws bad_input unless the numbers rise and stay below the accessor's count (glTF 2.0, section 3.6.2.3): readers
+/// differ on files that break this rule.
+void GltfDocument::check_sparse_numbers(const GltfObject& numbers, const Accessor& a) const {
+  constexpr std::uint64_t kAtOnce = 4096;
+  const std::size_t size = bytes_of(a.number_type);
+  if (a.number_type != ComponentType::u8 && a.number_type != ComponentType::u16 && a.number_type != ComponentType::u32)
+    numbers.broken("are not unsigned integers");
+  std::vector<std::byte> some(kAtOnce * size);
+  std::uint64_t least = 0;
+  for (std::uint64_t first = 0; first < a.replaced_count; first += kAtOnce) {
+    const std::uint64_t n = std::min(kAtOnce, a.replaced_count - first);
+    bytes_->read_at(a.replaced_numbers + first * size, std::span(some).first(n * size));
+    for (std::uint64_t k = 0; k < n; ++k) {
+      std::uint64_t number = 0;
+      std::memcpy(&number, some.data() + k * size, size);
+      if (number < least || number >= a.count)
+        numbers.broken(fmt::format("hold {} where numbers from {} to {} must rise", number, least, a.count));
+      least = number + 1;
+    }
+  }
 }
 
 }  // namespace bp

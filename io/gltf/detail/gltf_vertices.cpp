@@ -36,7 +36,7 @@ class VertexFinder {
 
   GltfPlan find() {
     reserve();
-    for (const std::uint64_t node : gltf_roots(root_)) open_.push_back({node, gltf_world(gltf_up(root_))});
+    for (const std::uint64_t node : gltf_roots(root_)) open_.push_back({node, gltf_world(root_)});
     std::reverse(open_.begin(), open_.end());
     while (!open_.empty()) {
       const Open next = open_.back();

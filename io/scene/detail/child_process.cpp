@@ -15,8 +15,10 @@
 #include <cstring>
 #include <exception>
 #include <new>
+#include <utility>
 
 #include "lib/core/error.h"
+#include "lib/core/parallel.h"
 
 namespace bp {
 
@@ -110,18 +112,21 @@ std::string message_of(const std::function<std::string()>& work) {
 
 enum class Reception { complete, late, large };
 
-/// Receives all bytes until the child closes its end, the time is over, or more has come than it may send.
+/// Receives all bytes until the child closes its end, the time is over, more has come than it may send, or the caller's
+/// work is to stop: then it throws Cancelled.
 Reception receive(int in, const ChildLimits& limits, std::string& message) {
   using Clock = std::chrono::steady_clock;
   const auto end = Clock::now() + std::chrono::seconds(limits.wall_seconds);
+  constexpr long long kGlanceMs = 50;
   char block[65536];
   for (;;) {
+    stop_if_asked();
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now()).count();
     if (left <= 0) return Reception::late;
     struct pollfd waiting {
       in, POLLIN, 0
     };
-    const int ready = ::poll(&waiting, 1, int(std::min<long long>(left, 1 << 20)));
+    const int ready = ::poll(&waiting, 1, int(std::min<long long>(left, kGlanceMs)));
     if (ready <= 0) continue;  // interrupted or too early: look at the clock again
     const ssize_t n = ::read(in, block, sizeof block);
     if (n < 0 && errno == EINTR) continue;
@@ -138,6 +143,29 @@ int wait_for(pid_t child) {
   return status;
 }
 
+/// A child of this process, and the end of the pipe that it writes to. It ends with this object at the latest.
+class Child {
+ public:
+  /// `pid`: of fork(), which may have failed.
+  Child(pid_t pid, int in) : pid_(pid), in_(in) {}
+  ~Child() {
+    ::close(in_);
+    if (pid_ > 0) (void)end(true);
+  }
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+  [[nodiscard]] int in() const { return in_; }
+  /// Waits for its end, and returns its status.
+  [[nodiscard]] int end(bool kill) {
+    if (kill) ::kill(pid_, SIGKILL);
+    return wait_for(std::exchange(pid_, 0));
+  }
+
+ private:
+  pid_t pid_;
+  int in_;
+};
+
 std::string why_killed(int signal, const ChildLimits& limits) {
   if (signal == SIGXCPU)
     return fmt::format("was still busy after {} seconds, longer than files of this size take, and was stopped",
@@ -153,19 +181,18 @@ std::string run_in_child(const std::string& name, const std::string& what, const
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0)
     fail(ErrorCode::out_of_resource, "{}: cannot make a pipe: {}", name, std::strerror(errno));
-  const pid_t child = ::fork();
-  if (child == 0) {
+  const pid_t pid = ::fork();
+  if (pid == 0) {
     ::close(ends[0]);
     run_child(ends[1], limits, work);
   }
   const int error = errno;
   ::close(ends[1]);
+  Child child(pid, ends[0]);
+  if (pid < 0) fail(ErrorCode::out_of_resource, "{}: cannot start a process: {}", name, std::strerror(error));
   std::string message;
-  const Reception reception = child > 0 ? receive(ends[0], limits, message) : Reception::late;
-  ::close(ends[0]);
-  if (child < 0) fail(ErrorCode::out_of_resource, "{}: cannot start a process: {}", name, std::strerror(error));
-  if (reception != Reception::complete) ::kill(child, SIGKILL);
-  const int status = wait_for(child);
+  const Reception reception = receive(child.in(), limits, message);
+  const int status = child.end(reception != Reception::complete);
   if (reception == Reception::large || (message.size() == 1 && message[0] == kMemory)) throw ChildOutOfMemory();
   if (WIFSIGNALED(status))
     fail(ErrorCode::bad_input, "{}: {} {}; {}", name, what, why_killed(WTERMSIG(status), limits), remedy);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <tuple>
 
 #include "io/files/beside.h"
 #include "io/files/utf8.h"
@@ -32,8 +34,12 @@ MemoryShare at_most(MemoryShare memory, double most) {
   return memory;
 }
 
+std::uint32_t hash_of(const std::string& name) {
+  return std::uint32_t(std::hash<std::string>()(name));
+}
+
 /// Clamps to [0, 1]; NaN becomes 0.
-double part_of(double x) {
+double clamped(double x) {
   return std::min(1.0, std::max(0.0, x));
 }
 
@@ -46,62 +52,110 @@ void MtlMaterials::load(const std::string& beside, const std::string& name) {
   if (beside.empty() || name.empty()) return;
   try {
     const std::string path = find_beside(folder_before(beside), name);
-    if (!fit() && files_.contains(path)) return;
+    const auto [found, is_new] = file_numbers_.try_emplace(path, std::uint32_t(files_.size()));
+    if (is_new) files_.push_back({&found->first, 0});
+    File& file = files_[found->second];
+    if (file.loaded != loads_ || is_new) kept_.clear(), kept_bytes_ = 0, file.loaded = ++loads_;
+    if (!is_new) return;
     if (fit()) too_many_ = path;
-    read(path);
+    list(path, found->second);
   } catch (const Error&) {
     return;
   }
 }
 
 void MtlMaterials::refuse() const {
-  throw NeedsMemory(fmt::format("{}: the list of materials", too_many_), bytes_, memory_.bytes,
-                    memory_.limit_for(bytes_));
+  throw NeedsMemory(fmt::format("{}: the list of materials", too_many_), bytes(), memory_.bytes,
+                    memory_.limit_for(bytes()));
 }
 
 void MtlMaterials::clear() {
-  materials_.clear();
-  files_.clear();
-  bytes_ = count_ = 0;
+  file_numbers_.clear(), files_.clear();
+  places_.clear(), kept_.clear();
+  loads_ = count_ = kept_bytes_ = 0;
+  open_.reset();
 }
 
-/// Returns the material of this name, without properties. Once the materials do not fit: one that is never found.
-MtlMaterials::Material& MtlMaterials::renewed(const std::string& name) {
-  // with the tree's links, and bytes that the allocator adds
-  constexpr std::uint64_t kNodeBytes = sizeof(decltype(materials_)::value_type) + 6 * sizeof(void*);
-  ++count_;
-  if (!fit()) {
-    bytes_ += kNodeBytes + heap_bytes(name);
-    return counted_ = {};
-  }
-  const auto [found, is_new] = materials_.try_emplace(name);
-  if (is_new) {
-    bytes_ += kNodeBytes + heap_bytes(name);
-  } else {
-    --count_;
-    bytes_ -= found->second.heap_bytes();
-  }
-  return found->second = {};
-}
-
-void MtlMaterials::read(const std::string& path) {
+/// Lists the materials of a file. If the file is broken further on, those before count.
+void MtlMaterials::list(const std::string& path, std::uint32_t file) {
   TextScanner text(open_scene_file(path, "", NamedBy::file));
-  const std::string& file = *files_.insert(path).first;
-  Material* current = nullptr;
-  for (; !text.at_end(); text.next_line()) {
-    if (!text.word_on_line()) continue;
-    const std::string key(text.word());
-    if (key == "newmtl") {
-      const std::string name = text.rest_of_line();
+  std::string name;
+  std::optional<std::uint64_t> begin;
+  const auto add_last = [&] {
+    if (begin) add(name, file, *begin, text.offset());
+    begin.reset();
+  };
+  try {
+    for (; !text.at_end(); text.next_line()) {
+      if (!text.word_on_line() || text.peek() != 'n') continue;
+      const std::uint64_t here = text.offset();
+      if (text.word() != "newmtl") continue;
+      if (begin) add(name, file, *begin, here);
+      begin.reset();
       if (count_ == kMost) return;
-      current = &renewed(name);
-      current->file = &file;
-    } else if (current != nullptr) {
-      const std::uint64_t before = current->heap_bytes();
-      read_line(text, key, *current);
-      bytes_ += current->heap_bytes() - before;
+      name = text.rest_of_line();
+      begin = here;
     }
+  } catch (const Error&) {
+    return add_last();
   }
+  add_last();
+}
+
+/// Adds the place of a material. Once the places do not fit, it only counts them.
+void MtlMaterials::add(const std::string& name, std::uint32_t file, std::uint64_t begin, std::uint64_t end) {
+  constexpr std::uint64_t kMostLength = (1ULL << Place::kLengthBits) - 1, kMostOffset = ~0ULL >> Place::kLengthBits;
+  if (begin > kMostOffset) return;
+  ++count_;
+  if (!fit()) return;
+  const std::uint64_t length = std::min(end - begin, kMostLength);
+  places_.push_back({hash_of(name), file, begin << Place::kLengthBits | length});
+  sorted_ = false;
+}
+
+/// Returns the material of this name; null if there is none. Valid until the next call.
+MtlMaterials::Material* MtlMaterials::find_to_change(const std::string& name) {
+  // with the tree's links, and bytes that the allocator adds
+  constexpr std::uint64_t kNodeBytes = sizeof(decltype(kept_)::value_type) + 6 * sizeof(void*);
+  auto found = kept_.find(name);
+  if (found == kept_.end()) {
+    if (kept_bytes_ > kMostKept) kept_.clear(), kept_bytes_ = 0;
+    found = kept_.emplace(name, read(name)).first;
+    kept_bytes_ += kNodeBytes + heap_bytes(name) + found->second.heap_bytes();
+  }
+  return found->second.file == nullptr ? nullptr : &found->second;
+}
+
+/// Reads the material of this name: of several, the last one of the file that was loaded last.
+MtlMaterials::Material MtlMaterials::read(const std::string& name) {
+  const auto by_hash = [](const Place& a, const Place& b) { return a.hash < b.hash; };
+  if (!sorted_) std::sort(places_.begin(), places_.end(), by_hash);
+  sorted_ = true;
+  const auto [first, last] = std::equal_range(places_.begin(), places_.end(), Place{hash_of(name), 0, 0}, by_hash);
+  std::vector<Place> candidates(first, last);
+  std::sort(candidates.begin(), candidates.end(), [&](const Place& a, const Place& b) {
+    return std::make_tuple(files_[a.file].loaded, a.at()) > std::make_tuple(files_[b.file].loaded, b.at());
+  });
+  Material material;
+  for (const Place& place : candidates)
+    if (read_at(place, name, material)) return material;
+  return {};
+}
+
+/// Reads the material at a place. Returns false if it has another name. Lines that cannot be read are left out.
+bool MtlMaterials::read_at(const Place& place, const std::string& name, Material& material) {
+  try {
+    if (!open_ || open_number_ != place.file)
+      open_ = open_scene_file(*files_[place.file].path, "", NamedBy::file), open_number_ = place.file;
+    TextScanner text(part_of(open_, place.at(), place.length()));
+    if (!text.word_on_line() || text.word() != "newmtl" || text.rest_of_line() != name) return false;
+    material.file = files_[place.file].path;
+    for (text.next_line(); !text.at_end(); text.next_line())
+      if (text.word_on_line()) read_line(text, std::string(text.word()), material);
+  } catch (const Error&) {
+    return material.file != nullptr;
+  }
+  return true;
 }
 
 void MtlMaterials::read_line(TextScanner& text, const std::string& key, Material& material) {
@@ -117,9 +171,9 @@ void MtlMaterials::read_line(TextScanner& text, const std::string& key, Material
   } else if (key == "Ke") {
     if (numbers(rgb)) material.emission = color_from_srgb(rgb);
   } else if (key == "Pr") {
-    if (numbers(x)) material.roughness = part_of(x[0]);
+    if (numbers(x)) material.roughness = clamped(x[0]);
   } else if (key == "Pm") {
-    if (numbers(x)) material.metal = part_of(x[0]);
+    if (numbers(x)) material.metal = clamped(x[0]);
   } else if (key == "d" || key == "Tr") {
     if (!numbers(x) || !(x[0] < 1 && (key == "d" || x[0] > 0))) return;
     material.see_through = true;
@@ -251,9 +305,9 @@ TextureSurface MtlMaterials::surface_of(const Material& material, TextureTable& 
 }
 
 std::uint32_t MtlMaterials::texture(const std::string& material, TextureTable& textures, bool surface, bool details) {
-  const auto found = materials_.find(material);
-  if (found == materials_.end()) return TriangleTexture::kNoMaterial;
-  Material& m = found->second;
+  Material* const found = find_to_change(material);
+  if (found == nullptr) return TriangleTexture::kNoMaterial;
+  Material& m = *found;
   if (m.number) return *m.number;
   TextureMaterial t;
   if (surface) t.surface = surface_of(m, textures);
@@ -276,30 +330,30 @@ std::uint32_t MtlMaterials::texture(const std::string& material, TextureTable& t
   return *m.number;
 }
 
-bool MtlMaterials::has_image(const std::string& material) const {
-  const auto found = materials_.find(material);
-  return found != materials_.end() && found->second.has_image();
+bool MtlMaterials::has_image(const std::string& material) {
+  const Material* const found = find(material);
+  return found != nullptr && found->has_image();
 }
 
-std::array<float, 2> MtlMaterials::place(const std::string& material, double u, double v) const {
-  const auto found = materials_.find(material);
-  if (found == materials_.end()) return {};
-  const std::array<double, 4>& by = found->second.first_map().uv;
+std::array<float, 2> MtlMaterials::place(const std::string& material, double u, double v) {
+  const Material* const found = find(material);
+  if (found == nullptr) return {};
+  const std::array<double, 4>& by = found->first_map().uv;
   return {float(by[0] * u + by[1]), float(1 - (by[2] * v + by[3]))};
 }
 
-LinearColor MtlMaterials::color(const std::string& material, bool surface) const {
-  const auto found = materials_.find(material);
-  if (found == materials_.end()) return kWhite;
-  const Material& m = found->second;
+LinearColor MtlMaterials::color(const std::string& material, bool surface) {
+  const Material* const found = find(material);
+  if (found == nullptr) return kWhite;
+  const Material& m = *found;
   if (surface || m.has_image()) return m.color;
   const auto sum = [](std::uint16_t a, std::uint16_t b) { return std::uint16_t(std::min(65535, int(a) + int(b))); };
   return {sum(m.color.r, m.emission.r), sum(m.color.g, m.emission.g), sum(m.color.b, m.emission.b)};
 }
 
-bool MtlMaterials::see_through(const std::string& material) const {
-  const auto found = materials_.find(material);
-  return found != materials_.end() && found->second.see_through;
+bool MtlMaterials::see_through(const std::string& material) {
+  const Material* const found = find(material);
+  return found != nullptr && found->see_through;
 }
 
 }  // namespace bp

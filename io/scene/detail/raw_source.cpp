@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 
 #include "io/scene/instanced_scene.h"
 #include "lib/core/error.h"
+#include "lib/core/vec3.h"
 
 namespace bp {
 
@@ -87,14 +87,6 @@ void drop_signs_of_zeros(TriangleD& t) {
   for (Vec3d& p : t) {
     for (double& c : p) c += 0.0;
   }
-}
-
-bool is_finite(const TriangleD& t) {
-  bool finite = true;
-  for (const Vec3d& p : t) {
-    for (const double c : p) finite &= std::abs(c) <= std::numeric_limits<double>::max();
-  }
-  return finite;
 }
 
 void check_document(const SceneOptions& options, const std::string& name, const char* what, std::uint64_t bytes,

@@ -25,24 +25,26 @@ bool ends_number(char c) {
 
 }  // namespace
 
-TextScanner::TextScanner(SceneFilePtr file, Mark from) : file_(std::move(file)), buffer_(new char[kBuffer + 1]) {
+TextScanner::TextScanner(SceneFilePtr file, Mark from)
+    : file_(std::move(file)), buffer_(new char[kBuffer + 2]), text_(buffer_.get() + 1) {
   seek(from);
 }
 
 void TextScanner::seek(Mark mark) {
   begin_ = mark.offset;
   line_ = mark.line;
-  cur_ = end_ = buffer_.get();
-  *end_ = '\n';
+  cur_ = end_ = text_;
+  *end_ = cur_[-1] = '\n';
   eof_ = false;
 }
 
 bool TextScanner::refill() {
   if (eof_) return false;
   const auto kept = std::size_t(end_ - cur_);
-  begin_ += std::uint64_t(cur_ - buffer_.get());
-  std::memmove(buffer_.get(), cur_, kept);
-  cur_ = buffer_.get();
+  begin_ += std::uint64_t(cur_ - text_);
+  text_[-1] = cur_[-1];
+  std::memmove(text_, cur_, kept);
+  cur_ = text_;
   const std::size_t got = file_->read_at(begin_ + kept, std::as_writable_bytes(std::span(cur_ + kept, kBuffer - kept)));
   end_ = cur_ + kept + got;
   eof_ = kept + got < kBuffer;
@@ -53,9 +55,20 @@ bool TextScanner::refill() {
 
 void TextScanner::line_end() {
   if (*cur_ == '\r' && cur_ + 1 == end_) refill();  // an LF may follow
-  if (*cur_ == '\r' && cur_ + 1 != end_ && cur_[1] == '\n') ++cur_;
-  ++cur_;
+  const bool has_return = *cur_ == '\r', is_last = cur_ + 1 == end_;
+  const bool has_feed = !has_return || (!is_last && cur_[1] == '\n');
+  cur_ += has_return && has_feed ? 2 : 1;
   ++line_;
+  if (offset() <= counted_to_ || (has_return && is_last)) return;
+  counted_to_ = offset();
+  ++(has_feed ? ends_.line_feeds : ends_.lone_returns);
+}
+
+void TextScanner::go_on() {
+  const bool is_new = offset() >= counted_to_, touches_word = !ends_word(cur_[-1]);
+  ++cur_;
+  line_end();
+  if (is_new && touches_word && !at_end() && !ends_word(*cur_)) ++ends_.joints;
 }
 
 // Looks further where a run of blanks ended at a line end, a backslash, a control character or the end of the buffer.
@@ -65,8 +78,7 @@ TextScanner::Next TextScanner::look_ahead() {
   if (*cur_ == '\\') {
     if (cur_ + 1 == end_) refill();
     if (cur_ + 1 == end_ || !is_line_end(cur_[1])) return Next::word;
-    ++cur_;
-    line_end();
+    go_on();
     return Next::blank;
   }
   if (is_odd_blank(*cur_)) {
@@ -92,11 +104,16 @@ bool TextScanner::word_anywhere(char comment) {
   }
 }
 
-void TextScanner::next_line() {
+bool TextScanner::next_line() {
   do {
     while (!is_line_end(*cur_)) ++cur_;
-    if (cur_ != end_) return line_end();
+    if (cur_ != end_) {
+      const bool continued = cur_[-1] == '\\';
+      line_end();
+      return continued;
+    }
   } while (refill());
+  return false;
 }
 
 std::string_view TextScanner::word() {
@@ -112,12 +129,24 @@ std::string_view TextScanner::word() {
 
 std::string TextScanner::rest_of_line() {
   std::string line;
-  while (word_on_line()) {
+  while (has_more() && !goes_on() && word_on_line()) {
     if (!line.empty()) line.push_back(' ');
     const std::string_view next = word();
     line.append(next.begin(), next.end());
   }
   return line;
+}
+
+bool TextScanner::has_more() {
+  do {
+    while (*cur_ == ' ' || *cur_ == '\t' || is_odd_blank(*cur_)) ++cur_;
+  } while (cur_ == end_ && refill());
+  return cur_ != end_ && !is_line_end(*cur_);
+}
+
+bool TextScanner::goes_on() {
+  if (cur_ + 1 == end_) refill();
+  return *cur_ == '\\' && cur_ + 1 != end_ && is_line_end(cur_[1]);
 }
 
 void TextScanner::skip_word() {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 
+#include "lib/check/detail/faces/other_diagonals.h"
 #include "lib/check/detail/gap.h"
 #include "lib/core/parallel.h"
 #include "lib/core/vec3.h"
@@ -63,10 +64,6 @@ Vec3d centre(const TriangleD& t) {
   return c;
 }
 
-bool all_finite(const TriangleD& t) {
-  return std::all_of(t.begin(), t.end(), [](const Vec3d& p) { return is_finite(p); });
-}
-
 void check_gap(const WeldedMesh& mesh, const Surface& surface, const EnclosureQuestion& question, std::uint64_t number,
                const TriangleD& t, EnclosureReport& e) {
   if (question.margin == 0 || surface.bvh().empty()) return;
@@ -75,20 +72,6 @@ void check_gap(const WeldedMesh& mesh, const Surface& surface, const EnclosureQu
   if (gap.answer == Answer::proven) return;
   const std::uint64_t other = mesh.number[surface.triangle(gap.item)];
   (gap.answer == Answer::refuted ? e.too_near : e.perhaps_near).add({number, other, centre(t)}, question.max_examples);
-}
-
-/// Returns whether all triangles of a polygon lie in one plane; false if a coordinate is not finite.
-bool is_flat(std::span<const TriangleD> polygon) {
-  if (!std::all_of(polygon.begin(), polygon.end(), all_finite)) return false;
-  const auto plane =
-      std::find_if(polygon.begin(), polygon.end(), [](const TriangleD& t) { return !collinear(t[0], t[1], t[2]); });
-  if (plane == polygon.end()) return true;
-  const TriangleD& a = *plane;
-  const auto is_in_plane = [&](const Vec3d& p) {
-    return p == a[0] || p == a[1] || p == a[2] || orient3d(a[0], a[1], a[2], p) == 0;
-  };
-  return std::all_of(polygon.begin(), polygon.end(),
-                     [&](const TriangleD& t) { return std::all_of(t.begin(), t.end(), is_in_plane); });
 }
 
 /// Checks the triangles of a batch.
@@ -110,7 +93,7 @@ class EnclosureCheck {
     if (polygon.size() < 2 || is_flat(polygon)) return;
     ++report_.bent;
     const TriangleD &t = polygon.front(), &last = polygon.back();
-    const bool both = polygon.size() == 2 && all_finite(t) && all_finite(last) && is_enclosed({t[0], t[1], last[2]}) &&
+    const bool both = polygon.size() == 2 && is_finite(t) && is_finite(last) && is_enclosed({t[0], t[1], last[2]}) &&
                       is_enclosed({t[1], t[2], last[2]});
     if (!both) ++report_.bent_open;
   }
@@ -160,7 +143,7 @@ void check_batch(const WeldedMesh& mesh, const Surface& surface, const InsideCel
     }
     const Bounds3d box = bounds_of(t);
     e.bounds.merge(box);
-    if (!all_finite(t)) {
+    if (!is_finite(t)) {
       e.undecidable.add({number, 0, t[0]}, question.max_examples);
       return;
     }

@@ -1,6 +1,7 @@
 #include "lib/check/detail/surface.h"
 
 #include <algorithm>
+#include <atomic>
 #include <tuple>
 
 #include "lib/core/parallel.h"
@@ -13,9 +14,13 @@ namespace bp {
 namespace {
 
 constexpr std::int64_t kGrain = 256;  // triangles per work item
-// Meetings that are counted for one triangle. Where a hundred thousand triangles lie at one place, all pairs meet: that
-// is too many to count, and the first ones tell it.
-constexpr std::uint64_t kMostMet = 200;
+// Meetings that are counted in one work item: 20 for each triangle, and as many as there are for a few large ones.
+// Where a hundred thousand triangles lie at one place, all pairs meet. That is too many to count, and the first ones
+// tell it.
+constexpr std::uint64_t kMostMet = 20 * kGrain;
+// Pairs of overlapping boxes that are tested at most, and as many more for each triangle: some seconds. Thin
+// slivers side by side have the same box, so that all pairs of them would be tested.
+constexpr std::uint64_t kMostPairs = std::uint64_t(1) << 27, kPairsEach = 256;
 
 std::vector<std::uint32_t> with_area(const WeldedMesh& mesh) {
   std::vector<std::uint32_t> list;
@@ -94,25 +99,31 @@ Surface::Surface(const WeldedMesh& mesh) : mesh_(mesh), triangle_(with_area(mesh
 
 Finding Surface::self_intersections(std::size_t max_examples, bool within_parts) const {
   const auto n = std::int64_t(bvh_.size());
+  const std::uint64_t most = kMostPairs + kPairsEach * std::uint64_t(n);
+  std::atomic<std::uint64_t> pairs = 0;
   std::vector<Finding> found(std::size_t((n + kGrain - 1) / kGrain));
   parallel_ranges(n, kGrain, [&](std::int64_t begin, std::int64_t end) {
     Finding& here = found[std::size_t(begin / kGrain)];
-    for (std::int64_t i = begin; i < end; ++i) {
+    for (std::int64_t i = begin; i < end && !here.at_least && pairs <= most; ++i) {
+      std::uint64_t seen = 0;
       const TriangleBvh::Item& a = bvh_.item(std::size_t(i));
       const auto& corners_a = mesh_.triangles[triangle_[a.id]];
-      std::uint64_t met = 0;
-      bvh_.visit(bounds_of(a.corners), [&](const TriangleBvh::Item& b) {
+      here.at_least = bvh_.visit(bounds_of(a.corners), [&](const TriangleBvh::Item& b) {
+        ++seen;
         if (b.id > a.id && (!within_parts || mesh_.component[triangle_[a.id]] == mesh_.component[triangle_[b.id]]) &&
-            triangles_meet_beyond_shared(mesh_.points.data(), corners_a, mesh_.triangles[triangle_[b.id]])) {
+            triangles_meet_beyond_shared(mesh_.points.data(), corners_a, mesh_.triangles[triangle_[b.id]]))
           add_sorted(here, {mesh_.number[triangle_[a.id]], mesh_.number[triangle_[b.id]], a.corners[0]}, max_examples);
-          ++met;
-        }
-        return met == kMostMet;
+        return here.count == kMostMet;
       });
-      here.at_least |= met == kMostMet;
+      pairs += seen;
     }
   });
   Finding all;
+  // The number of pairs does not depend on the threads, and what was found before does.
+  if (pairs > most) {
+    all.at_least = true;
+    return all;
+  }
   for (const Finding& f : found) {
     for (const Example& e : f.examples) add_sorted(all, e, max_examples);
     all.count += f.count - f.examples.size();

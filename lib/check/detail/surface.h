@@ -16,7 +16,7 @@ class Surface {
   [[nodiscard]] Bounds3d bounds() const { return bounds_; }
 
   /// Finds every pair of triangles (of one component if `within_parts`) that meet beyond the corner or edge they share.
-  /// O((n + pairs) log n) in practice, parallel.
+  /// O((n + pairs) log n) in practice, parallel. If too many boxes overlap, nothing is counted, and `at_least` is set.
   [[nodiscard]] Finding self_intersections(std::size_t max_examples, bool within_parts = false) const;
 
   static constexpr std::int64_t kNone = -1;

@@ -20,7 +20,7 @@ constexpr double kStay = 0.02;  // weight of a vertex's old place, over the weig
 // A face is held to a plane of the scene if this share of its points lies in the plane, within this angle (cosine) and
 // distance.
 constexpr double kMostPoints = 0.7, kSameNormal = 0.996, kSamePlane = 0.1 * kLatticePerVoxel;
-constexpr std::size_t kFewPoints = 4, kMostCandidates = 16;
+constexpr std::size_t kMostCandidates = 16;
 constexpr double kFlipGain = 0.1;  // a flip must save this share of the squared distances of the points of both faces
 constexpr int kRoundsPerFlips = 3;
 
@@ -86,7 +86,7 @@ class Settler {
   /// Returns the plane in which most of the face's points lie.
   [[nodiscard]] std::optional<FitPlace> plane_of(FaceId f) const {
     const std::span<const std::uint32_t> points = points_.of(f);
-    if (points.size() < kFewPoints) return std::nullopt;
+    if (points.empty()) return std::nullopt;
     std::size_t most = 0;
     FitPlace best;
     for (std::size_t k = 0; k < points.size(); k += 1 + points.size() / kMostCandidates) {

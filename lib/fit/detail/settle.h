@@ -2,6 +2,7 @@
 #include <span>
 
 #include "lib/fit/fit_place.h"
+#include "lib/mesh/half_edge_mesh.h"
 #include "lib/simplify/simplify.h"
 
 /// The last step of a fit: vertices move to where the mesh is nearest to the points of the scene, in the least squares

@@ -109,8 +109,7 @@ class CellCloser {
   [[nodiscard]] std::vector<CellCoord> cells_in_reach() const {
     std::set<CellCoord> cells;
     for (const BrickCoord brick : solid_.coords()) {
-      const VoxelBox reach =
-          voxels_of(BrickBox{brick, {brick.x + 1, brick.y + 1, brick.z + 1}}).grown(closer_.widest().dilation_vox);
+      const VoxelBox reach = voxels_of(brick).grown(closer_.widest().dilation_vox);
       const CellCoord first = options_.cells.of(reach.min);
       const CellCoord last = options_.cells.of({reach.max.x - 1, reach.max.y - 1, reach.max.z - 1});
       for_each(Box<CellCoord>{first, {last.x + 1, last.y + 1, last.z + 1}}, [&](CellCoord c) { cells.insert(c); });

@@ -15,6 +15,8 @@
 #include "lib/grid/header_fault.h"
 #include "lib/grid/shelf_stream.h"
 #include "lib/grid/tile_grid.h"
+#include "lib/pass/close/detail/earlier_tiles.h"
+#include "lib/pass/close/detail/tile_choice.h"
 #include "lib/pass/close/detail/tile_closer.h"
 
 namespace bp {
@@ -22,54 +24,6 @@ namespace bp {
 namespace {
 
 constexpr std::size_t kBricksAtATime = 128;  // bricks that are taken off the shelf together to be written: 8 MiB
-constexpr std::int32_t kMaxTileVox = 512;    // beyond that, halos cost little and tiles get few
-
-/// Returns the bytes that closing one tile of a grid takes if every voxel of tile and halo is occupied: the boxes of
-/// close_tile(), and as much again as the tile itself for the components of its empty voxels.
-double tile_bytes(const VoxelCoord& grid, std::int32_t tile, const Halo& halo, bool turned) {
-  const auto box_bytes = [&](std::int32_t margin) {
-    double bytes = 1.0 / 8;
-    for (int axis = 0; axis < 3; ++axis)
-      bytes *= std::min(double(tile) + 2.0 * margin, double(grid[axis])) + (axis == 0 ? 126 : 0);
-    return bytes;
-  };
-  const double solid = box_bytes(halo.total_vox()), dilation = box_bytes(halo.erosion_vox), core = box_bytes(0);
-  const double side = std::min(double(tile) + 2.0 * halo.total_vox(), double(std::max({grid.x, grid.y, grid.z})));
-  const double distances = 6 * (side + 160) * (side + 2);  // three slices of a varying cube dilation
-  constexpr double kTransform = 8 << 20;                   // a block of rows of the ball transform
-  // Turned cubes need their open voxels, and two sets of tables with 4 slices, whose rows are longer by two reaches.
-  const double levels = std::bit_width(std::uint32_t(2 * halo.dilation_vox + 1));
-  const double rows = turned ? 3 * dilation + (4 * levels + 8) / 8 * (side + 320) * (side + 24) : 0;
-  const double cubes = turned ? double(turned_cubes_bytes(halo.dilation_vox)) : 0;
-  return 3 * solid + 4 * dilation + 4 * core + distances + kTransform + rows + cubes;
-}
-
-/// Returns the tile size with the best product: of the workers that fit in memory and find enough tiles, and of the
-/// share of the voxels they read that are not halo.
-std::int32_t choose_tile(const VoxelCoord& grid, const Halo& halo, std::size_t workers, std::uint64_t memory_bytes,
-                         std::int32_t largest, bool turned) {
-  std::int32_t best = kBrickEdge;
-  double best_score = 0;
-  for (std::int32_t tile = kBrickEdge; tile <= largest; tile += kBrickEdge) {
-    const double fit = std::floor(double(memory_bytes) / tile_bytes(grid, tile, halo, turned));
-    double count = 1;
-    for (int axis = 0; axis < 3; ++axis) count *= std::ceil(double(grid[axis]) / tile);
-    const double busy = std::min({double(workers), fit, std::max(1.0, count / 3)});
-    const double share = double(tile) / (tile + halo.total_vox());
-    const double score = busy * share * share;
-    if (score > best_score) {
-      best = tile;
-      best_score = score;
-    }
-  }
-  return best;
-}
-
-/// Returns the bytes of a worker's share of the memory that its tile leaves.
-std::size_t left_of(std::uint64_t memory_bytes, double tile_bytes, std::size_t workers) {
-  constexpr double kShare = 0.75;  // the lists of open voxels come on top
-  return std::size_t(std::max(0.0, kShare * (double(memory_bytes) / double(workers) - tile_bytes)));
-}
 
 /// Closes a stream. A slab here is one step of tiles across the slab axis.
 class StreamCloser {
@@ -85,6 +39,7 @@ class StreamCloser {
         header_(source.header()),
         axis_(header_.slab_axis),
         widest_(widest_halo(scale.upper_bound(header_.frame), params_)),
+        earlier_(options.earlier, scale, header_.frame, params_),
         solid_(options.context.make_shelf()),
         closing_(options.context.make_shelf()) {
     lay_tiles(backends);
@@ -137,6 +92,7 @@ class StreamCloser {
   const StreamHeader& header_;
   const int axis_;
   const Halo widest_;
+  const EarlierTiles earlier_;
   const std::unique_ptr<BrickShelf> solid_, closing_;
   TileGrid tiles_;
   std::unique_ptr<TileCloser> closer_;
@@ -164,9 +120,10 @@ void StreamCloser::lay_tiles(Backends& backends) {
   const std::size_t workers = std::max(backends.size(), std::size_t(thread_count()));
   // Halos are cheap on a GPU, so that small tiles keep all threads busy.
   const bool small = backends.size() < workers && widest_.total_vox() <= kMaxTileVox / 8;
-  const std::int32_t edge = options_.tile_vox != 0 ? options_.tile_vox
-                                                   : choose_tile(grid.size(), widest_, workers, memory.bytes,
-                                                                 small ? kMaxTileVox / 2 : kMaxTileVox, turned);
+  const std::int32_t largest = earlier_.mostly_stays() ? EarlierTiles::kMostVox : small ? kMaxTileVox / 2 : kMaxTileVox;
+  const std::int32_t edge = options_.tile_vox != 0
+                                ? options_.tile_vox
+                                : choose_tile(grid.size(), widest_, workers, memory.bytes, largest, turned);
   if (edge < 0 || edge % kBrickEdge != 0)
     fail(ErrorCode::bad_argument, "a tile of {} voxels a side is no multiple of {}", edge, kBrickEdge);
   const double bytes = tile_bytes(grid.size(), edge, widest_, turned);
@@ -234,14 +191,22 @@ void StreamCloser::take_brick() {
 
 void StreamCloser::close(TileCoord tile) {
   const VoxelBox box = tiles_.box(tile);
-  const Halo halo = closer_->halo(box);
-  if (!closer_->in_reach(box, halo)) return;
-  ++tiles_closed_;
-  for (std::int32_t most = halo_vox_;
-       most < halo.total_vox() && !halo_vox_.compare_exchange_weak(most, halo.total_vox());)
-    ;
+  const bool stays = earlier_.stays(box);
+  Halo halo;
+  if (!stays) {
+    halo = closer_->halo(box);
+    if (!closer_->in_reach(box, halo)) return;
+    ++tiles_closed_;
+    for (std::int32_t most = halo_vox_;
+         most < halo.total_vox() && !halo_vox_.compare_exchange_weak(most, halo.total_vox());)
+      ;
+  }
   const Pool<std::unique_ptr<BitBox>>::Lease closed(*boxes_);
-  closer_->close(box, halo, *closed);
+  if (stays) {
+    earlier_.load(box, *closed);
+  } else {
+    closer_->close(box, halo, *closed);
+  }
   closer_->keep(box, *closed);
 }
 
@@ -277,7 +242,7 @@ void StreamCloser::fill_cavities(std::int32_t slab, SlabTiles& tiles) {
     tile[axis_] = slab;
     if (!closer_->has_enclosed(tiles_.box(tile))) return;
     const Pool<std::unique_ptr<BitBox>>::Lease bits(*boxes_);
-    cavity_voxels_ += closer_->fill(tiles_.box(tile), *bits);
+    cavity_voxels_ += closer_->fill(tiles_.box(tile), *bits, options_.filled);
     const std::lock_guard lock(mutex);
     tiles.insert(tile);
   });

@@ -1,6 +1,7 @@
 #pragma once
 #include "lib/device/backend.h"
 #include "lib/grid/stream.h"
+#include "lib/pass/close/earlier_closing.h"
 #include "lib/pass/context.h"
 
 /// The work of bpclose: solid bricks come in, and the same bricks and their closing go out, tile by tile, out of core.
@@ -15,6 +16,9 @@ struct CloseOptions {
   std::int32_t tile_vox = 0;   ///< 0: chosen by memory, halo and number of backends; else a multiple of 64
   bool keep_cavities = false;  ///< cavities that the closing encloses stay empty
   PassContext context;         ///< it makes two shelves: solid and closing
+  /// Tiles in whose reach no scale has changed are taken from it; null: all tiles are closed. It changes no voxel.
+  const EarlierClosing* earlier = nullptr;
+  BrickShelf* filled = nullptr;  ///< gets the voxels of cavities that are filled; may be null
 };
 
 /// Where the time went, in seconds, summed over the threads at work.
@@ -31,7 +35,7 @@ struct CloseTimes {
 struct CloseCounts {
   std::int32_t tile_vox = 0;
   std::uint64_t tiles = 0;                             ///< in the grid
-  std::uint64_t tiles_closed = 0;                      ///< visited, with solid bricks in reach
+  std::uint64_t tiles_closed = 0;                      ///< visited, with solid bricks in reach, and closed anew
   std::int32_t halo_vox = 0;                           ///< the largest of any visited tile
   std::uint64_t solid_bricks = 0, closing_bricks = 0;  ///< written
   std::uint64_t cavity_voxels = 0;                     ///< voxels that the closing encloses, and that were filled

@@ -1,6 +1,7 @@
 #include "lib/pass/hide/hidden_pass.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <bit>
 #include <cmath>
@@ -10,9 +11,9 @@
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/grid/brick_voxels.h"
-#include "lib/grid/count_bits.h"
 #include "lib/grid/shelf_stream.h"
 #include "lib/pass/mesh/complement.h"
+#include "lib/volume/boundary_runs.h"
 #include "lib/volume/dilate.h"
 
 namespace bp {
@@ -141,18 +142,54 @@ class Walls {
   /// voxels.
   void take_gaps(const BitBox& solid, BitBox& added) const {
     BitBox gaps(added.box());
-    for (int axis = 0; axis < 3; ++axis) {
-      VoxelCoord next{0, 0, 0};
-      next[axis] = 1;
-      for_each_voxel(added, [&](VoxelCoord first) {
-        if (!solid.test(first - next)) return;
-        VoxelCoord end = first;
-        while (end[axis] - first[axis] <= reach_.gap && added.test(end)) end[axis] += 1;
-        if (end[axis] - first[axis] > reach_.gap || !solid.test(end)) return;
-        for (VoxelCoord p = first; p != end; p[axis] += 1) gaps.set(p);
-      });
-    }
+    const VoxelCoord size = added.box().size();
+    const std::int64_t row = added.words_per_row(), layer = row * size.y;
+    for (std::int64_t i = 0; i < layer; ++i) take_gaps_across(solid, added, i, layer, size.z, gaps);
+    for (std::int64_t z = 0; z < size.z; ++z)
+      for (std::int64_t i = 0; i < row; ++i) take_gaps_across(solid, added, z * layer + i, row, size.y, gaps);
+    for (std::int64_t first = 0; first < added.word_count(); first += row) take_gaps_along(solid, added, first, gaps);
     combine(added, gaps, kLess);
+  }
+
+  /// Adds the gaps along an axis across x to `gaps`, in 64 columns at once: word `first` and each `step` words on.
+  void take_gaps_across(const BitBox& solid, const BitBox& added, std::int64_t first, std::int64_t step,
+                        std::int32_t count, BitBox& gaps) const {
+    std::array<std::int32_t, 64> begin;  // of the run of each open column
+    std::uint64_t open = 0, before = 0;  // columns in a run that began beside a solid voxel; those that are solid
+    for (std::int32_t i = 0; i < count; ++i) {
+      const std::uint64_t is_solid = solid.data()[first + i * step], is_added = added.data()[first + i * step];
+      for (std::uint64_t ends = open & is_solid; ends != 0; ends &= ends - 1) {
+        const int column = std::countr_zero(ends);
+        if (i - begin[std::size_t(column)] > reach_.gap) continue;
+        for (std::int32_t k = begin[std::size_t(column)]; k < i; ++k)
+          gaps.data()[first + k * step] |= std::uint64_t(1) << column;
+      }
+      const std::uint64_t starts = before & is_added;
+      for (std::uint64_t left = starts; left != 0; left &= left - 1) begin[std::size_t(std::countr_zero(left))] = i;
+      open = (open & is_added) | starts;
+      before = is_solid;
+    }
+  }
+
+  /// Adds the gaps of the row of voxels that begins with word `first` to `gaps`.
+  void take_gaps_along(const BitBox& solid, const BitBox& added, std::int64_t first, BitBox& gaps) const {
+    const std::int32_t length = added.words_per_row() * 64;
+    const auto bit = [&](const BitBox& bits, std::int32_t x) {
+      return (bits.data()[first + x / 64] >> x % 64 & 1) != 0;
+    };
+    std::uint64_t carry = 0;
+    for (std::int32_t word = 0; word < added.words_per_row(); ++word) {
+      const std::uint64_t is_solid = solid.data()[first + word];
+      const std::uint64_t starts = (is_solid << 1 | carry) & added.data()[first + word];
+      carry = is_solid >> 63;
+      for (std::uint64_t left = starts; left != 0; left &= left - 1) {
+        const std::int32_t begin = word * 64 + std::countr_zero(left);
+        std::int32_t end = begin;
+        while (end < length && end - begin <= reach_.gap && bit(added, end)) ++end;
+        if (end == length || end - begin > reach_.gap || !bit(solid, end)) continue;
+        for (std::int32_t x = begin; x < end; ++x) gaps.data()[first + x / 64] |= std::uint64_t(1) << x % 64;
+      }
+    }
   }
 
   /// Gives the added voxels to the outside or to the rooms, step by step: by lists of voxels, or by sets if the lists
@@ -264,17 +301,33 @@ Shelf enclosed_voxels(const StreamHeader& header, BrickShelf& touched, Backends&
 // voxel is as near to U as to G. So U and G have the same dilation outside U. They have the same erosion, too: a voxel
 // that erodes another one there is not in U, for G would be in reach of it. O cannot enter U in either case. So C of U
 // is C of G without U. The voxels that G and C enclose hold U anyway; without C they are U.
-Shelf unreached_voxels(const StreamHeader& header, BrickShelf& enclosed, Backends& backends, const HiddenOptions& o) {
-  Shelf closed = close_shelf(header, enclosed, backends, uniform(o.scale_world), {o.element}, close_options(o, true));
-  Shelf closed_filled = o.context.make_shelf();
-  if (fill(header, *closed, backends, o, *closed_filled) == 0) return nullptr;
+ClosedVoxels closed_voxels(const StreamHeader& header, BrickShelf& enclosed, Backends& backends,
+                           const HiddenOptions& o) {
+  ClosedVoxels out;
+  if (o.scale_world < header.frame.voxel) {
+    out.count = count_voxels(enclosed);
+    return out;
+  }
+  out.closed = close_shelf(header, enclosed, backends, uniform(o.scale_world), {o.element}, close_options(o, true));
+  out.filled = o.context.make_shelf();
+  out.has_rooms = fill(header, *out.closed, backends, o, *out.filled) > 0;
+  out.count = count_voxels(*out.filled);
+  return out;
+}
+
+Shelf unreached_voxels(const StreamHeader& header, const BrickShelf& enclosed, ClosedVoxels closed, Backends& backends,
+                       const HiddenOptions& o) {
   const Shelf both = o.context.make_shelf();
-  Walls(header, enclosed, *closed, *closed_filled, o).put(*both);
-  closed.reset();
-  closed_filled.reset();
+  Walls(header, enclosed, *closed.closed, *closed.filled, o).put(*both);
+  closed = {};
   Shelf out = o.context.make_shelf();
   fill(header, *both, backends, o, *out);
   return out;
+}
+
+Shelf unreached_voxels(const StreamHeader& header, BrickShelf& enclosed, Backends& backends, const HiddenOptions& o) {
+  ClosedVoxels closed = closed_voxels(header, enclosed, backends, o);
+  return closed.has_rooms ? unreached_voxels(header, enclosed, std::move(closed), backends, o) : nullptr;
 }
 
 HiddenVoxels unseen_voxels(const BrickShelf& unreached, const BrickShelf& touched, const HiddenOptions& o) {

@@ -35,8 +35,24 @@ struct HiddenVoxels {
 [[nodiscard]] std::unique_ptr<BrickShelf> enclosed_voxels(const StreamHeader& header, BrickShelf& touched,
                                                           Backends& backends, const HiddenOptions& options);
 
-/// Returns all voxels that are not in O'. `enclosed`: enclosed_voxels(). Null if the closing makes no room; then they
-/// are `enclosed`.
+/// The closing at a scale.
+struct ClosedVoxels {
+  std::unique_ptr<BrickShelf> closed;  ///< E, with the voxels that G encloses
+  std::unique_ptr<BrickShelf> filled;  ///< the same, and C
+  bool has_rooms = false;              ///< C is not empty
+  /// The number of filled voxels. No more are hidden at this scale, nor at a smaller one: closings grow with the scale,
+  /// up to a layer of voxels.
+  std::uint64_t count = 0;
+};
+/// Makes the closing; below a voxel it is left out, and only counted. `enclosed`: enclosed_voxels().
+[[nodiscard]] ClosedVoxels closed_voxels(const StreamHeader& header, BrickShelf& enclosed, Backends& backends,
+                                         const HiddenOptions& options);
+
+/// Returns all voxels that are not in O'. `closed`: closed_voxels() of `enclosed`, with rooms.
+[[nodiscard]] std::unique_ptr<BrickShelf> unreached_voxels(const StreamHeader& header, const BrickShelf& enclosed,
+                                                           ClosedVoxels closed, Backends& backends,
+                                                           const HiddenOptions& options);
+/// Returns the same of `enclosed`. Null if the closing makes no room; then they are `enclosed`.
 [[nodiscard]] std::unique_ptr<BrickShelf> unreached_voxels(const StreamHeader& header, BrickShelf& enclosed,
                                                            Backends& backends, const HiddenOptions& options);
 

@@ -150,9 +150,7 @@ class ShapeMeasurer {
   [[nodiscard]] std::vector<TileCoord> tiles_in_reach() const {
     std::set<TileCoord> tiles;
     for (const BrickCoord brick : solid_.coords()) {
-      const VoxelBox reach =
-          intersect(voxels_of(BrickBox{brick, {brick.x + 1, brick.y + 1, brick.z + 1}}).grown(reaches_.farthest()),
-                    tiles_.voxels);
+      const VoxelBox reach = intersect(voxels_of(brick).grown(reaches_.farthest()), tiles_.voxels);
       for_each(tiles_.tiles_of(reach), [&](TileCoord t) { tiles.insert(t); });
     }
     return {tiles.begin(), tiles.end()};

@@ -60,6 +60,9 @@ struct MeshParams {
   /// Edges are at most edge_factor times S long, where S is the scale field at the edge; 0: no limit.
   double edge_factor = 0;
   bool edges_yield = false;  ///< the factor grows if the number of faces cannot be reached otherwise
+  /// In bounding mode an edge may be longer than edge_factor allows where it stays near the meshed voxels
+  /// (scaled_edges.h): what is smooth and fine takes few faces. False: edge_factor is a promise for every edge.
+  bool edges_by_shape = false;
   Enclose enclose = Enclose::closing;
   std::vector<TriangleD> scene;  ///< for Enclose::scene; scene units, as read
   Rounding rounding;             ///< of `scene`

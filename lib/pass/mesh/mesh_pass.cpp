@@ -122,6 +122,7 @@ class LevelMaker {
     const SurfaceWork work = is_limited ? flat : first_work(meshed, dense);
     std::uint64_t held = ground_bytes(shelves, params_, triangles, flat.flat_faces);
     if (params_.error_world > 0) held += ProxyLimits::kMostBytes;
+    held += edge_bytes(dense.frame(), near_of(*shelves.meshed));
     const std::uint64_t faces = inside() ? count_faces(dense) : 0;
     return std::max(pieces_.without(held + faces * kBytesPerKeptFace).limit_for(work.whole_bytes, work.cell_bytes),
                     pieces_.limit_for(faces * kBytesPerMeshedFace));
@@ -155,13 +156,24 @@ class LevelMaker {
     return params_.edge_factor > 0 ? scaled_edges(header_.scale, frame, params_.edge_factor) : EdgeLimit{};
   }
 
+  /// Returns the voxels near which edges may be long: those that a level encloses. Null: no edge may be longer than
+  /// params_.edge_factor allows.
+  [[nodiscard]] const BrickShelf* near_of(const BrickShelf& voxels) const {
+    return params_.edges_by_shape && params_.mode == MeshMode::bounding ? &voxels : nullptr;
+  }
+  /// Returns the memory that limits on edges take.
+  [[nodiscard]] std::uint64_t edge_bytes(const GridFrame& frame, const BrickShelf* near) const {
+    return near != nullptr && params_.edge_factor > 0 ? bytes_of_near_edges(header_.scale, frame, *near) : 0;
+  }
+
   std::vector<LatticeMesh> make(const Shelves& shelves) {
     const std::vector<std::uint64_t> faces = params_.faces.empty() ? std::vector<std::uint64_t>{0} : params_.faces;
     Start start = make_start(shelves);
     if (start.mesh) context_.pieces = pieces_.without(start.mesh->triangles.size() * kBytesPerKeptFace);
     bounds_.volume_world = (inside() ? -1 : 1) * params_.volume_ratio * counts_.solid_volume_world;
     ground_ = make_ground(shelves, params_, start, header_.fill, context_);
-    memory_ = context_.pieces.without(ground_.bytes());
+    near_ = near_of(*shelves.meshed);
+    memory_ = context_.pieces.without(ground_.bytes() + edge_bytes(header_.frame, near_));
     const bool fit = params_.mode == MeshMode::fit;
     const double error_share = params_.error_world / double(fit ? 1 : faces.size());
     bounds_.error_world = error_share;
@@ -215,8 +227,8 @@ class LevelMaker {
       LatticeMesh mesh =
           cage_with_limbs(*shelves.meshed, header_.frame, *ground_.enclosed, faces, plane, *model, fit, steps);
       if (mesh.triangles.empty())
-        fail(ErrorCode::bad_argument, "{} faces: a cage of quads has at least 12 triangles, and a symmetric one 20",
-             faces);
+        fail(ErrorCode::bad_argument, "{} faces: {}", faces,
+             plane ? "a symmetric cage has at least 20 triangles" : "a cage of quads has at least 12 triangles");
       counts.limbs.count = model->count();
       for (const LatticeCoord& tip : fit.joined) counts.limbs.joined.push_back(header_.frame.world(tip));
       return mesh;
@@ -229,7 +241,11 @@ class LevelMaker {
     if (!inside()) {
       const auto around = make_shelf_();
       const GridFrame frame = voxels_around(before, voxel, make_shelf_, memory_, *around);
-      return finish_around(before, ShelfSurface(*around, frame), faces);
+      near_ = near_of(*around);
+      memory_ = memory_.without(edge_bytes(frame, near_));
+      LatticeMesh level = finish_around(before, ShelfSurface(*around, frame), faces);
+      near_ = nullptr;  // the voxels end here
+      return level;
     }
     LatticeMesh dense = surface_within(before, voxel, make_shelf_, memory_);
     drop_small_components(dense, params_.least_part);  // the level may fall into several parts
@@ -281,13 +297,13 @@ class LevelMaker {
       if (faces >= kLeastFacesWithRoom) params.room = room_around(dense.box(), faces);  // the box reads all voxels
       if (params_.near_world && params.limits == nullptr && faces > 0)
         params.reach = (*params_.near_world / dense.frame().voxel + 1) * kLatticePerVoxel;
-      const bool only_faces =
-          faces > 0 && params.limits == nullptr && !params.edge_limit && !params_.near_world && !inside();
+      const bool only_faces = faces > 0 && params.limits == nullptr && !params.edge_limit && !params_.near_world;
       const bool few = only_faces && faces < kFewFaces;
       params.dense = params_.start == nullptr;
       LatticeMesh proxy = params_.start ? take(tight_proxy(*params_.start, *enclosed, params, params_.halfway), counts)
                                         : make_level(dense, starts, enclosed, params, few, params_.halfway, counts);
-      if (only_faces && params_.convex && enclosed != nullptr) take_convex(proxy, *enclosed, faces, counts);
+      if (only_faces && !inside() && params_.convex && enclosed != nullptr)
+        take_convex(proxy, *enclosed, faces, counts);
       if (!params_.quads) return proxy;
       if (enclosed != nullptr) proxy = make_room_for_quads(proxy, *enclosed, params);
       proxy.quads = pair_triangles(proxy, QuadKeeps::enclosed, enclosed);
@@ -319,7 +335,7 @@ class LevelMaker {
     counts.error_world = bounds_.error_world;
     counts.edge_factor = edge_factor;
     SimplifyParams params = simplify_params(header_, frame, params_, memory_, faces);
-    if (edge_factor > 0) params.edge_limit = scaled_edges(header_.scale, frame, edge_factor);
+    if (edge_factor > 0) params.edge_limit = scaled_edges(header_.scale, frame, edge_factor, near_);
     params.memory = beside_limits(params.memory, ProxyLimits::bytes_needed(bounds_, frame, ground_.tree.get()));
     ProxyLimits limits(bounds_, frame, ground_.tree.get());
     if (bounds_.error_world > 0 || bounds_.volume_world != 0) params.limits = &limits;
@@ -343,6 +359,7 @@ class LevelMaker {
   MeshCounts& counts_;
   ProxyBounds bounds_;
   Ground ground_;
+  const BrickShelf* near_ = nullptr;  // near_of() the level that is made
 };
 
 /// Reads the voxels of a stream, and repairs them if proxies lie around them.

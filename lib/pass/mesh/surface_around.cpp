@@ -1,6 +1,7 @@
 #include "lib/pass/mesh/surface_around.h"
 
 #include "lib/core/error.h"
+#include "lib/device/backend.h"
 #include "lib/grid/shelf_stream.h"
 #include "lib/pass/mesh/complement.h"
 #include "lib/pass/voxelize/triangle_list.h"

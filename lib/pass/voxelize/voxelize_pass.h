@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "lib/core/triangle_source.h"
-#include "lib/device/backend.h"
+#include "lib/device/backends.h"
 #include "lib/grid/stream.h"
 #include "lib/pass/context.h"
 #include "lib/pass/voxelize/stray_part.h"

@@ -13,12 +13,18 @@ namespace {
 constexpr int kHalvings = 4;
 constexpr int kAvoidRounds = 4;
 constexpr double kInwards = 0.15;  // times the mean edge: the step inwards in each sweep
+constexpr double kJointReach = 1;  // times the mean spoke: the step of a vertex that nothing hinders
 constexpr double kReach = 0.5;     // times the mean spoke: the farthest step of fit()
 
 }  // namespace
 
 Skin::Skin(const CellQuads& cage, HalfEdgeMesh& mesh, ProxyEditor& editor, const std::optional<MirrorPlane>& plane)
-    : cage_(cage), mesh_(mesh), editor_(editor), plane_(plane), near_(cage.mesh.vertices.size()) {
+    : cage_(cage),
+      mesh_(mesh),
+      editor_(editor),
+      plane_(plane),
+      near_(cage.mesh.vertices.size()),
+      joint_(mesh, editor.contacts(), editor.forces()) {
   for (const Quad& q : polygon_faces(cage.mesh).quads) {
     for (std::size_t i = 0; i < 4; ++i) {
       near_[q[i]].insert(q[(i + 1) % 4]);
@@ -49,6 +55,30 @@ void Skin::swell(double share) {
 
 void Skin::fit() {
   for_each([&](VertexId v) { fit(v); });
+}
+
+/// Returns the shift of v by the joint fit; with a plane, the mean of that and its image's.
+Vec3d Skin::joint_shift(VertexId v) const {
+  Vec3d shift = joint_.shift(v);
+  if (!plane_) return shift;
+  Vec3d other = joint_.shift(cage_.mate[v]);
+  other[std::size_t(plane_->axis)] *= -1;
+  return 0.5 * (shift + other);
+}
+
+void Skin::fit_together() {
+  joint_.solve(kJointReach);
+  std::vector<std::pair<double, VertexId>> order;
+  for (VertexId v = 0; v < near_.size(); ++v) {
+    if (!plane_ || mesh_.position(v)[plane_->axis] >= plane_->lattice()) order.emplace_back(joint_.growth(v), v);
+  }
+  std::sort(order.begin(), order.end(),
+            [](const auto& a, const auto& b) { return a.first != b.first ? a.first > b.first : a.second < b.second; });
+  for (const auto& [growth, v] : order) {
+    stop_if_asked();
+    go(v, joint_shift(v));
+  }
+  editor_.refresh();
 }
 
 Vec3d Skin::to_mean(VertexId v, double& edge) const {

@@ -5,6 +5,7 @@
 
 #include "lib/quads/cell_quads.h"
 #include "lib/tighten/fan_fit.h"
+#include "lib/tighten/joint_fit.h"
 #include "lib/tighten/proxy_editor.h"
 
 namespace bp {
@@ -20,6 +21,9 @@ class Skin {
   void swell(double share);
   /// Moves each vertex to where the solid is smallest.
   void fit();
+  /// Moves all vertices together to where the solid is smaller. Vertices that move one at a time jam, since a quad that
+  /// rests on three points holds its corners.
+  void fit_together();
 
   /// Moves v by `by`, or by the largest of its halves, quarters ... that is allowed.
   bool go(VertexId v, Vec3d by);
@@ -33,6 +37,7 @@ class Skin {
   void relax(VertexId v);
   void push(VertexId v, double inwards);
   void fit(VertexId v);
+  [[nodiscard]] Vec3d joint_shift(VertexId v) const;
   double gather(VertexId v, const Vec3d& shift);
   bool move(VertexId v, LatticeCoord to);
 
@@ -42,6 +47,7 @@ class Skin {
   const std::optional<MirrorPlane>& plane_;
   std::vector<std::set<VertexId>> near_;  // per vertex: its neighbours along edges of quads
   FanFit fit_;
+  JointFit joint_;
 };
 
 }  // namespace bp

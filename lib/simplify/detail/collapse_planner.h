@@ -2,6 +2,7 @@
 #include <optional>
 #include <vector>
 
+#include "lib/enclosed/enclosed.h"
 #include "lib/mesh/constrained_minimum.h"
 #include "lib/mesh/face_tree.h"
 #include "lib/mesh/guard.h"

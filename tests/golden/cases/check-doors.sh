@@ -71,4 +71,42 @@ sed '/^call/d; /^bsp/d' fo_call.obj > fo.obj
 last 'bpcheck call.obj around.obj'
 last 'bpcheck fo.obj around.obj'
 try bpcheck matrix_and_trs.gltf around.obj
-rm fo.obj call.obj fo_call.obj matrix_and_trs.gltf around.obj
+rm fo.obj call.obj fo_call.obj matrix_and_trs.gltf
+
+# Files that programs read in different ways, or that say more than their head promises. Each has a part 5 away, where the other reading has it.
+bugs=$BP_ROOT/tests/data/bugs
+cp "$bugs"/{key_twice.gltf,long_rotation.gltf,x_twice.ply,origin_of_others.gltf} .
+tetrahedron() { printf 'OFF\n4 4 0\n%d 0 0\n%d 0 0\n%d 1 0\n%d 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n' "$1" $(($1 + 1)) "$1" "$1"; }
+{ tetrahedron 0; tetrahedron 5; } > two_shapes.off
+{ echo '# origin: 5 0 0'; cat around.obj; } > origin_of_others.obj
+try bpcheck key_twice.gltf around.obj
+last 'bpcheck long_rotation.gltf around.obj'
+try bpcheck two_shapes.off around.obj
+try bpcheck x_twice.ply around.obj
+# The origin of somebody else's file moves nothing.
+awk '/^v/ { print "v", $2 + 5, $3, $4; next } { print }' cube.obj > away.obj
+for proxy in origin_of_others.gltf origin_of_others.obj; do
+  last "bpcheck cube.obj $proxy"
+  last "bpcheck away.obj $proxy"
+done
+rm key_twice.gltf long_rotation.gltf two_shapes.off x_twice.ply origin_of_others.gltf origin_of_others.obj away.obj
+
+# A hundred thousand arrays within each other.
+{ printf '{"asset":{"version":"2.0","extras":'; head -c 100000 /dev/zero | tr '\0' '['; head -c 100000 /dev/zero | tr '\0' ']'; echo '}}'; } > deep.gltf
+try bpcheck deep.gltf around.obj
+try bpinfo deep.gltf
+try bpcheck cube.obj deep.gltf
+
+# Names that would be a line of the answer.
+cp around.obj $'x\nholds\n.obj'
+said "bpcheck around.obj $'x\\nholds\\n.obj' | grep -E '^(holds|proxy|scene)'"
+said "bpcheck $'x\\nholds\\n.obj' cube.obj | grep -E '^(holds|proxy|scene)'"
+try bplod $'x\nholds\n.obj' --resolution 16 -o lod
+rm $'x\nholds\n.obj' deep.gltf around.obj
+
+# Glass, and walls that viewers hide, hide nothing.
+for walls in glass_room hidden_room; do
+  cp "$bugs/$walls.gltf" .
+  said "bplod $walls.gltf --profile occluder --resolution 32 -o occluder > list"
+  rm -rf $walls.gltf occluder list
+done

@@ -44,7 +44,7 @@ write_levels() {
   cat > "$file" << GLTF
 {"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[$(sed 's/@[0-9]*//g' <<< "$nodes")],
 "meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],
-"accessors":[{"bufferView":0,"componentType":5126,"count":8,"type":"VEC3"},{"bufferView":1,"componentType":5121,"count":36,"type":"SCALAR"}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":8,"type":"VEC3","min":[-1,-1,-1],"max":[1,1,1]},{"bufferView":1,"componentType":5121,"count":36,"type":"SCALAR"}],
 "bufferViews":[{"buffer":0,"byteLength":96},{"buffer":0,"byteOffset":96,"byteLength":36}],
 "buffers":[{"byteLength":132,"uri":"data:application/octet-stream;base64,$(printf "$data" | base64 -w 0)"}]}
 GLTF

@@ -40,7 +40,7 @@ bpcheck part*.obj moved > list || echo "= $?"
 grep -c 'does not show\|that the scene does not have' list
 # A proxy that its file calls a leaf is none.
 cp -r painted called
-sed -i 's/"cell": \[/"leaf": true,\n"cell": [/' called/tileset.json
+sed -i -z -E 's/,[[:space:]]*"leaf": true//g; s/"cell": \[/"leaf": true,\n"cell": [/g' called/tileset.json
 bpcheck called > list || echo "= $?"
 grep -c 'extras.leaf is true, but' list
 # A scene in one mesh has one leaf.

@@ -59,6 +59,15 @@ for uri in ../fifo /dev/zero; do
 done
 rm scenes/g.gltf
 
+# What lies beside a scene and is not read costs nothing, and makes nothing anew: links out of the folder and back, files without an end,
+# words that may be names.
+write_cube scenes/a.obj 2
+ln -s /proc scenes/a.proc && ln -s ../out scenes/a.out && truncate -s 4T scenes/a.dat
+printf 'mtllib a.mtl\n' | cat - scenes/a.obj > a.obj && mv a.obj scenes/a.obj
+{ printf 'newmtl a\nmap_Kd'; printf ' word%d' {1..4000}; printf '\n'; } > scenes/a.mtl
+after "things beside a scene"
+rm scenes/a.*
+
 # A scene that has no end is given up.
 write_cube scenes/a.obj 2
 printf '#!/bin/bash\n[[ "$*" == *a.obj* ]] || exec "$REAL" "$@"\nsleep 100\n' > bin/bplod

@@ -9,12 +9,12 @@ options=(--faces 12 --levels 1 --resolution 24)
 after() { echo "$1: $(nightly scenes out "${options[@]}" "${@:2}") $(nightly scenes out "${options[@]}" "${@:2}" | cut -f 2)"; }
 after "at first"
 mkdir scenes/a.fbm && after "an empty folder with its name"
-touch scenes/a.fbm/image.png && after "a file in it"
+touch scenes/a.fbm/image.png && after "a file in it that nothing reads"
 (cd scenes && chequer blue) && after "an image of its materials"
 mv scenes/chequered.png "scenes/chequered 2.png"
 sed -i 's/map_Kd .*/\tmap_Kd -s 1 1 1 -clamp on .\\chequered 2.png/' scenes/cubes.mtl && after "the materials"
 (cd scenes && chequer red && mv chequered.png "chequered 2.png") && after "an image with a blank and options"
-sed -i '/map_Kd/d' scenes/cubes.mtl && printf 'newmtl last\nmap_Kd -colorspace sRGB chequered 2.png' >> scenes/cubes.mtl
+sed -i '/map_Kd/d; /newmtl plain/,$d' scenes/cubes.mtl && printf 'map_Kd -colorspace sRGB chequered 2.png' >> scenes/cubes.mtl
 after "a last line without an end, an option that nobody knows"
 (cd scenes && chequer green && mv chequered.png "chequered 2.png") && after "the image of that line"
 echo '{"base": "4%", "rules": []}' > rules.json && after "rules" --field rules.json
@@ -37,7 +37,7 @@ cat > scenes/c.dae << 'DAE'
 <instance_geometry url="#g"/></node></visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>
 DAE
 after "COLLADA"
-echo "another" > scenes/c.jpg && after "an image of COLLADA"
+echo "another" > scenes/c.jpg && after "an image of COLLADA that no triangle shows"
 rm scenes/c.* scenes/textures -r
 # All that is made is checked, as it was made for.
 printf '#!/bin/bash\necho "${@/#*\\/}" >> checks\n' > bin/bpcheck
@@ -61,7 +61,7 @@ mkdir empty && nightly scenes out "${options[@]}"
 LC_ALL=C ls -A out > before
 cat > bin/bplod << SCRIPT
 #!/bin/bash
-[ "\$1" != --version ] || exec $(command -v bplod) --version
+[[ "\$1" != --version && "\$1" != /dev/null ]] || exec $(command -v bplod) "\$@"
 echo \$\$ > bplod.pid
 exec sleep 60
 SCRIPT
@@ -95,4 +95,5 @@ PATH=$PWD/bin:$PATH "$BP_ROOT/samples/nightly" scenes out "${options[@]}" --leve
 until [ -s bplod.pid ]; do sleep 0.05; done
 { kill -9 $night; wait $night; } 2> /dev/null  # the shell tells of the kill as soon as it sees it
 echo "= $?"
+timeout 20 flock out/.lock true  # what it ran is given time to end
 nightly scenes out "${options[@]}" --levels 1

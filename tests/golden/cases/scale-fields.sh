@@ -69,6 +69,22 @@ for rule in '"gap": 4' '"thickness": "101%"' '"gap": 0.01, "mode": "decrease"' '
   said 'cat odd.json; bpscale odd.json shapes.bpv | bpinfo | grep -E "^scale"'
 done
 said 'bpvox shapes.obj --resolution 64 --fill inside | bpscale shape.json -o x.bpv'
+# Edges: by default a flat side in a fine place takes few faces; --edge-factor is a promise for each edge.
+echo '{"base": 0.4, "rules": [{"box": [[-1, -1, -1], [3, 3, 3]], "scale": 0.05}]}' > everywhere.json
+bpvox cube.obj --resolution 64 -q | bpclose --field everywhere.json -q -o fine.bpv
+for option in "" "--edge-factor 4"; do
+  bpmesh fine.bpv --faces 40 $option -q --report edges.json -o edges.ply --overwrite
+  python3 - << 'P'
+import json
+level = json.load(open("edges.json"))["counts"]["levels"][0]
+print("faces", "few," if level["faces"] <= 40 else "many,", "edges", "short," if level["edge_length"]["max"] <= 4 * 0.05 + 1e-9 else "long,",
+      level["stopped_by"], level.get("edges_longer_near_closing"))
+P
+  said 'bpcheck cube.obj edges.ply | tail -1'
+done
+try bpmesh fine.bpv --faces 40 --edge-factor 0 -o x.ply
+try bpmesh cube.bpv --faces 40 --edge-factor 4 -o x.ply
+rm edges.* everywhere.json fine.bpv
 # What is refused.
 try bpscale
 try bpscale cube.bpv rules.json -o x.bpv

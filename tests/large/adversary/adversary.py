@@ -261,6 +261,13 @@ def one_mutant(tool, rng):
             return {**row, "way": way + " (not written)"}
         proxy_path = os.path.join(tool.work, f"proxy.{proxy_kind}")
     flags = {"around": [], "inside": ["--inside"], "convex": ["--convex"]}[question]
+    ending = proxy_path.rsplit(".", 1)[1]
+    if ending in files.DECORATIONS and proxy_kind != "draco" and rng.random() < 0.2:
+        n = rng.randrange(len(files.DECORATIONS[ending]))
+        files.DECORATIONS[ending][n](proxy_path, rng)
+        done = tool("bpcheck", *flags, scene_path, proxy_path)
+        bad = "wrong holds" if done.returncode == 0 else "" if done.returncode in (1, 3, 5) else "other"
+        return {**row, "way": f"{ending} decorated {n}", "exit": done.returncode, "wrong": bad, "said": done.stderr.strip()[-200:]}
     done = tool("bpcheck", *flags, scene_path, proxy_path)
     return {**row, "truth": truth, "exit": done.returncode, "wrong": wrong(done.returncode, truth), "said": done.stderr.strip()[-200:]}
 

@@ -55,14 +55,16 @@ def write_ply(mesh, path, rng):
     if kind == "float":
         mesh = rounded(mesh)
         points, faces = indexed(mesh)
+    form = rng.choice(["binary_little_endian", "binary_big_endian", "ascii"])
+    order = ">" if "big" in form else "<"
     with open(path, "wb") as f:
-        f.write(f"ply\nformat binary_little_endian 1.0\nelement vertex {len(points)}\n".encode())
+        f.write(f"ply\nformat {form} 1.0\nelement vertex {len(points)}\n".encode())
         f.write("".join(f"property {kind} {c}\n" for c in "xyz").encode())
         f.write(f"element face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n".encode())
         for p in points:
-            f.write(struct.pack("<3" + kind[0], *p))
+            f.write(" ".join(repr(float(x)) for x in p).encode() + b"\n" if form == "ascii" else struct.pack(order + "3" + kind[0], *p))
         for t in faces:
-            f.write(struct.pack("<B3i", 3, *t))
+            f.write(b"3 %d %d %d\n" % t if form == "ascii" else struct.pack(order + "B3i", 3, *t))
     return said(mesh)
 
 
@@ -189,7 +191,8 @@ def write_draco(mesh, path, rng):
            "extensionsUsed": ["KHR_draco_mesh_compression"], "extensionsRequired": ["KHR_draco_mesh_compression"],
            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "extensions":
                                        {"KHR_draco_mesh_compression": {"bufferView": 0, "attributes": {"POSITION": 0}}}}]}],
-           "accessors": [{"componentType": 5126, "count": count, "type": "VEC3"}, {"componentType": 5125, "count": 3 * len(result), "type": "SCALAR"}],
+           "accessors": [{"componentType": 5126, "count": count, "type": "VEC3", "min": [float(min(p[i] for t in result for p in t)) for i in range(3)],
+                          "max": [float(max(p[i] for t in result for p in t)) for i in range(3)]}, {"componentType": 5125, "count": 3 * len(result), "type": "SCALAR"}],
            "bufferViews": [{"buffer": 0, "byteLength": len(blob)}], "buffers": [{"byteLength": len(blob)}]}
     text = json.dumps(doc).encode()
     text += b" " * (-len(text) % 4)
@@ -203,6 +206,64 @@ def write_draco(mesh, path, rng):
 WRITERS = {"obj": write_obj, "off": write_off, "ply": write_ply, "stl": write_stl, "glb": write_glb, "dae": write_dae, "ac": write_ac, "x": write_x}
 if shutil.which("draco_encoder"):
     WRITERS["draco"] = write_draco
+
+
+def edit_glb(path, change):
+    """Changes the text of the JSON in a GLB."""
+    with open(path, "rb") as f:
+        data = f.read()
+    (n,) = struct.unpack_from("<I", data, 12)
+    text = change(data[20:20 + n].decode().rstrip()).encode()
+    text += b" " * (-len(text) % 4)
+    rest = data[20 + n:]
+    with open(path, "wb") as f:
+        f.write(struct.pack("<III", 0x46546C67, 2, 20 + len(text) + len(rest)) + struct.pack("<II", len(text), 0x4E4F534A) + text + rest)
+
+
+def in_json(change):
+    def edited(text):
+        doc = json.loads(text)
+        change(doc)
+        return json.dumps(doc)
+    return lambda path, rng: edit_glb(path, edited)
+
+
+def in_lines(change):
+    def edit(path, rng):
+        with open(path, "rb") as f:
+            lines = f.read().split(b"\n")
+        with open(path, "wb") as f:
+            f.write(b"\n".join(change(lines, rng)))
+    return edit
+
+
+def goes_on(lines, rng):
+    at = rng.randrange(len(lines) - 1)
+    return lines[:at] + [rng.choice([b"# from C:\\", b"s off \\", b"o part\\", b"vn 0 0 1 \\"])] + lines[at:]
+
+
+def header_twice(lines, rng):
+    at = rng.choice([i for i, line in enumerate(lines) if line.startswith((b"element ", b"property ")) and i < lines.index(b"end_header")])
+    return lines[:at] + [lines[at]] + lines[at:]
+
+
+def more_data(lines, rng):
+    return lines[:-1] + [lines[-1] + b"3 0 1 2\n" * rng.choice([1, 3])]
+
+
+# What makes other programs read a proxy in another way, hide it, or cull it: bpcheck must not prove it then.
+DECORATIONS = {
+    "glb": [lambda path, rng: edit_glb(path, lambda t: t.replace('"mesh": 0', '"mesh": 0, "mesh": 0', 1)),
+            lambda path, rng: edit_glb(path, lambda t: t.replace('"asset"', '"nodes": [], "asset"', 1)),
+            in_json(lambda d: d["accessors"][0].update(min=[x + 1e9 for x in d["accessors"][0]["min"]], max=[x + 2e9 for x in d["accessors"][0]["max"]])),
+            in_json(lambda d: d["accessors"][0].pop("min")),
+            in_json(lambda d: (d.pop("scene"), d.pop("scenes"))),
+            in_json(lambda d: next(n for n in d["nodes"] if "mesh" in n).update(extensions={"KHR_node_visibility": {"visible": False}})),
+            in_json(lambda d: d.update(extensions={"CESIUM_RTC": {"center": [1, 0, 0]}})),
+            in_json(lambda d: d["buffers"][0].update(uri="p.bin?x"))],
+    "ply": [in_lines(header_twice), in_lines(more_data)],
+    "obj": [in_lines(goes_on)],
+}
 
 
 def write(mesh, kind, stem, rng):

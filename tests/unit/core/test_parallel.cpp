@@ -1,3 +1,6 @@
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <atomic>
 #include <chrono>
 #include <stdexcept>
@@ -103,6 +106,40 @@ TEST_CASE("work that is told to stop throws Cancelled, and other work goes on", 
   }),
                   Cancelled);
   CHECK(next < 1000);
+}
+
+namespace {
+
+/// Returns whether loops and pipelines do all of their work, on this thread alone.
+bool works_alone() {
+  const std::thread::id here = std::this_thread::get_id();
+  int done = 0, sum = 0, next = 0;
+  const auto count = [&] { done += std::this_thread::get_id() == here; };
+  const auto produce = [&](int& item) { return (item = next++) < 50; };
+  WorkArena(2).run([&] {
+    parallel_for(50, [&](std::int64_t) { count(); });
+    isolated([&] { parallel_ranges(50, 7, [&](std::int64_t begin, std::int64_t end) { done += int(end - begin); }); });
+    pipeline<int>(
+        3, produce, [&](int&) { count(); }, [&](const int& item) { sum += item; });
+    next = 0;
+    run_jobs<int>(3, produce, [&](int&) { count(); });
+  });
+  return thread_count() == 1 && done == 200 && sum == 49 * 50 / 2;
+}
+
+}  // namespace
+
+TEST_CASE("a child of fork() does all work on its only thread", "[quick][core]") {
+  parallel_for(100, [](std::int64_t) {});
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::alarm(60);  // a child that waits for threads of its parent ends by a signal
+    ::_exit(works_alone() ? 0 : 1);
+  }
+  REQUIRE(child > 0);
+  int status = -1;
+  REQUIRE(::waitpid(child, &status, 0) == child);
+  CHECK(status == 0);
 }
 
 TEST_CASE("the number of threads is that of the smallest limit, and of all cores again without one", "[quick][core]") {

@@ -336,7 +336,7 @@ TEST_CASE("what is no cage is refused", "[deform][quick]") {
   };
   IndexedMesh open = sphere_cage(4, 5);
   open.triangles.pop_back();
-  refused(open, "3 edges are open");
+  refused(open, "whose faces face both ways: 3");
   IndexedMesh torn = sphere_cage(4, 5);
   std::swap(torn.triangles[3][0], torn.triangles[3][1]);
   refused(torn, "face both ways");

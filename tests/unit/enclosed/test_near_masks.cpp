@@ -67,6 +67,9 @@ TEST_CASE("a mask errs by two of its voxels at most, to either side, also where 
     const bool answer = masks.is_near(std::array<NewFace, 1>{{{{}, corners}}}, reach);
     if (farthest + 64 < reach - unsure) CHECK(answer);
     if (farthest > reach + unsure) CHECK_FALSE(answer);
+    const bool edge = masks.is_near(corners[0], corners[1], reach);
+    if (farthest + 64 < reach - unsure) CHECK(edge);
+    if (distance_to_dots(corners[0], dots, 2) > reach + unsure) CHECK_FALSE(edge);
     near += answer;
     far += farthest > reach + unsure;
   }

@@ -2,6 +2,8 @@
 #include "lib/live/live_closing.h"
 #include "lib/pass/close/close_pass.h"
 #include "lib/pass/measure/shape_rules.h"
+#include "lib/volume/boundary_runs.h"
+#include "lib/volume/reduce.h"
 #include "tests/catch.h"
 #include "tests/reference/random_closing.h"
 #include "tests/support/voxelized.h"
@@ -113,19 +115,36 @@ void random_edit(Design& design, Random& random) {
   }
 }
 
-/// Compares all pieces, made one after the other, with pieces that are made at once.
-void check_pieces(const std::map<BrickCoord, LiveClosing::Piece>& shown, const LiveClosing& live,
-                  const ScaleField& field) {
+/// The pieces that a page holds. It takes those that changed.
+struct Page {
+  std::map<BrickCoord, SurfacePiece> pieces;
+  std::uint64_t generation = 0;
+  std::size_t changed = 0;  ///< pieces of the last answer
+  GridFrame frame;
+
+  void follow(const LiveClosing& live) {
+    const LiveSurface::Change change = live.surface().since(generation);
+    if (change.whole) pieces.clear();
+    for (const BrickCoord c : change.bricks) pieces[c] = change.piece(c);
+    generation = change.generation;
+    changed = change.bricks.size();
+    frame = change.frame;
+  }
+};
+
+/// Compares the pieces that a page took one after the other with pieces that are made at once.
+void check_pieces(const Page& page, const BrickShelf& drawn, const GridFrame& frame, const ScaleField& field) {
+  CHECK(page.frame == frame);
   std::size_t faces = 0, expected = 0;
-  for (const auto& [brick, piece] : shown) faces += piece.surface->triangles.size();
-  for (const BrickCoord c : live.closing()->coords()) {
-    const VoxelBox box = voxels_of(BrickBox{c, {c.x + 1, c.y + 1, c.z + 1}}).grown(1);
-    const SurfacePiece made = piece_of(*live.closing(), c, field.sample(live.scene().header.frame, box));
-    expected += made.triangles.size();
-    if (made.triangles.empty()) continue;
-    REQUIRE(shown.contains(c));
-    const SurfacePiece& was = *shown.at(c).surface;
-    REQUIRE(was.triangles == made.triangles);
+  for (const auto& [brick, piece] : page.pieces) faces += piece.faces.size();
+  for (const BrickCoord c : drawn.coords()) {
+    const VoxelBox box = voxels_of(c).grown(1);
+    const SurfacePiece made = piece_of(drawn, c, field.sample(frame, box));
+    expected += made.faces.size();
+    if (made.faces.empty()) continue;
+    REQUIRE(page.pieces.contains(c));
+    const SurfacePiece& was = page.pieces.at(c);
+    REQUIRE(was.faces == made.faces);
     REQUIRE(was.vertices.size() == made.vertices.size());
     for (std::size_t i = 0; i < made.vertices.size(); ++i) {
       REQUIRE(was.vertices[i].position == made.vertices[i].position);
@@ -136,18 +155,20 @@ void check_pieces(const std::map<BrickCoord, LiveClosing::Piece>& shown, const L
   CHECK(faces == expected);
 }
 
+/// Half of the designs are drawn in coarser voxels now and then.
 void random_design(std::uint64_t seed, int edits) {
   CAPTURE(seed);
   Random random(seed);
   LiveScene live_of = live_scene(scene(), 0.0625);
   live_of.params.element = random.one_in(3) ? StructuringElement::ball : StructuringElement::cube;
+  if (random.one_in(2))
+    live_of.most_faces = boundary_size(*live_of.solid).faces * std::uint64_t(random.between(5, 11)) / 10;
   BrickShelf& solid = *live_of.solid;
   const std::string begin = random.one_in(3) ? R"({"base": 0.25, "rules": [{"gap": 0.5}]})" : R"({"base": 0.4})";
   Design design(begin, "rules.json", context_of(live_of.header), live_of.header.frame);
   Backends backends = test::plain_backends(2);
   LiveClosing live(std::move(live_of), backends, [] {});
-  std::map<BrickCoord, LiveClosing::Piece> shown;
-  std::uint64_t generation = 0;
+  Page page;
   for (int i = 0; i < edits; ++i) {
     live.request(design.plan(), design.revision());
     if (random.one_in(3)) {  // a request that is replaced leaves no trace
@@ -158,17 +179,21 @@ void random_design(std::uint64_t seed, int edits) {
     const LiveClosing::Status status = live.status();
     REQUIRE(status.error.empty());
     REQUIRE(status.shown == design.revision());
-    for (LiveClosing::Piece& piece : live.since(generation)) shown[piece.surface->brick] = std::move(piece);
-    generation = status.generation;
+    if (random.one_in(2)) page.follow(live);
     REQUIRE(bricks(*live.closing()) == bricks(*by_the_pipe(design.json(), live.scene(), solid)));
     random_edit(design, random);
   }
   live.request(design.plan(), design.revision());
   live.wait();
-  for (LiveClosing::Piece& piece : live.since(generation)) shown[piece.surface->brick] = std::move(piece);
+  page.follow(live);
   CloseOptions options;
   options.context.make_shelf = test::memory_shelves();
-  check_pieces(shown, live, measured(design.plan(), live.scene().header, solid, {0, options.context}).field);
+  const ScaleField field = measured(design.plan(), live.scene().header, solid, {0, options.context}).field;
+  const GridFrame frame = live.scene().header.frame;
+  if (live.status().drawn_voxel == frame.voxel) return check_pieces(page, *live.closing(), frame, field);
+  test::MemoryShelf coarse;
+  reduce(*live.closing(), frame, coarse);
+  check_pieces(page, coarse, reduced(frame), field);
 }
 
 }  // namespace
@@ -234,7 +259,7 @@ TEST_CASE("a rule that cannot be closed by is an error, and the next one is not"
   live.wait();
   CHECK_FALSE(live.status().error.empty());
   CHECK_FALSE(live.status().busy());
-  CHECK(live.since(0).empty());
+  CHECK(live.surface().since(0).bricks.empty());
 }
 
 TEST_CASE("a stroke changes the pieces near it, and no other", "[quick][live]") {
@@ -249,13 +274,41 @@ TEST_CASE("a stroke changes the pieces near it, and no other", "[quick][live]") 
   LiveClosing live(std::move(live_of), backends, [] {});
   live.request(design.plan(), design.revision());
   live.wait();
-  const std::size_t all = live.since(0).size();
-  const std::uint64_t before = live.status().generation;
+  Page page;
+  page.follow(live);
+  const std::size_t all = page.changed;
   design.add(R"({"at": [2,2,1], "radius": 0.5, "scale": 0.1, "mode": "decrease"})");
   live.request(design.plan(), design.revision());
   live.wait();
-  const auto changed = live.since(before);
-  CHECK_FALSE(changed.empty());
-  CHECK(changed.size() * 2 < all);
-  for (const LiveClosing::Piece& piece : changed) CHECK(piece.surface->brick.x < 6);
+  const LiveSurface::Change change = live.surface().since(page.generation);
+  CHECK_FALSE(change.whole);
+  CHECK_FALSE(change.bricks.empty());
+  CHECK(change.bricks.size() * 2 < all);
+  for (const BrickCoord c : change.bricks) CHECK(c.x < 6);
+}
+
+TEST_CASE("voxels with too many faces are drawn as coarser ones, and again as they are", "[quick][live]") {
+  LiveScene live_of = live_scene(scene(), 0.0625);
+  const double voxel = live_of.header.frame.voxel;
+  live_of.most_faces = boundary_size(*live_of.solid).faces * 9 / 10;
+  Design design(R"({"base": 0.06})", "rules.json", context_of(live_of.header), live_of.header.frame);
+  Backends backends = test::plain_backends(2);
+  LiveClosing live(std::move(live_of), backends, [] {});
+  Page page;
+  const auto drawn = [&](const char* base) {
+    design.set_base(base);
+    live.request(design.plan(), design.revision());
+    live.wait();
+    REQUIRE(live.status().error.empty());
+    page.follow(live);
+    return live.status().drawn_voxel / voxel;
+  };
+  CHECK(drawn("0.01") == 2);
+  CHECK(page.frame.voxel == 2 * voxel);
+  const std::uint64_t before = page.generation;
+  CHECK(drawn("1.5") == 1);
+  CHECK(page.frame.voxel == voxel);
+  const LiveSurface::Change late = live.surface().since(before - 1);  // of a page that has seen neither
+  CHECK(late.whole);
+  CHECK(late.bricks.size() == page.changed);
 }

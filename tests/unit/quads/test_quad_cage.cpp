@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -48,7 +49,46 @@ Corners corners_of(const LatticeMesh& mesh, const Quad& q, bool mirrored) {
   return all;
 }
 
+/// The top and the legs of a table, whose sides lie along the axes.
+constexpr std::array<VoxelBox, 5> kTable{VoxelBox{{0, 0, 44}, {96, 48, 48}}, VoxelBox{{4, 4, 0}, {8, 8, 44}},
+                                         VoxelBox{{88, 4, 0}, {92, 8, 44}}, VoxelBox{{4, 40, 0}, {8, 44, 44}},
+                                         VoxelBox{{88, 40, 0}, {92, 44, 44}}};
+
+/// Returns the distance of the farthest vertex from the table, in voxels.
+double farthest_from_table(const LatticeMesh& cage) {
+  double farthest = 0;
+  for (const LatticeCoord& p : cage.vertices) {
+    double nearest = HUGE_VAL;
+    for (const VoxelBox& box : kTable) {
+      Vec3d off;
+      for (int i = 0; i < 3; ++i) {
+        const double x = double(p[i]) / kLatticePerVoxel;
+        off[std::size_t(i)] = std::max({box.min[i] - x, 0.0, x - box.max[i]});
+      }
+      nearest = std::min(nearest, length(off));
+    }
+    farthest = std::max(farthest, nearest);
+  }
+  return farthest;
+}
+
 }  // namespace
+
+TEST_CASE("no vertex of a cage stays behind: all lie within two voxels of a table, for few faces and many",
+          "[quick][quads]") {
+  const std::optional<MirrorPlane> plane =
+      GENERATE(std::optional<MirrorPlane>(), std::optional<MirrorPlane>(MirrorPlane{0, 48}));
+  const auto is_table = [](VoxelCoord p) {
+    return std::any_of(kTable.begin(), kTable.end(), [&](const VoxelBox& box) { return box.contains(p); });
+  };
+  MemoryShelf shelf;
+  fill_shelf(shelf, {{0, 0, 0}, {96, 48, 48}}, is_table);
+  const EnclosedVoxels enclosed(shelf);
+  for (const std::uint64_t faces : {300, 1000, 2000, 3000}) {
+    CAPTURE(faces, plane.has_value());
+    CHECK(farthest_from_table(shrunk_cage(cell_quads(shelf, {}, faces, plane), enclosed, plane)) <= 2);
+  }
+}
 
 TEST_CASE("a shrunk cage encloses over any diagonal, and is tighter than its boxes", "[quick][quads]") {
   const std::uint64_t faces = GENERATE(120, 400);

@@ -3,7 +3,7 @@
 #include "lib/mesh/lattice_geometry.h"
 #include "lib/mesh/space_order.h"
 #include "lib/tighten/contact_forces.h"
-#include "lib/tighten/detail/face_blocks.h"
+#include "lib/tighten/face_blocks.h"
 #include "tests/catch.h"
 #include "tests/unit/check/meshes.h"
 

@@ -2,7 +2,7 @@
 #include "lib/enclosed/enclosed_voxels.h"
 #include "lib/simplify/flatten.h"
 #include "lib/surface/surface.h"
-#include "lib/tighten/detail/joint_fit.h"
+#include "lib/tighten/joint_fit.h"
 #include "tests/catch.h"
 #include "tests/support/memory_shelf.h"
 

@@ -7,7 +7,7 @@ bl_info = {
     "name": "Bounding Proxies",
     "description": "Collision bodies, hulls, occluders, levels and cages that enclose objects",
     "author": "The authors of Bounding Proxies",
-    "version": (0, 2, 0),
+    "version": (0, 3, 0),
     "blender": (3, 4, 0),
     "location": "3D View > Sidebar > Proxy",
     "category": "Object",

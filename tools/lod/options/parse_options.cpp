@@ -5,6 +5,7 @@
 
 #include "io/files/utf8.h"
 #include "io/scene/scene_format.h"
+#include "lib/check/counted.h"
 #include "lib/core/error.h"
 #include "lib/grid/cells.h"
 #include "tools/cli/names.h"
@@ -168,6 +169,8 @@ void check_jobs(const BuildOptions& o) {
   if (o.tile_vox < kBrickEdge || o.tile_vox % kBrickEdge != 0)
     fail(ErrorCode::bad_argument, "--tile {}: must be a multiple of 64", o.tile_vox);
   if (o.tiles && o.explain) fail(ErrorCode::bad_argument, "--explain numbers the jobs; leave --tiles out");
+  if (o.explain && !o.inputs.empty())
+    fail(ErrorCode::bad_argument, "--inputs tells what levels were made of, and --explain makes none; leave one out");
   if (o.explain && !o.cache.empty() && !can_read_again(o))
     fail(ErrorCode::bad_argument, "--explain reads the scene twice to find what is kept; give it as a file");
   if (o.tiles && o.cache.empty())
@@ -251,6 +254,7 @@ void declare(Args& args, BuildOptions& o) {
   declare_tileset(args, o);
   o.common.add_to(args, CommonOptions::all_parts & ~unsigned(CommonOptions::device_part));
   args.group("Messages");
+  args.option("--inputs", "FILE", o.inputs, "list the files that were read or looked for");
   args.flag("--explain", o.explain, "print what would be made, and what is kept of it; make nothing");
   args.removed("--no-tighten", "levels are always tightened; --enclose closing makes the loosest ones");
   args.removed("--colors", "--appearance color|off says what the levels carry");
@@ -281,6 +285,9 @@ void check_name(BuildOptions& o) {
   if (!given) o.name = base_name(o.voxels.scenes.front());
   if (o.name.empty() || o.name.find('/') != std::string::npos)
     fail(ErrorCode::bad_argument, "--name '{}': must be a name without a folder", o.name);
+  if (one_line(o.name) != o.name)
+    fail(ErrorCode::bad_argument, "{} '{}': has a line break or another control character; give a --name without",
+         given ? "--name" : "the scene's name", o.name);
   if (!is_utf8(o.name))
     fail(ErrorCode::bad_argument, "{} '{}': is not UTF-8, as names in glTF are; give a --name in UTF-8",
          given ? "--name" : "the scene's name", o.name);

@@ -13,17 +13,23 @@ threads, and end early by Ctrl-C.
 from ._cage import Weights, bind, cage
 from ._call import Options
 from ._check import Verdict, check
-from ._grid import Grid, close, load_grid, voxelize
+from ._grid import Grid, close, field, load_grid, voxelize
 from ._library import ArgumentError, CancelledError, Error, FailedError, InputError, ResourceError, lib
-from ._levels import levels, occluder, save_levels
+from ._levels import level_files, levels, occluder, save_levels
 from ._mesh import Mesh, hulls, load, mesh, proxy
 from ._scene import Scene
 
 __all__ = ["ArgumentError", "CancelledError", "Error", "FailedError", "Grid", "InputError", "Mesh", "Options", "ResourceError", "Scene", "Verdict",
-           "Weights", "bind", "cage", "check", "close", "hulls", "levels", "library_version", "load", "load_grid", "mesh", "occluder", "proxy",
-           "save_levels", "voxelize"]
+           "Weights", "bind", "cage", "check", "close", "field", "hulls", "level_files", "levels", "library_version", "load", "load_grid", "mesh",
+           "occluder", "proxy", "save_levels", "voxelize"]
+
+
+def __getattr__(name):
+    if name == "__version__":
+        return library_version()
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 def library_version():
-    """Returns the version of the C library, such as "0.2.0"."""
+    """Returns the version of the C library, such as "0.3.0"."""
     return lib().bp_version().decode()

@@ -1,11 +1,13 @@
 """Types of the module; __init__.py and the functions themselves have the documentation."""
 import os
 from collections.abc import Callable, Sequence
-from typing import Any, Literal, Protocol, TypedDict
+from typing import Any, Literal, Protocol, TypedDict, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import Unpack
+
+__version__: str
 
 _Path = str | os.PathLike[str]
 _Length = float | str
@@ -19,6 +21,10 @@ _Mode = Literal["auto", "bounding", "fit", "inside"]
 _Enclose = Literal["auto", "scene", "input", "closing"]
 _Kind = Literal["mean_value", "green", "maximum_likelihood"]
 _Answer = Literal["proven", "refuted", "undecided"]
+_Format = Literal["glb", "gltf", "ply", "obj", "stl"]
+
+class _Writer(Protocol):
+    def write(self, data: bytes, /) -> Any: ...
 
 class _Vertices(Protocol):
     @property
@@ -30,7 +36,12 @@ class _Points(Protocol):
     @property
     def cells(self) -> Any: ...
 
-_Mesh = tuple[ArrayLike, ArrayLike] | _Vertices | _Points
+class _ToMesh(Protocol):
+    @property
+    def geometry(self) -> Any: ...
+    def to_mesh(self) -> Any: ...
+
+_Mesh = tuple[ArrayLike, ArrayLike] | _Vertices | _Points | _ToMesh
 
 class _Run(TypedDict, total=False):
     threads: int
@@ -38,6 +49,18 @@ class _Run(TypedDict, total=False):
     temp: _Path | None
     device: str | None
     progress: _Progress | None
+
+class _Closing(_Run, total=False):
+    rules: str | dict[str, Any] | None
+    element: _Element
+    keep_cavities: bool
+
+class _Meshing(_Run, total=False):
+    error: _Length | None
+    volume: float | None
+    mode: _Mode
+    enclose: _Enclose
+    quads: bool
 
 class Error(Exception): ...
 class FailedError(Error, RuntimeError): ...
@@ -48,7 +71,7 @@ class CancelledError(Error): ...
 
 class Options:
     def __init__(self, threads: int = 0, memory: int | str = 0, temp: _Path | None = None, device: str | None = None,
-                 progress: _Progress | None = None, **unknown: object) -> None: ...
+                 progress: _Progress | None = None) -> None: ...
 
 class Scene:
     def __init__(self, scene: _Path | list[_Path] | _Mesh | ArrayLike, triangles: ArrayLike | None = None, *, up: _Up | None = None,
@@ -70,13 +93,21 @@ class Grid:
     scale: float
     bricks: dict[str, int]
     voxels: dict[str, int]
+    rules: dict[str, Any] | None
+    def field(self, rules: str | dict[str, Any], **run: Unpack[_Run]) -> Grid: ...
+    def scales(self, points: ArrayLike, **run: Unpack[_Run]) -> NDArray[np.float64]: ...
     def close(self, scale: _Length | None = None, *, rules: str | dict[str, Any] | None = None, element: _Element = "cube",
               keep_cavities: bool = False, **run: Unpack[_Run]) -> Grid: ...
-    def mesh(self, faces: _Faces = None, **how: Any) -> Any: ...
+    @overload
+    def mesh(self, faces: int | None = None, **how: Unpack[_Meshing]) -> Mesh: ...
+    @overload
+    def mesh(self, faces: Sequence[int], **how: Unpack[_Meshing]) -> list[Mesh]: ...
+    @overload
+    def mesh(self, faces: str, **how: Unpack[_Meshing]) -> Mesh | list[Mesh]: ...
     def dense(self, layer: _Layer | None = None, min: ArrayLike | None = None, max: ArrayLike | None = None) -> NDArray[np.bool_]: ...
     def brick_coords(self, layer: _Layer = "solid") -> NDArray[np.int32]: ...
     def brick(self, coord: ArrayLike, layer: _Layer = "solid") -> NDArray[np.uint64]: ...
-    def save(self, path: _Path, *, overwrite: bool = False, **run: Unpack[_Run]) -> None: ...
+    def save(self, path: _Path | _Writer, *, overwrite: bool = False, **run: Unpack[_Run]) -> None: ...
 
 class Mesh:
     vertices: NDArray[np.float64]
@@ -90,7 +121,7 @@ class Mesh:
     notes: list[str]
     @property
     def faces(self) -> NDArray[np.uint32]: ...
-    def save(self, path: _Path, *, overwrite: bool = False) -> None: ...
+    def save(self, path: _Path | _Writer, *, overwrite: bool = False, format: _Format | None = None) -> None: ...
 
 class Verdict:
     holds: bool
@@ -115,15 +146,48 @@ class Weights:
 
 def voxelize(scene: _Scene, triangles: ArrayLike | None = None, *, voxel: _Length | None = None, resolution: int | None = None,
              fill: _Fill = "flood", up: _Up | None = None, **run: Unpack[_Run]) -> Grid: ...
-def close(grid: Grid, scale: _Length | None = None, **how: Any) -> Grid: ...
+def field(grid: Grid, rules: str | dict[str, Any], **run: Unpack[_Run]) -> Grid: ...
+def close(grid: Grid, scale: _Length | None = None, **how: Unpack[_Closing]) -> Grid: ...
 def load_grid(path: _Path, **run: Unpack[_Run]) -> Grid: ...
-def mesh(grid: Grid, faces: _Faces = None, *, error: _Length | None = None, volume: float | None = None,
-         mode: _Mode = "auto", enclose: _Enclose = "auto", quads: bool = False, **run: Unpack[_Run]) -> Any: ...
-def proxy(scene: _Scene, triangles: ArrayLike | None = None, faces: _Faces = 1000, scale: _Length | None = None, *,
+@overload
+def mesh(grid: Grid, faces: int | None = None, *, error: _Length | None = None, volume: float | None = None,
+         mode: _Mode = "auto", enclose: _Enclose = "auto", quads: bool = False, **run: Unpack[_Run]) -> Mesh: ...
+@overload
+def mesh(grid: Grid, faces: Sequence[int], *, error: _Length | None = None, volume: float | None = None,
+         mode: _Mode = "auto", enclose: _Enclose = "auto", quads: bool = False, **run: Unpack[_Run]) -> list[Mesh]: ...
+@overload
+def mesh(grid: Grid, faces: str, *, error: _Length | None = None, volume: float | None = None,
+         mode: _Mode = "auto", enclose: _Enclose = "auto", quads: bool = False, **run: Unpack[_Run]) -> Mesh | list[Mesh]: ...
+@overload
+def proxy(scene: _Scene, triangles: ArrayLike | None = None, *, faces: Sequence[int], scale: _Length | None = None,
           voxel: _Length | None = None, resolution: int | None = None, fill: _Fill = "flood", up: _Up | None = None,
           rules: str | dict[str, Any] | None = None, element: _Element = "cube", keep_cavities: bool = False, error: _Length | None = None,
           volume: float | None = None, mode: _Mode = "auto", enclose: _Enclose = "auto", quads: bool = False,
-          **run: Unpack[_Run]) -> Any: ...
+          **run: Unpack[_Run]) -> list[Mesh]: ...
+@overload
+def proxy(scene: _Scene, triangles: ArrayLike | None = None, *, faces: str, scale: _Length | None = None,
+          voxel: _Length | None = None, resolution: int | None = None, fill: _Fill = "flood", up: _Up | None = None,
+          rules: str | dict[str, Any] | None = None, element: _Element = "cube", keep_cavities: bool = False, error: _Length | None = None,
+          volume: float | None = None, mode: _Mode = "auto", enclose: _Enclose = "auto", quads: bool = False,
+          **run: Unpack[_Run]) -> Mesh | list[Mesh]: ...
+@overload
+def proxy(scene: _Scene, triangles: ArrayLike | None = None, faces: int | None = 1000, scale: _Length | None = None, *,
+          voxel: _Length | None = None, resolution: int | None = None, fill: _Fill = "flood", up: _Up | None = None,
+          rules: str | dict[str, Any] | None = None, element: _Element = "cube", keep_cavities: bool = False, error: _Length | None = None,
+          volume: float | None = None, mode: _Mode = "auto", enclose: _Enclose = "auto", quads: bool = False,
+          **run: Unpack[_Run]) -> Mesh: ...
+@overload
+def proxy(scene: _Scene, triangles: ArrayLike | None, faces: Sequence[int], scale: _Length | None = None, *,
+          voxel: _Length | None = None, resolution: int | None = None, fill: _Fill = "flood", up: _Up | None = None,
+          rules: str | dict[str, Any] | None = None, element: _Element = "cube", keep_cavities: bool = False, error: _Length | None = None,
+          volume: float | None = None, mode: _Mode = "auto", enclose: _Enclose = "auto", quads: bool = False,
+          **run: Unpack[_Run]) -> list[Mesh]: ...
+@overload
+def proxy(scene: _Scene, triangles: ArrayLike | None, faces: str, scale: _Length | None = None, *,
+          voxel: _Length | None = None, resolution: int | None = None, fill: _Fill = "flood", up: _Up | None = None,
+          rules: str | dict[str, Any] | None = None, element: _Element = "cube", keep_cavities: bool = False, error: _Length | None = None,
+          volume: float | None = None, mode: _Mode = "auto", enclose: _Enclose = "auto", quads: bool = False,
+          **run: Unpack[_Run]) -> Mesh | list[Mesh]: ...
 def load(path: _Path, **run: Unpack[_Run]) -> list[Mesh]: ...
 def hulls(mesh: Mesh, hulls: int = 0, *, faces: int = 0, corners: int = 0, **run: Unpack[_Run]) -> list[Mesh]: ...
 def check(proxy: _Path | _Mesh | Mesh, scene: _Scene | None = None, *, inside: bool = False, convex: bool = False,
@@ -136,6 +200,7 @@ def levels(scene: _Scene, triangles: ArrayLike | None = None, faces: _Faces = No
 def occluder(scene: _Scene, triangles: ArrayLike | None = None, faces: int | None = None, scale: _Length | None = None, *,
              voxel: _Length | None = None, resolution: int | None = None, up: _Up | None = None, **run: Unpack[_Run]) -> Mesh: ...
 def save_levels(meshes: list[Mesh] | Mesh, folder: _Path, name: str = "scene", *, overwrite: bool = False) -> None: ...
+def level_files(meshes: list[Mesh] | Mesh, name: str = "scene") -> dict[str, bytes]: ...
 def cage(scene: Grid | _Scene, triangles: ArrayLike | int | None = None, faces: int | None = None, *, margin: _Length | None = None,
          symmetry: Literal["auto", "off", "x", "y", "z"] = "auto", voxel: _Length | None = None, resolution: int | None = None,
          fill: Literal["flood", "winding", "none"] = "flood", up: _Up | None = None, **run: Unpack[_Run]) -> Mesh: ...

@@ -5,23 +5,12 @@ import numpy as np
 
 from ._call import Options, call
 from ._grid import Grid, voxelize_options
-from ._library import ArgumentError, BindOptions, CageOptions, Unchanging, choice, length, lib
+from ._library import ArgumentError, BindOptions, CageOptions, Unchanging, choice, counted, length, lib
 from ._mesh import Mesh, face_count
-from ._scene import arrays_of, mesh_arrays, scene_of
+from ._scene import arrays_of, mesh_arrays, points_of, scene_of
 
 SYMMETRIES = ("auto", "off", "x", "y", "z")
 KINDS = ("mean_value", "green", "maximum_likelihood")
-
-
-def _points(points, name, count=None):
-    array = np.asarray(points)
-    if array.dtype.kind not in "fiu":
-        raise TypeError(f"{name}: an array of {array.dtype}; it must hold real numbers")
-    if array.ndim != 2 or array.shape[1] != 3:
-        raise ValueError(f"{name}: an array of shape {array.shape}; the shape must be (n, 3)")
-    if count is not None and len(array) != count:
-        raise ArgumentError(f"{name}: {len(array)} vertices, and the cage has {count}")
-    return np.ascontiguousarray(array, np.float64)
 
 
 def cage(scene, triangles=None, faces=None, *, margin=None, symmetry="auto", voxel=None, resolution=None, fill="flood", up=None, **run):
@@ -65,7 +54,7 @@ class Weights(Unchanging):
         self._handle, self._vertices = handle, vertices
 
     def __repr__(self):
-        return f"<bounding_proxies.Weights: {len(self)} points in a cage of {self._vertices} vertices>"
+        return f"<bounding_proxies.Weights: {counted(len(self), 'point')} in a cage of {self._vertices} vertices>"
 
     def __len__(self):
         return lib().bp_weights_count(self._handle.address)
@@ -77,7 +66,7 @@ class Weights(Unchanging):
         out       (points, 3) float64 and contiguous, to be filled; None: a new array
         Returns the points' places, (points, 3).
         """
-        moved = _points(vertices, "vertices", self._vertices)
+        moved = points_of(vertices, "vertices", self._vertices)
         if out is None:
             out = np.empty((len(self), 3))
         if not isinstance(out, np.ndarray):
@@ -104,6 +93,6 @@ def bind(cage, points, kind="mean_value", *, carry_outside=False, **run):
     if pair is None:
         raise TypeError(f"{type(cage).__name__} is no cage: give a Mesh, (vertices, triangles), or an object with .vertices and .faces")
     arrays, kept = arrays_of(*pair)
-    places = _points(points, "points")
-    handle, _ = call(Options(**run), "bp_bind", lambda r: (byref(arrays), places.ctypes.data, len(places), byref(options), r), "bp_weights_free")
+    places = points_of(points, "points")
+    handle, _ = call(Options(**run), "bp_bind", lambda r, _=kept: (byref(arrays), places.ctypes.data, len(places), byref(options), r), "bp_weights_free")
     return Weights(handle, len(kept[0]))

@@ -1,6 +1,7 @@
 """Long calls of the library: Ctrl-C ends them, progress is told on the caller's thread, and the GIL is free meanwhile."""
 import difflib
 import inspect
+import sys
 import threading
 from ctypes import byref, c_void_p
 
@@ -10,14 +11,15 @@ POLL_SECONDS = 0.05
 
 
 class Options:
-    """How calls run. Every function that takes long takes these, by name.
+    """How calls run. Every function that takes long takes these arguments, by name; this class only documents them.
 
     threads   at most so many; 0: one for each core
     memory    bytes to keep below, or a text such as "4G"; 0: a quarter of the machine's. What does not fit waits in `temp`
     temp      folder for what waits; None: $TMPDIR, else /tmp
     device    "auto", "cpu", "cuda" or "cuda:0,1"
     progress  called now and then as progress(name_of_work, done, total), on the caller's thread. total is 0 if it is not known. True
-              ends the call with CancelledError. progress=True shows a bar of tqdm where that is installed
+              ends the call with CancelledError. progress=True shows a bar of tqdm where that is installed, else a line of
+              text on stderr
     """
 
     def __init__(self, threads=0, memory=0, temp=None, device=None, progress=None, **unknown):
@@ -26,9 +28,9 @@ class Options:
         if device is not None and not isinstance(device, str):
             raise ArgumentError(f"device: {device!r} is no text such as 'cpu' or 'cuda:0'")
         if progress is not None and progress is not True and not callable(progress):
-            raise ArgumentError(f"progress: {progress!r} is no function; give one, or True for a bar of tqdm")
+            raise ArgumentError(f"progress: {progress!r} is no function; give one, or True to see a bar")
         self.threads, self.memory, self.temp, self.device = whole(threads, "threads"), size(memory, "memory"), temp, device
-        self.progress = _bar() if progress is True else progress
+        self.progress = _Bar() if progress is True else progress
 
 
 def _refuse_keyword(name, code):
@@ -43,24 +45,35 @@ def _refuse_keyword(name, code):
     raise TypeError(f"{function}() got an unexpected keyword argument {name!r}; {hint}")
 
 
-def _bar():
-    """Returns a progress callback that draws a bar of tqdm; None without tqdm."""
-    try:
-        from tqdm.auto import tqdm
-    except ImportError:
-        return None
-    shown = {}
+class _Bar:
+    """Shows progress: by a bar of tqdm for each pass, else in a line of text on stderr."""
 
-    def show(name, done, total):
-        if shown.get("name") != name:
-            if "bar" in shown:
-                shown["bar"].close()
-            shown.update(name=name, bar=tqdm(desc=name, leave=False))
-        shown["bar"].total = total or None
-        shown["bar"].n = done
-        shown["bar"].refresh()
+    def __init__(self):
+        try:
+            from tqdm.auto import tqdm
+        except ImportError:
+            tqdm = None
+        self._tqdm, self._name, self._bar, self._width = tqdm, None, None, 0
 
-    return show
+    def __call__(self, name, done, total):
+        if self._tqdm is None:
+            line = f"{name} {100 * done // total} %" if total else name
+            print(f"\r{line:<{self._width}}", end="", file=sys.stderr, flush=True)
+            self._width = len(line)
+            return
+        if self._name != name:
+            self.close()
+            self._name, self._bar = name, self._tqdm(desc=name, leave=False)
+        self._bar.total, self._bar.n = total or None, done
+        self._bar.refresh()
+
+    def close(self):
+        """Removes what is shown."""
+        if self._width:
+            print("\r" + " " * self._width, end="\r", file=sys.stderr, flush=True)
+        if self._bar is not None:
+            self._bar.close()
+        self._bar, self._width = None, 0
 
 
 class _Job:
@@ -116,7 +129,11 @@ class _Job:
                 self.tell(progress)
         except BaseException:  # Ctrl-C, or an error of the caller's progress
             lib().bp_stop_set(self.stop)
-            self.done.wait()
+            while not self.done.is_set():  # the call uses the caller's arrays until its end
+                try:
+                    self.done.wait()
+                except KeyboardInterrupt:  # of an impatient user; the first is raised
+                    pass
             raise
 
     def __del__(self):
@@ -132,7 +149,11 @@ def call(options, function, arguments, free=None):
         job.work(function, arguments, free)
     else:
         threading.Thread(target=job.work, args=(function, arguments, free), daemon=True).start()
-        job.wait(options.progress)
+        try:
+            job.wait(options.progress)
+        finally:
+            if isinstance(options.progress, _Bar):
+                options.progress.close()
     if job.error is not None:
         raise job.error
     return job.result, job.notes

@@ -60,15 +60,14 @@ def check(proxy, scene=None, *, inside=False, convex=False, margin=None, distanc
     options.margin = length(margin, "margin")
     against = None if scene is None else scene_of(scene, copy=False)
     address = None if against is None else against._handle.address
+    how = Options(**run)
     if is_path(proxy):
-        proxy = load(proxy)[0]
+        proxy = load(proxy, **run)[0]
     if isinstance(proxy, Mesh):
-        return Verdict(*call(Options(**run), "bp_check_mesh", lambda r: (proxy._handle.address, proxy._index, address, byref(options), r),
+        return Verdict(*call(how, "bp_check_mesh", lambda r: (proxy._handle.address, proxy._index, address, byref(options), r),
                              "bp_verdict_free"))
     pair = mesh_arrays(proxy)
     if pair is None:
         raise TypeError(f"{type(proxy).__name__} is no mesh: give a Mesh, (vertices, triangles), a path, or an object with .vertices and .faces")
     arrays, kept = arrays_of(*pair)
-    verdict = Verdict(*call(Options(**run), "bp_check", lambda r: (byref(arrays), address, byref(options), r), "bp_verdict_free"))
-    del kept
-    return verdict
+    return Verdict(*call(how, "bp_check", lambda r, _=kept: (byref(arrays), address, byref(options), r), "bp_verdict_free"))

@@ -5,8 +5,9 @@ from ctypes import byref, c_size_t
 import numpy as np
 
 from ._call import Options, call
-from ._library import CloseOptions, GridInfo, Unchanging, VoxelizeOptions, check, choice, length, lib, needed, path_bytes, read_struct, text, whole
-from ._scene import UPS, scene_of
+from ._library import (CloseOptions, GridInfo, Unchanging, VoxelizeOptions, check, choice, length, lib, needed, path_bytes, read_struct, sunk, text, write_all,
+                       whole)
+from ._scene import UPS, points_of, scene_of
 
 FILLS = ("flood", "winding", "none", "inside")
 ELEMENTS = ("cube", "ball")
@@ -23,12 +24,16 @@ def voxelize_options(voxel=None, resolution=None, fill="flood", up=None):
     return options
 
 
+def rules_text(rules):
+    return text(rules if isinstance(rules, str) else json.dumps(rules), "rules")
+
+
 def close_options(scale=None, rules=None, element="cube", keep_cavities=False):
     options = CloseOptions.made()
     options.scale = length(scale, "scale")
     options.no_scale = scale is not None and options.scale.value == 0
     if rules is not None:
-        options.rules = text(rules if isinstance(rules, str) else json.dumps(rules), "rules")
+        options.rules = rules_text(rules)
     options.element = choice(element, ELEMENTS, "element")
     options.keep_cavities = bool(keep_cavities)
     return options
@@ -53,6 +58,7 @@ class Grid(Unchanging):
     min, max (3,) all voxels that are set lie in min <= v < max; may be negative
     bounds   (2, 3) bounding box of the scene, scene units
     scale    of the closing where it is the same everywhere, scene units; else 0
+    rules    the scale field of the closing, or of the closing to come, as a dict of rules in scene units; None: there is none
     bricks, voxels  numbers of bricks and voxels that are not empty, by layer: {"solid": n, "closing": n}
     notes    sentences of the library that are worth a look
     """
@@ -70,20 +76,44 @@ class Grid(Unchanging):
             self._info = {"voxel": i.voxel, "origin": np.array(i.origin), "min": np.array(i.min), "max": np.array(i.max),
                           "bounds": np.array([list(i.bounds_min), list(i.bounds_max)]), "has_closing": bool(i.has_closing),
                           "fill": FILLS[i.fill], "up": UPS[i.up], "scale": i.scale, "bricks": dict(zip(LAYERS, i.bricks)),
-                          "voxels": dict(zip(LAYERS, i.voxels))}
+                          "voxels": dict(zip(LAYERS, i.voxels)), "rules": json.loads(i.rules) if i.rules else None}
         try:
             return self._info[name]
         except KeyError:
             raise AttributeError(f"a Grid has no {name!r}; it has {', '.join(self._info)}") from None
 
+    def __repr__(self):
+        layer = "closing" if self.has_closing else "solid"
+        return f"<bounding_proxies.Grid: {self.voxels[layer]} voxels of {self.voxel:.4g} in its {layer} layer>"
+
     def __dir__(self):
         self.voxel
         return [*super().__dir__(), *self._info]
 
+    def field(self, rules, **run):
+        """Adds a scale field, as bpscale does: rules say for each place how large the gaps are that close() closes there.
+
+        rules  JSON or a dict as docs/bpscale.1.md has it, with an orientation, too. Names of parts need a scene of files
+        run    threads, memory, temp, progress (Options)
+        Returns a Grid with the same voxels, and with the field in place of one that this grid has. close() takes it without scale and rules.
+        """
+        handle, notes = call(Options(**run), "bp_field", lambda r: (self._handle.address, rules_text(rules), r), "bp_grid_free")
+        return Grid(handle, notes, self._scene)
+
+    def scales(self, points, **run):
+        """Returns the scales at points, (n,): the closing radius there by the field of this grid, scene units.
+
+        points  (n, 3) real numbers, scene units
+        """
+        places = points_of(points, "points")
+        out = np.empty(len(places))
+        call(Options(**run), "bp_grid_scales", lambda r: (self._handle.address, places.ctypes.data, len(places), r, out.ctypes.data))
+        return out
+
     def close(self, scale=None, *, rules=None, element="cube", keep_cavities=False, **run):
         """Closes the solid layer, after [CB17] section 3.3: gaps, holes and grooves narrower than twice the scale are filled.
 
-        scale          radius: a number in scene units, or "2%" of the scene's diagonal, or "20vx". Default: 2 %
+        scale          radius: a number in scene units, or "2%" of the scene's diagonal, or "20vx". Default: the field() of the grid, else 2 %
         rules          scales that differ from place to place, in place of scale: JSON or a dict as docs/bpscale.1.md has it
         element        "cube" keeps large flat areas; "ball"
         keep_cavities  hollows that the closing cuts off from the outside stay empty
@@ -132,7 +162,13 @@ class Grid(Unchanging):
         return out
 
     def save(self, path, *, overwrite=False, **run):
-        """Writes the stream of voxels that the tools read (docs/brick-stream.md). The file appears complete or not at all."""
+        """Writes the stream of voxels that the tools read (docs/brick-stream.md). The file appears complete or not at all.
+
+        path  a name, or an object with write(), which gets the bytes on a thread of the library while this one waits
+        """
+        if hasattr(path, "write"):
+            sunk(lambda _, data: write_all(path, data), lambda sink: call(Options(**run), "bp_grid_write", lambda r: (self._handle.address, sink, None, r)))
+            return
         call(Options(**run), "bp_grid_save", lambda r: (self._handle.address, path_bytes(path, "path"), bool(overwrite), r))
 
 
@@ -151,6 +187,11 @@ def voxelize(scene, triangles=None, *, voxel=None, resolution=None, fill="flood"
     scene = scene_of(scene, triangles)
     handle, notes = call(Options(**run), "bp_voxelize", lambda r: (scene._handle.address, byref(options), r), "bp_grid_free")
     return Grid(handle, notes, scene)
+
+
+def field(grid, rules, **run):
+    """Adds a scale field to a grid: grid.field(rules, ...)."""
+    return needed(grid, Grid, "voxelize() or load_grid()").field(rules, **run)
 
 
 def close(grid, scale=None, **how):

@@ -5,7 +5,7 @@ import numpy as np
 
 from ._call import Options, call
 from ._grid import voxelize_options
-from ._library import Length, LevelsOptions, OccluderOptions, check, choice, length, lib, path_bytes, text, whole
+from ._library import Length, LevelsOptions, OccluderOptions, check, choice, length, lib, path_bytes, sunk, text, whole
 from ._mesh import ENCLOSE, Mesh, face_count, face_counts, meshes_of
 from ._scene import scene_of
 
@@ -73,7 +73,24 @@ def save_levels(meshes, folder, name="scene", *, overwrite=False):
     meshes     the list of levels(), or the Mesh of occluder() or cage(); all meshes that were made together are written
     folder     is made if it is missing. All files appear, or none
     """
-    mesh = meshes if isinstance(meshes, Mesh) else next(iter(meshes), None)
+    check(lib().bp_levels_save(_one_of(meshes, "save_levels"), path_bytes(folder, "folder"), text(name, "name"), bool(overwrite)))
+
+
+def level_files(meshes, name="scene"):
+    """Returns the files that save_levels() writes as a dict: their bytes by their names. Experimental."""
+    files = {}
+
+    def take(file, data):
+        files.setdefault(file, bytearray()).extend(data)
+
+    address = _one_of(meshes, "level_files")
+    sunk(take, lambda sink: check(lib().bp_levels_write(address, text(name, "name"), sink, None)))
+    return {file: bytes(data) for file, data in files.items()}
+
+
+def _one_of(meshes, function):
+    """Returns the handle of what levels(), occluder() or cage() returned."""
+    mesh = next(iter(meshes), None) if isinstance(meshes, (list, tuple)) else meshes
     if not isinstance(mesh, Mesh):
-        raise TypeError("save_levels() takes what levels(), occluder() or cage() returned")
-    check(lib().bp_levels_save(mesh._handle.address, path_bytes(folder, "folder"), text(name, "name"), bool(overwrite)))
+        raise TypeError(f"{function}() takes what levels(), occluder() or cage() returned")
+    return mesh._handle.address

@@ -9,6 +9,7 @@ from pathlib import Path
 
 Progress = ctypes.CFUNCTYPE(c_int, c_void_p, c_char_p, c_char_p, c_uint64, c_uint64)
 Note = ctypes.CFUNCTYPE(None, c_void_p, c_char_p)
+Sink = ctypes.CFUNCTYPE(c_int, c_void_p, c_char_p, c_void_p, c_size_t)
 
 
 class Length(Structure):
@@ -59,7 +60,7 @@ class CloseOptions(Sized):
 class GridInfo(Sized):
     _fields_ = [("size", c_size_t), ("voxel", c_double), ("origin", c_double * 3), ("min", c_int32 * 3), ("max", c_int32 * 3),
                 ("bounds_min", c_double * 3), ("bounds_max", c_double * 3), ("has_closing", c_int32), ("fill", c_int32), ("up", c_int32),
-                ("scale", c_double), ("bricks", c_uint64 * 2), ("voxels", c_uint64 * 2)]
+                ("scale", c_double), ("bricks", c_uint64 * 2), ("voxels", c_uint64 * 2), ("rules", c_char_p)]
 
 
 class MeshOptions(Sized):
@@ -153,10 +154,13 @@ _FUNCTIONS = {  # name: result, arguments
     "bp_scene_read_info": (_i, [_p, _p, _p, _s]),
     "bp_scene_free": (None, [_p]),
     "bp_voxelize": (_i, [_p, _p, _p, _p]),
+    "bp_field": (_i, [_p, c_char_p, _p, _p]),
     "bp_close": (_i, [_p, _p, _p, _p]),
     "bp_grid_load": (_i, [c_char_p, _p, _p]),
     "bp_grid_save": (_i, [_p, c_char_p, _i, _p]),
+    "bp_grid_write": (_i, [_p, Sink, _p, _p]),
     "bp_grid_read_info": (_i, [_p, _p, _s]),
+    "bp_grid_scales": (_i, [_p, _p, _s, _p, _p]),
     "bp_grid_read": (_i, [_p, _i, _p, _p, _p]),
     "bp_grid_bricks": (_i, [_p, _i, _p, _s, _p]),
     "bp_grid_brick": (_i, [_p, _i, _p, _p]),
@@ -168,6 +172,7 @@ _FUNCTIONS = {  # name: result, arguments
     "bp_mesh_look": (_i, [_p, _s, _p, _s]),
     "bp_mesh_read_info": (_i, [_p, _s, _p, _s]),
     "bp_mesh_save": (_i, [_p, _s, c_char_p, _i]),
+    "bp_mesh_write": (_i, [_p, _s, c_char_p, Sink, _p]),
     "bp_mesh_free": (None, [_p]),
     "bp_check": (_i, [_p, _p, _p, _p, _p]),
     "bp_check_mesh": (_i, [_p, _s, _p, _p, _p, _p]),
@@ -181,6 +186,7 @@ _FUNCTIONS = {  # name: result, arguments
     "bp_occluder": (_i, [_p, _p, _p, _p, _p]),
     "bp_scene_cage": (_i, [_p, _p, _p, _p, _p]),
     "bp_levels_save": (_i, [_p, c_char_p, c_char_p, _i]),
+    "bp_levels_write": (_i, [_p, c_char_p, Sink, _p]),
     "bp_cage": (_i, [_p, c_uint64, _p, _p]),
     "bp_bind": (_i, [_p, _p, _s, _p, _p, _p]),
     "bp_weights_apply": (_i, [_p, _p, _p, _p]),
@@ -228,6 +234,32 @@ def check(status):
         raise ERRORS.get(status, FailedError)(lib().bp_error_message().decode(errors="replace"))
 
 
+def write_all(file, data):
+    """Writes all bytes: a raw file or a pipe may take fewer at a time, and tells how many."""
+    rest = memoryview(data)
+    while len(rest) > 0:
+        taken = file.write(rest)
+        rest = rest[taken if isinstance(taken, int) else len(rest):]
+
+
+def sunk(take, function):
+    """Calls function(sink), which gives a sink to the library. take(name, bytes) gets the bytes; an error of it ends the call, and is raised."""
+    errors = []
+
+    def sink(_, name, address, count):
+        try:
+            take(name and name.decode(), ctypes.string_at(address, count))
+        except BaseException as e:
+            errors.append(e)
+        return len(errors)
+    try:
+        function(Sink(sink))
+    except CancelledError:
+        if errors:
+            raise errors[0] from None
+        raise
+
+
 class Unchanging:
     """An object of the library, which does not change: its copy is the object itself, and other processes cannot have it."""
 
@@ -261,6 +293,11 @@ def text(value, name):
     if "\0" in value:
         raise ArgumentError(f"{name}: {value!r} has a character of number 0")
     return value.encode(errors="surrogateescape")
+
+
+def counted(number, one):
+    """Returns "1 triangle", "2 triangles"."""
+    return f"{number} {one}{'s' * (number != 1)}"
 
 
 def path_bytes(path, name):

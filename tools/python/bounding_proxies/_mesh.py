@@ -5,8 +5,8 @@ import numpy as np
 
 from ._call import Options, call
 from ._grid import Grid, close_options, voxelize_options
-from ._library import (ArgumentError, HullsOptions, MeshInfo, MeshOptions, MeshView, Unchanging, check, choice, factor, length, lib, needed,
-                       path_bytes, read_struct, whole)
+from ._library import (ArgumentError, HullsOptions, MeshInfo, MeshOptions, MeshView, Unchanging, check, choice, counted, factor, length, lib, needed,
+                       path_bytes, read_struct, sunk, text, whole, write_all)
 from ._scene import scene_of
 
 MODES = ("auto", "bounding", "fit", "inside")
@@ -19,9 +19,7 @@ def _array(address, rows, columns, kind, dtype, owner):
         return np.empty((0, columns), dtype)
     memory = (kind * (rows * columns)).from_address(address)
     memory.owner = owner
-    array = np.frombuffer(memory, dtype).reshape(rows, columns)
-    array.flags.writeable = False
-    return array
+    return np.frombuffer(memoryview(memory).toreadonly(), dtype).reshape(rows, columns)
 
 
 class Mesh(Unchanging):
@@ -33,7 +31,8 @@ class Mesh(Unchanging):
     volume, area   scene units cubed and squared
     error_bound    no point of a proxy is farther from what it encloses, scene units; 0: not bounded
     enclosed       what lies strictly inside: "scene", "input" (its voxels), "closing"; "" if nothing is known to
-    stopped_by     the target that was reached first: "faces", "error", "volume"; "" for other meshes
+    stopped_by     the target that was reached first: "faces", "error", "volume"; "least-volume": further faces would save next to no volume;
+                   else the reason in words. "" for other meshes
     notes          sentences of the library that are worth a look: what was left out, why a target was not reached
     """
 
@@ -52,10 +51,22 @@ class Mesh(Unchanging):
         return self.triangles
 
     def __repr__(self):
-        return f"<bounding_proxies.Mesh: {len(self.vertices)} vertices, {len(self.triangles)} triangles>"
+        return f"<bounding_proxies.Mesh: {len(self.vertices)} vertices, {counted(len(self.triangles), 'triangle')}>"
 
-    def save(self, path, *, overwrite=False):
-        """Writes the mesh without loss as .glb, .gltf, .ply, .obj or .stl, with the bytes that the tools write."""
+    def save(self, path, *, overwrite=False, format=None):
+        """Writes the mesh without loss as .glb, .gltf, .ply, .obj or .stl, with the bytes that the tools write.
+
+        path    a name, which tells the format, or an object with write(), such as io.BytesIO()
+        format  of an object: "glb", "gltf", "ply", "obj" or "stl"
+        """
+        if hasattr(path, "write"):
+            if format is None:
+                raise ArgumentError('format: name the one to be written, such as format="glb"')
+            kind = text(format, "format")
+            sunk(lambda _, data: write_all(path, data), lambda sink: check(lib().bp_mesh_write(self._handle.address, self._index, kind, sink, None)))
+            return
+        if format is not None:
+            raise ArgumentError(f"format: {format!r} is given beside the name of a file, which tells the format")
         check(lib().bp_mesh_save(self._handle.address, self._index, path_bytes(path, "path"), bool(overwrite)))
 
 
@@ -126,8 +137,14 @@ def proxy(scene, triangles=None, faces=1000, scale=None, *, voxel=None, resoluti
           keep_cavities=False, error=None, volume=None, mode="auto", enclose="auto", quads=False, **run):
     """Makes a bounding proxy: voxelize(), close() and mesh() in one call, as `bpvox | bpclose | bpmesh` do.
 
-    proxy(vertices, triangles, faces=1000, scale="1%"), proxy(mesh, ...), proxy("scene.glb", ...). The other arguments are those of
-    the three functions. Raises InputError, ArgumentError, ResourceError.
+    scene, triangles  what Scene takes: proxy(vertices, triangles), proxy(mesh), proxy("scene.glb")
+    faces       most triangles; a list of falling numbers makes as many levels. None: the other targets decide
+    scale       closing radius: gaps narrower than twice this are filled. A number in scene units, or "1%" of the scene's diagonal; None: 2 %
+    resolution  voxels along the longest side of the scene, or voxel: the edge of one; default 256. They bound how near the proxy can come
+    error       largest distance to the scene, a number or "0.5%"; volume: the largest one, as a multiple of the voxels'
+    rules, element, keep_cavities as close() has them, fill and up as voxelize(), mode, enclose and quads as mesh()
+    run         threads, memory, temp, device, progress (Options)
+    Raises InputError, ArgumentError, ResourceError.
     Returns a Mesh that strictly encloses every triangle of the scene. Returns a list of them, finest first, if faces is a list.
     """
     voxels = voxelize_options(voxel, resolution, fill, up)

@@ -46,6 +46,18 @@ def arrays_of(vertices, triangles, up=None):
     return arrays, (vertices, triangles)
 
 
+def points_of(points, name, count=None):
+    """Returns points as an array that the library reads. count: the number that a cage wants."""
+    array = np.asarray(points)
+    if array.dtype.kind not in "fiu":
+        raise TypeError(f"{name}: an array of {array.dtype}; it must hold real numbers")
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise ValueError(f"{name}: an array of shape {array.shape}; the shape must be (n, 3)")
+    if count is not None and len(array) != count:
+        raise ArgumentError(f"{name}: an array of {len(array)} rows, and the number of the cage's vertices is {count}")
+    return np.ascontiguousarray(array, np.float64)
+
+
 def _cells(mesh):
     """Returns the triangles of a meshio object."""
     blocks = [np.asarray(block.data) for block in mesh.cells if block.type == "triangle"]
@@ -62,8 +74,10 @@ def mesh_arrays(thing):
     none."""
     if isinstance(thing, tuple) and len(thing) == 2:
         return thing
+    if hasattr(thing, "geometry") and hasattr(thing, "to_mesh"):  # a Scene of trimesh, which trimesh.load() returns for most files
+        thing = thing.to_mesh()
     if hasattr(thing, "vertices"):
-        for name in ("triangles", "faces"):
+        for name in ("faces", "triangles"):  # a Trimesh has both, and its triangles are the places of their corners
             if hasattr(thing, name):
                 return np.asarray(thing.vertices), np.asarray(getattr(thing, name))
     if hasattr(thing, "points") and hasattr(thing, "cells"):
@@ -88,12 +102,13 @@ class Scene(Unchanging):
 
     Scene(vertices, triangles)   arrays: vertices (n, 3) of real numbers in scene units, triangles (m, 3) of whole numbers, from 0,
                                  counter-clockwise seen from outside
-    Scene(mesh)                  an object with .vertices and .faces or .triangles (trimesh, Open3D), or with .points and .cells (meshio)
+    Scene(mesh)                  an object with .vertices and .faces or .triangles (trimesh, Open3D), or with .points and .cells (meshio);
+                                 a Scene of trimesh
     Scene(path), Scene([path])   files, voxelized together: PLY, STL, OBJ, OFF, glTF, GLB, tilesets, and what Assimp reads. They are
-                                 streamed when they are needed, and may be larger than memory
+                                 streamed when they are needed, from the current folder of that moment, and may be larger than memory
 
     up: the axis that points up, "y", "z", "-x", ...; None: what the scene tells, else y.
-    copy: False keeps references to the arrays, which must not change then. A change is reported.
+    copy: False keeps references to the arrays, which must not change then. A change after voxelize() is reported.
     Raises InputError with the number of the first fault if a vertex that is used is not finite, or a triangle names a vertex that does not
     exist; ValueError and TypeError for arrays of a wrong shape or type.
     """

@@ -73,6 +73,26 @@ std::string last_name(const std::string& path) {
   return (p.has_filename() ? p : p.parent_path()).filename().string();
 }
 
+/// Adds a piece of a surface in this frame.
+void append(const SurfacePiece& piece, const GridFrame& frame, const Vec3d& middle, ShownMesh& out) {
+  const Vec3d origin = frame.world_origin();
+  const double step = frame.voxel / SurfacePiece::kPerVoxel;
+  const auto first = std::uint32_t(out.positions.size());
+  for (const SurfacePiece::Vertex& v : piece.vertices) {
+    std::array<float, 3> p{};
+    for (int i = 0; i < 3; ++i) {
+      const auto axis = std::size_t(i);
+      const double voxels = double(piece.brick[i]) * kBrickEdge - SurfacePiece::kOrigin;
+      p[axis] = float(origin[axis] - middle[axis] + voxels * frame.voxel + v.position[axis] * step);
+    }
+    out.positions.push_back(p);
+    out.normals.push_back(v.normal);
+  }
+  for (const auto& face : piece.faces) {
+    for (const auto& t : triangles_of(face)) out.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+  }
+}
+
 ShownMesh voxels_of_stream(const ShownFile& file, const Vec3d& middle, std::uint64_t most,
                            const SceneOptions& options) {
   BrickReader reader(file.path);
@@ -84,32 +104,17 @@ ShownMesh voxels_of_stream(const ShownFile& file, const Vec3d& middle, std::uint
   }
   const std::vector<BrickCoord> bricks = shelf->coords();
   std::vector<SurfacePiece> pieces(bricks.size());
-  std::atomic<std::uint64_t> made = 0;
+  std::atomic<std::uint64_t> faces = 0;
   parallel_for(std::int64_t(bricks.size()), [&](std::int64_t i) {
-    if (made > most) return;  // it is refused below
+    if (2 * faces > most) return;  // it is refused below
     const BrickCoord c = bricks[std::size_t(i)];
-    const VoxelBox box = voxels_of(BrickBox{c, {c.x + 1, c.y + 1, c.z + 1}}).grown(1);
+    const VoxelBox box = voxels_of(c).grown(1);
     pieces[std::size_t(i)] = piece_of(*shelf, c, header.scale.sample(header.frame, box));
-    made += pieces[std::size_t(i)].triangles.size();
+    faces += pieces[std::size_t(i)].faces.size();
   });
-  if (made > most) refuse_large(file, most);
+  if (2 * faces > most) refuse_large(file, most);
   ShownMesh out;
-  const Vec3d origin = header.frame.world_origin();
-  const double step = header.frame.voxel / SurfacePiece::kPerVoxel;
-  for (const SurfacePiece& piece : pieces) {
-    const auto first = std::uint32_t(out.positions.size());
-    for (const SurfacePiece::Vertex& v : piece.vertices) {
-      std::array<float, 3> p{};
-      for (int i = 0; i < 3; ++i) {
-        const auto axis = std::size_t(i);
-        const double voxels = double(piece.brick[i]) * kBrickEdge - SurfacePiece::kOrigin;
-        p[axis] = float(origin[axis] - middle[axis] + voxels * header.frame.voxel + v.position[axis] * step);
-      }
-      out.positions.push_back(p);
-      out.normals.push_back(v.normal);
-    }
-    for (const auto& t : piece.triangles) out.triangles.push_back({first + t[0], first + t[1], first + t[2]});
-  }
+  for (const SurfacePiece& piece : pieces) append(piece, header.frame, middle, out);
   out.faces = std::uint32_t(out.triangles.size());
   return out;
 }

@@ -18,6 +18,13 @@ namespace bp {
   return std::find(kKeywords.begin(), kKeywords.end(), keyword) != kKeywords.end();
 }
 
+/// Returns whether a keyword is "v" or "f" and a number without a blank between them. Some programs read both.
+[[nodiscard]] inline bool is_glued(std::string_view keyword) {
+  constexpr std::string_view kNumberStarts = "0123456789+-.";
+  return keyword.size() > 1 && (keyword[0] == 'v' || keyword[0] == 'f') &&
+         kNumberStarts.find(keyword[1]) != std::string_view::npos;
+}
+
 /// An OBJ file whose lines are as nearly all programs write them, in blocks of text that all cores read at once.
 class ObjBlocks {
  public:

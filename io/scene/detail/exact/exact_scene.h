@@ -50,6 +50,9 @@ struct ExactScene {
 [[nodiscard]] std::optional<ExactScene> exact_collada(std::string text);
 [[nodiscard]] std::optional<ExactScene> exact_ac3d(const std::string& text);
 
+/// Reads only what Assimp does not follow in a DXF.
+[[nodiscard]] ExactScene exact_dxf(std::string_view text);
+
 /// Returns the numbers of a text with blanks between them; ends before a word that is no number.
 [[nodiscard]] std::vector<double> numbers_in(std::string_view text);
 

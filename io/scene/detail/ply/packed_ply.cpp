@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <bit>
 #include <mutex>
+#include <span>
 
 #include "io/scene/detail/block_cache.h"
+#include "io/scene/detail/ply/ply_cursor.h"
 #include "io/scene/detail/ply/ply_values.h"
 #include "lib/core/parallel.h"
 #include "lib/core/pool.h"
@@ -74,9 +76,10 @@ std::optional<Layout> layout_of(const PlyHeader& header, std::uint64_t file_byte
     const PlyElement& element = header.elements[i];
     if (element.name == "face") {
       layout.faces = at;
-      const bool last = std::none_of(header.elements.begin() + std::ptrdiff_t(i) + 1, header.elements.end(),
-                                     [](const PlyElement& e) { return e.name == "face" || e.name == "tristrips"; });
-      if (!has_vertices || !last || !lay_out_faces(element, layout)) return {};
+      for (const PlyElement& e : std::span(header.elements).subspan(i + 1)) {
+        if (e.name == "tristrips") return {};
+      }
+      if (!has_vertices || !lay_out_faces(element, layout)) return {};
       const std::size_t least = layout.record_bytes(0);
       return element.count <= (file_bytes - at) / least ? std::optional(layout) : std::nullopt;
     }
@@ -95,8 +98,9 @@ std::optional<Layout> layout_of(const PlyHeader& header, std::uint64_t file_byte
 
 class PackedPly final : public TwoStepSource {
  public:
-  PackedPly(SceneFilePtr file, const SceneOptions& options, const Layout& layout)
+  PackedPly(SceneFilePtr file, const SceneOptions& options, const Layout& layout, PlyHeader header)
       : file_(std::move(file)),
+        header_(std::move(header)),
         budget_(options.memory_bytes),
         fans_(options.fans),
         layout_(layout),
@@ -123,7 +127,10 @@ class PackedPly final : public TwoStepSource {
 
   bool next(RawBatch& batch) override {
     batch.records = batch.bad_faces = batch.count = 0;
-    if (record_ == layout_.face_count) return false;
+    if (record_ == layout_.face_count) {
+      check_end();
+      return false;
+    }
     for (std::size_t want = RawSource::kBatch * layout_.record_bytes(3); batch.records == 0;) {
       batch.bytes.resize(std::size_t(std::min<std::uint64_t>(want, file_->size() - at_)));
       batch.bytes.resize(file_->read_at(at_, batch.bytes));
@@ -325,6 +332,27 @@ class PackedPly final : public TwoStepSource {
     held_ = std::move(held);
   }
 
+  /// Checks that nothing follows the elements after the faces.
+  void check_end() const {
+    PlyBinaryCursor cursor(file_, header_);
+    cursor.seek({at_});
+    bool behind = false;
+    for (const PlyElement& e : header_.elements) {
+      if (behind && !cursor.skip_records(e)) skip_lists(cursor, e);
+      behind = behind || e.name == "face";
+    }
+    cursor.check_end();
+  }
+  static void skip_lists(PlyBinaryCursor& cursor, const PlyElement& element) {
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      for (const PlyProperty& p : element.properties) {
+        const std::int64_t n = p.is_list ? cursor.integer(p.count_type) : 1;
+        if (n < 0) cursor.fail_here("a list has a size that is not a count; is the file damaged?");
+        cursor.skip(p.type, std::uint64_t(n));
+      }
+    }
+  }
+
   [[noreturn]] void fail_here(std::size_t within, const std::string& what) const {
     fail(ErrorCode::bad_input, "{}: byte {}: {}; is the file damaged?", file_->name(), at_ + within, what);
   }
@@ -334,6 +362,7 @@ class PackedPly final : public TwoStepSource {
   }
 
   const SceneFilePtr file_;
+  const PlyHeader header_;
   const std::uint64_t budget_;
   const bool fans_;
   const Layout layout_;
@@ -347,7 +376,7 @@ class PackedPly final : public TwoStepSource {
 
 RawSourcePtr open_packed_ply(SceneFilePtr file, const SceneOptions& options, const PlyHeader& header) {
   const std::optional<Layout> layout = layout_of(header, file->size());
-  return layout ? std::make_unique<PackedPly>(std::move(file), options, *layout) : nullptr;
+  return layout ? std::make_unique<PackedPly>(std::move(file), options, *layout, header) : nullptr;
 }
 
 }  // namespace bp

@@ -17,7 +17,8 @@ class PlyBinaryCursor {
   };
   PlyBinaryCursor(SceneFilePtr file, const PlyHeader& header)
       : bytes_(std::move(file), header.data.offset),
-        swap_((header.format == PlyHeader::Format::big_endian) != (std::endian::native == std::endian::big)) {}
+        swap_((header.format == PlyHeader::Format::big_endian) != (std::endian::native == std::endian::big)),
+        odd_lines_(header.ends.odd()) {}
 
   double real(PlyType type) { return decode_real(bytes_.take(bytes_of(type)), type, swap_); }
   std::int64_t integer(PlyType type) { return decode_integer(bytes_.take(bytes_of(type)), type, swap_); }
@@ -46,6 +47,8 @@ class PlyBinaryCursor {
     check_count(element, size);
   }
   void end_record() {}
+  [[nodiscard]] std::uint64_t odd_lines() const { return odd_lines_; }  ///< of the header
+  void check_end() const { check_ply_end(bytes_.file(), bytes_.offset()); }
   [[noreturn]] void fail_here(const std::string& what) const {
     fail(ErrorCode::bad_input, "{}: byte {}: {}", bytes_.file().name(), bytes_.offset(), what);
   }
@@ -56,12 +59,15 @@ class PlyBinaryCursor {
  private:
   ByteStream bytes_;
   bool swap_;
+  std::uint64_t odd_lines_;
 };
 
 class PlyAsciiCursor {
  public:
   using Mark = TextScanner::Mark;
-  PlyAsciiCursor(SceneFilePtr file, const PlyHeader& header) : text_(std::move(file), header.data) {}
+  PlyAsciiCursor(SceneFilePtr file, const PlyHeader& header) : text_(std::move(file), header.data) {
+    text_.add_ends(header.ends);
+  }
 
   double real(PlyType) {
     need_word();
@@ -91,16 +97,31 @@ class PlyAsciiCursor {
                     element.name, text_.remaining());
   }
   /// Ends a record, which ends with its line. Words beyond those that the header declares occur, and are skipped.
-  void end_record() { text_.next_line(); }
+  void end_record() {
+    longer_ += text_.has_more() ? 1 : 0;
+    text_.next_line();
+  }
+  /// Returns how many lines other programs read in another way, so far: lines with another end, and lines with more
+  /// words. Programs that read words take these for the next record.
+  [[nodiscard]] std::uint64_t odd_lines() const { return longer_ + text_.ends().odd(); }
+  void check_end() {
+    if (text_.word_anywhere()) text_.fail_here("data begin that the header does not promise; is the file damaged?");
+  }
   [[noreturn]] void fail_here(const std::string& what) const { text_.fail_here("{}", what); }
   [[nodiscard]] Mark mark() const { return text_.mark(); }
   void seek(Mark mark) { text_.seek(mark); }
+  /// Moves behind records that PlyBlocks has read. Their lines end with LF.
+  void seek_behind_blocks(Mark mark) {
+    text_.add_ends({.line_feeds = 1});
+    text_.seek(mark);
+  }
 
  private:
   void need_word() {
     if (!text_.word_anywhere()) text_.fail_here("the file ends in the middle of its data; it is truncated");
   }
   TextScanner text_;
+  std::uint64_t longer_ = 0;
 };
 
 }  // namespace bp

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 
 namespace bp {
 
@@ -73,6 +74,27 @@ PlyProperty property_of(TextScanner& text) {
   return p;
 }
 
+/// Two lists of corners have one meaning.
+std::string_view meaning_of(std::string_view property) {
+  return property == "vertex_index" ? "vertex_indices" : property;
+}
+
+/// Refuses elements and coordinates that are there twice: programs take the first or the last one, or read both.
+void check_names(const TextScanner& text, const PlyHeader& header) {
+  std::set<std::string_view> elements;
+  for (const PlyElement& element : header.elements) {
+    if (!elements.insert(element.name).second)
+      text.fail_here("the header has two elements '{}'; programs disagree on what that means", element.name);
+    std::set<std::string_view> properties;
+    for (const PlyProperty& p : element.properties) {
+      const std::string_view name = meaning_of(p.name);
+      const bool is_place = name == "x" || name == "y" || name == "z" || name == "vertex_indices";
+      if (is_place && !properties.insert(name).second)
+        text.fail_here("element '{}' has '{}' twice; programs disagree on what that means", element.name, p.name);
+    }
+  }
+}
+
 /// Reads one line; returns true at "end_header".
 bool header_line(TextScanner& text, PlyHeader& header, bool& has_format) {
   const std::string key = word_of(text);
@@ -129,9 +151,21 @@ PlyHeader read_ply_header(SceneFilePtr file) {
     more = !text.word_on_line() || !header_line(text, header, has_format);
   }
   if (!has_format) text.fail_here("the PLY header has no 'format' line");
+  check_names(text, header);
   text.next_line();
   header.data = text.mark();
+  header.ends = text.ends();
   return header;
+}
+
+void check_ply_end(const SceneFile& file, std::uint64_t end) {
+  constexpr std::uint64_t kMostBlanks = 16;
+  constexpr std::string_view kBlanks{"\0 \t\r\n\x1A", 6};
+  char left[kMostBlanks + 1];
+  const std::string_view rest(left, file.read_at(end, std::as_writable_bytes(std::span(left))));
+  if (rest.size() > kMostBlanks || rest.find_first_not_of(kBlanks) != rest.npos)
+    fail(ErrorCode::bad_input, "{}: byte {}: data begin that the header does not promise; is the file damaged?",
+         file.name(), end);
 }
 
 }  // namespace bp

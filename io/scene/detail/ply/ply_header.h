@@ -28,9 +28,12 @@ struct PlyHeader {
   Format format = Format::ascii;
   std::vector<PlyElement> elements;
   TextScanner::Mark data;  ///< first byte behind the header
+  LineEnds ends;           ///< of the header
 };
 
-/// Reads a header. Throws bad_input with the line of the header that is wrong.
+/// Reads a header. Throws bad_input with the line of the header that is wrong, or where it names something twice.
 [[nodiscard]] PlyHeader read_ply_header(SceneFilePtr file);
+/// Throws bad_input if more than a few blanks, with which some programs fill up, follow the data of a binary file.
+void check_ply_end(const SceneFile& file, std::uint64_t end);
 
 }  // namespace bp

@@ -92,12 +92,16 @@ void TileCloser::label(const VoxelBox& tile, const BitBox& closed) {
   flood_->join(std::move(labels));
 }
 
-std::uint64_t TileCloser::fill(const VoxelBox& tile, BitBox& bits) {
+std::uint64_t TileCloser::fill(const VoxelBox& tile, BitBox& bits, BrickShelf* filled_too) {
   const Stopwatch watch(filling);
   bits.reset(tile);
   load_voxels(shelf_, bits);
+  BitBox cavities = filled_too != nullptr ? bits : BitBox();
   const std::uint64_t filled = flood_->fill_enclosed(tile, bits);
   store_voxels(bits, shelf_);
+  if (filled_too == nullptr) return filled;
+  for (std::int64_t i = 0; i < bits.word_count(); ++i) cavities.data()[i] ^= bits.data()[i];
+  store_voxels(cavities, *filled_too);
   return filled;
 }
 

@@ -55,8 +55,9 @@ class TileCloser {
   [[nodiscard]] bool floods() const { return flood_ != nullptr; }
   void resolve() { flood_->resolve(); }  ///< to be called when all tiles are kept
   [[nodiscard]] bool has_enclosed(const VoxelBox& tile) const { return flood_->has_enclosed(tile); }
-  /// Fills the cavities of a tile on the shelf, and returns the number of filled voxels. `bits`: scratch.
-  std::uint64_t fill(const VoxelBox& tile, BitBox& bits);
+  /// Fills the cavities of a tile on the shelf, and returns the number of filled voxels. `bits`: scratch. They go to
+  /// `filled_too`, too, unless it is null.
+  std::uint64_t fill(const VoxelBox& tile, BitBox& bits, BrickShelf* filled_too = nullptr);
 
   std::atomic<double> waiting{0}, closing{0}, labelling{0}, shelving{0}, filling{0};  ///< seconds, as CloseTimes
 

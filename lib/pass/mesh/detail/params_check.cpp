@@ -39,7 +39,7 @@ void check_fill(const MeshParams& params, const StreamHeader& header) {
   const bool inside = header.fill == FillMode::inside;
   if (params.mode == MeshMode::inside && !inside) {
     fail(ErrorCode::bad_input, {Remedy::fill_inside},
-         "the stream holds voxels that the scene touches, and a proxy inside needs those of its inside");
+         "the voxels are those that the scene touches, and a proxy inside needs those of its inside");
   }
   if (params.mode == MeshMode::inside || !inside) return;
   fail(ErrorCode::bad_input, {Remedy::mode_inside}, "the stream holds the inside of the scene only");

@@ -5,11 +5,13 @@
 #include <cmath>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <tuple>
 #include <unordered_map>
 #include <vector>
 
 #include "lib/core/vec3.h"
+#include "lib/enclosed/near_masks.h"
 #include "lib/grid/scale_field.h"
 
 namespace bp {
@@ -149,20 +151,30 @@ class ScaleLines {
   std::array<Shard, kShards> shards_;
 };
 
+// The least S, in voxels, for which an edge may lie farther from the voxels than a voxel.
+constexpr double kLeastNearVox = 1;
+
+double largest_of(const ScaleField& field) {
+  double largest = field.base;
+  for (const ScaleRule& rule : field.rules) largest = std::max(largest, rule.scale);
+  return largest;
+}
+
 /// Answers for edges, and keeps the answers for the last ones: an edge is asked for when a step is planned, and again
 /// when it is done.
 class ScaledEdges {
  public:
-  ScaledEdges(const ScaleField& field, const GridFrame& frame, double factor, ScaledEdgeWork* work)
-      : lines_(field, frame.voxel, work), frame_(frame), factor_(factor), largest_(field.base), kept_(kKept) {
-    for (const ScaleRule& rule : field.rules) largest_ = std::max(largest_, rule.scale);
+  ScaledEdges(const ScaleField& field, const GridFrame& frame, double factor, const BrickShelf* near,
+              ScaledEdgeWork* work)
+      : lines_(field, frame.voxel, work), frame_(frame), factor_(factor), largest_(largest_of(field)), kept_(kKept) {
+    if (near != nullptr) near_.emplace(*near);
   }
 
   [[nodiscard]] bool allows(const LatticeCoord& a, const LatticeCoord& b) {
     const double edge = length(to_double(b - a));
     if (edge <= 2 * kLatticePerVoxel) return true;
     const double scale = edge / kLatticePerVoxel * frame_.voxel / factor_;
-    if (scale > largest_) return false;
+    if (scale > largest_ && !near_) return false;
     const bool is_turned = std::tie(b.x, b.y, b.z) < std::tie(a.x, a.y, a.z);
     const Edge ends = is_turned ? Edge{b, a} : Edge{a, b};
     const std::size_t place = hash_of(ends) % kKept;
@@ -171,7 +183,7 @@ class ScaledEdges {
       const std::lock_guard lock(mutex);
       if (kept_[place].ends == ends) return kept_[place].allowed;
     }
-    const bool allowed = lines_.reach(frame_.world(a), frame_.world(b), scale);
+    const bool allowed = (scale <= largest_ && lines_.reach(frame_.world(a), frame_.world(b), scale)) || is_near(a, b);
     const std::lock_guard lock(mutex);
     kept_[place] = {ends, allowed};
     return allowed;
@@ -192,19 +204,42 @@ class ScaledEdges {
     return std::size_t(h ^ h >> 29);
   }
 
+  /// Returns whether the edge lies near the voxels, for the least S along it. S is taken as the power of two below it,
+  /// so that a few masks serve all edges.
+  [[nodiscard]] bool is_near(const LatticeCoord& a, const LatticeCoord& b) {
+    if (!near_) return false;
+    const Vec3d from = frame_.world(a), to = frame_.world(b);
+    for (double s = 0, next = kLeastNearVox;; s = next, next *= 2) {
+      if (near_->is_near(a, b, (kNearOfEdge * factor_ * s + 1) * kLatticePerVoxel)) return true;
+      if (next * frame_.voxel > largest_ || !lines_.reach(from, to, next * frame_.voxel)) return false;
+    }
+  }
+
+  // An edge as long as `factor` scales that ends on a ball of radius r leaves it by factor^2 S^2 / (8 r). Where r is as
+  // large as the edge, that is an eighth of the edge.
+  static constexpr double kNearOfEdge = 1.0 / 8;
+
   ScaleLines lines_;
   const GridFrame& frame_;
   const double factor_;
-  double largest_;  // the largest scale of the field
+  const double largest_;           // the largest scale of the field
+  std::optional<NearMasks> near_;  // none: only short edges are allowed
   std::vector<Answer> kept_;
   std::array<std::mutex, 64> mutexes_;
 };
 
 }  // namespace
 
-EdgeLimit scaled_edges(const ScaleField& scale, const GridFrame& frame, double factor, ScaledEdgeWork* work) {
-  const auto edges = std::make_shared<ScaledEdges>(scale, frame, factor, work);
+EdgeLimit scaled_edges(const ScaleField& scale, const GridFrame& frame, double factor, const BrickShelf* near,
+                       ScaledEdgeWork* work) {
+  const auto edges = std::make_shared<ScaledEdges>(scale, frame, factor, near, work);
   return [edges](const LatticeCoord& a, const LatticeCoord& b) { return edges->allows(a, b); };
+}
+
+std::uint64_t bytes_of_near_edges(const ScaleField& scale, const GridFrame& frame, const BrickShelf& near) {
+  std::uint64_t masks = 1;
+  for (double s = kLeastNearVox * frame.voxel; s <= largest_of(scale); s *= 2) ++masks;
+  return masks * NearMasks::bytes_of_mask(near);
 }
 
 }  // namespace bp

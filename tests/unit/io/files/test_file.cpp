@@ -13,6 +13,7 @@
 #include "io/files/kept_files.h"
 #include "io/scene/scene_parts.h"
 #include "lib/core/error.h"
+#include "lib/core/parallel.h"
 #include "tests/catch.h"
 #include "tests/unit/io/scene/scene_files.h"
 
@@ -260,4 +261,26 @@ TEST_CASE("a refusal of outputs waits for their first byte, and leaves no file",
   check_outputs();
   write_file(dir.path("a"), "a byte");
   CHECK(names_in(dir) == Names{"a"});
+}
+
+TEST_CASE("an output of a sink hands on all bytes in their order, and makes no file", "[quick][io]") {
+  const TempDir dir;
+  std::string taken;
+  const auto take = [&](std::span<const std::byte> bytes) {
+    taken.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  };
+  const std::string small = "small", large(std::size_t(3) << 20, 'x');
+  SECTION("until it is complete") {
+    OutputFile out(dir.path("out"), OutputFile::Sink(take));
+    for (const std::string& text : {small, large, small}) out.write(text);
+    out.commit();
+    CHECK(taken == small + large + small);
+    CHECK(out.bytes() == taken.size());
+  }
+  SECTION("an error of the sink is passed on") {
+    OutputFile out(dir.path("out"), OutputFile::Sink([](std::span<const std::byte>) { throw Cancelled{}; }));
+    out.write(small);
+    CHECK_THROWS_AS(out.commit(), Cancelled);
+  }
+  CHECK(names_in(dir).empty());
 }

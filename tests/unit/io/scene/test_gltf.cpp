@@ -346,6 +346,16 @@ TEST_CASE("a glTF name in Latin-1 does not matter", "[quick][io]") {
   CHECK(read_all(dir.file("a.glb", bytes)) == kQuadFan);
 }
 
+TEST_CASE("glTF: an object that has a key twice is refused", "[quick][io]") {
+  const TempDir dir;
+  const std::string head = R"({"asset":{"version":"2.0","generator":"a:\"b: \\"},"extras":{"a":{"b":1},"b":[{"b":2}]})";
+  CHECK_THAT(complaint_of(dir.file("a.gltf", head + R"(,"nodes":[{"name":"\u006eo"}]})")), !Contains("twice"));
+  CHECK_THAT(complaint_of(dir.file("a.gltf", head + R"(,"nodes":[{"scale":[1,1,1],"sc\u0061le":[2,2,2]}]})")),
+             Contains("the key \"scale\" twice"));
+  CHECK_THAT(complaint_of(dir.file("a.gltf", head + ",\"\xe9\":1,\"\xe8\":1}")), !Contains("twice"));
+  CHECK_THAT(complaint_of(dir.file("a.gltf", head + ",\"\xe9\":1,\"\xe9\":1}")), Contains("twice"));
+}
+
 TEST_CASE("a proxy of ours tells which axis points up, other glTF does not", "[quick][io]") {
   const TempDir dir;
   Document d;
@@ -363,8 +373,12 @@ TEST_CASE("a proxy of ours tells which axis points up, other glTF does not", "[q
   };
   CHECK_FALSE(up_of(nullptr).has_value());
   CHECK_FALSE(up_of({{"up", 3}}).has_value());
-  CHECK_FALSE(up_of({{"up", "w"}}).has_value());
-  for (const char* const name : kUpNames) CHECK(up_of({{"up", name}}) == up_axis_named(name));
+  const Json record = Json::array();
+  CHECK_FALSE(up_of({{"up", "w"}, {"provenance", record}}).has_value());
+  for (const char* const name : kUpNames) {
+    CHECK_FALSE(up_of({{"up", name}}).has_value());  // somebody else's
+    CHECK(up_of({{"up", name}, {"provenance", record}}) == up_axis_named(name));
+  }
 }
 
 TEST_CASE("glTF extras of others are left alone", "[quick][io]") {

@@ -85,6 +85,41 @@ TEST_CASE("weights of a skin need not sum to 1, and may be many", "[quick][io]")
   CHECK(corners_of(d) == Places{{0, 1, 1}, {1, 1, 1}, {1, 2, 1}, {0, 2, 1}});
 }
 
+TEST_CASE("what programs place in different ways is counted", "[quick][io]") {
+  const TempDir dir;
+  const auto unfollowed = [&](const Document& d) { return read_mesh(dir.file("a.glb", d.glb())).unfollowed; };
+  Shares shares = halves();
+  CHECK(unfollowed(skinned_quad(shares, {})).skins == 1);  // a corner without weight
+  shares.weights[12] = 1;
+  CHECK(unfollowed(skinned_quad(shares, {})).skins == 0);
+  shares.weights[12] = 0.9F;
+  CHECK(unfollowed(skinned_quad(shares, {})).skins == 1);
+  shares.weights[12] = 1;
+  Document two = skinned_quad(shares, {});
+  auto& attributes = two.json["meshes"][0]["primitives"][0]["attributes"];
+  attributes["JOINTS_1"] = attributes["JOINTS_0"];
+  attributes["WEIGHTS_1"] = two.array<float>(std::vector<float>(16, 0.F), kF32, "VEC4", 4);
+  CHECK(unfollowed(two).skins == 0);  // a second set that is padding
+  attributes["WEIGHTS_1"] = attributes["WEIGHTS_0"];
+  CHECK(unfollowed(two).skins == 1);
+  Document d;
+  d.node({{"mesh", d.quad_mesh()}, {"rotation", {0, 0, 0.7071, 0.7071}}});
+  CHECK_FALSE(unfollowed(d).moves());
+  d.json["nodes"][0]["rotation"] = {0, 0, 1, 1};
+  CHECK(unfollowed(d).transforms == 1);
+  d.json["nodes"][0].erase("rotation");
+  const int turns = d.array<float>({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 0, 0}, kF32, "VEC4", 3);
+  d.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["ROTATION"] = turns;
+  CHECK(unfollowed(d).transforms == 3);  // and the extension is not required
+  d.json["extensionsRequired"] = {"EXT_mesh_gpu_instancing"};
+  CHECK(unfollowed(d).transforms == 2);
+  d.json["nodes"][0].erase("extensions");
+  for (const double shear : {0.5, 0.0003, 0.0001}) {
+    d.json["nodes"][0]["matrix"] = {1, 0, 0, 0, shear, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    CHECK(unfollowed(d).transforms == (shear > 0.0002 ? 1 : 0));  // matrices of four digits are no sheared ones
+  }
+}
+
 TEST_CASE("a skin of any matrices moves its vertices as the formula of the specification", "[quick][io]") {
   reference::Random random(4);
   std::vector<float> inverses;

@@ -133,9 +133,10 @@ TEST_CASE("files of vertices and of triangles tell their bounds before they are 
 TEST_CASE("a packed PLY that is cut anywhere is refused", "[quick][io]") {
   const TempDir dir;
   const std::string whole = Polygons(3, 5, 4, false).little;
-  const std::size_t last = whole.size() - 1;  // the edges are not needed
-  CHECK(complaint_of(dir.file("cut.ply", whole.substr(0, last))).empty());
-  for (std::size_t cut = 0; cut < last; ++cut) {
+  CHECK(complaint_of(dir.file("cut.ply", whole)).empty());
+  CHECK(complaint_of(dir.file("cut.ply", whole + std::string(3, '\0') + "\r\n")).empty());
+  CHECK_THAT(complaint_of(dir.file("cut.ply", whole + "\x03")), Contains("does not promise"));
+  for (std::size_t cut = 0; cut < whole.size(); ++cut) {
     CAPTURE(cut);
     const std::string complaint = complaint_of(dir.file("cut.ply", whole.substr(0, cut)));
     CHECK_THAT(complaint, Contains("cut.ply"));

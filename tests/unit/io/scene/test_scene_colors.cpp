@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "tests/catch.h"
 #include "tests/unit/io/scene/scene_files.h"
 
@@ -93,6 +95,35 @@ TEST_CASE("OBJ: faces have the Kd of the material in use", "[quick][io]") {
   CHECK_FALSE(read_colored(dir.file("c.obj", "mtllib my mats.mtl\n" + vertices + "usemtl plain\nf 1 2 3\n")).any);
 }
 
+TEST_CASE("OBJ: of materials of one name the last counts, in the file that was named last", "[quick][io]") {
+  const TempDir dir;
+  (void)dir.file("a.mtl", "newmtl one\nKd 0 0 1\nnewmtl two\nnewmtl one\nKd 1 0 0\nnewmtl only here\nKd 0 0 1");
+  (void)dir.file("b.mtl", "Kd 1 0 0\nnewmtl two\nKd 1 0 0\nnewmtl one\nKd 0 0 1\n");
+  const std::string faces = "usemtl one\nf 1 2 3\nusemtl two\nf 1 2 3\nusemtl only here\nf 1 2 3\n";
+  const Colored all =
+      read_colored(dir.file("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nmtllib a.mtl\n" + faces + "mtllib b.mtl\n" + faces +
+                                         "mtllib a.mtl\nmtllib a.mtl\n" + faces));
+  CHECK(all.colors == std::vector<TriangleColors>{all_of(kRed), all_of(kWhite), all_of(kBlue), all_of(kBlue),
+                                                  all_of(kRed), all_of(kBlue), all_of(kRed), all_of(kWhite),
+                                                  all_of(kBlue)});
+}
+
+TEST_CASE("OBJ: more materials are used than are kept", "[quick][io]") {
+  const TempDir dir;
+  constexpr int kMaterials = 5000;  // with names of 1,000 bytes, more than the reader keeps
+  const std::string tail(1000, 'x');
+  std::string library, scene = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\n";
+  for (int i = 0; i < kMaterials; ++i) library += fmt::format("newmtl {}{}\nKd {} 0 0\n", i, tail, i % 2);
+  for (int i = 0; i < 2 * kMaterials; ++i) scene += fmt::format("usemtl {}{}\nf 1 2 3\n", i * 7919 % kMaterials, tail);
+  (void)dir.file("a.mtl", library);
+  const Colored all = read_colored(dir.file("a.obj", scene));
+  REQUIRE(all.colors.size() == 2 * kMaterials);
+  int wrong = 0;
+  for (int i = 0; i < 2 * kMaterials; ++i)
+    wrong += all.colors[std::size_t(i)] == all_of(i * 7919 % kMaterials % 2 == 0 ? LinearColor{0, 0, 0} : kRed) ? 0 : 1;
+  CHECK(wrong == 0);
+}
+
 TEST_CASE("OBJ: what can be seen through is left out where walls are asked for", "[quick][io]") {
   const TempDir dir;
   (void)dir.file("m.mtl",
@@ -127,18 +158,34 @@ TEST_CASE("glTF: what can be seen through is left out where walls are asked for"
   const TempDir dir;
   const std::string materials =
       R"(,"materials":[{"alphaMode":"BLEND"},{"alphaMode":"MASK"},{"pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.4]}},)"
-      R"({"alphaMode":"OPAQUE","pbrMetallicRoughness":{"baseColorFactor":[1,0,0,1]}},{}])";
+      R"({"extensions":{"KHR_materials_transmission":{"transmissionFactor":0.5}}},)"
+      R"({"alphaMode":"OPAQUE","pbrMetallicRoughness":{"baseColorFactor":[1,0,0,1]}},{},)"
+      R"({"extensions":{"KHR_materials_transmission":{}}}])";
   (void)dir.file("t.bin", kCorners);
   SceneOptions options;
   options.walls_only = true;
-  for (int material = 0; material < 5; ++material) {
+  for (int material = 0; material < 7; ++material) {
     CAPTURE(material);
     const std::string path = dir.file(
         "a.gltf",
         gltf(R"({"attributes":{"POSITION":0},"material":)" + std::to_string(material) + "}", "", materials, 36));
     CHECK(read_all(*open_scene(path)).size() == 1);
-    CHECK(read_all(*open_scene(path, options)).size() == (material < 3 ? 0 : 1));
+    CHECK(read_all(*open_scene(path, options)).size() == (material < 4 ? 0 : 1));
   }
+}
+
+TEST_CASE("glTF: what a node hides is no wall", "[quick][io]") {
+  const TempDir dir;
+  (void)dir.file("t.bin", kCorners);
+  std::string document = gltf(R"({"attributes":{"POSITION":0}})", "", "", 36);
+  const std::string plain = R"("nodes":[{"mesh":0}])";
+  document.replace(document.find(plain), plain.size(),
+                   R"("nodes":[{"children":[1],"extensions":{"KHR_node_visibility":{"visible":false}}},{"mesh":0}])");
+  const std::string path = dir.file("a.gltf", document);
+  CHECK(read_all(*open_scene(path)).size() == 1);
+  SceneOptions options;
+  options.walls_only = true;
+  CHECK(read_all(*open_scene(path, options)).empty());
 }
 
 TEST_CASE("glTF: base colour factor times COLOR_0, linear", "[quick][io]") {
@@ -237,8 +284,8 @@ TEST_CASE("materials of OBJ that do not fit are refused with a limit on memory t
     (void)dir.file(name + ".mtl", text);
   };
   library("few", 100);
-  library("many", 20000);
-  library("more", 10000);
+  library("many", 200000);
+  library("more", 100000);
   const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl few5\nf 1 2 3\n";
   const std::string small = dir.file("small.obj", "mtllib few.mtl\n" + corners);
   // The second file is named behind a face, and counts all the same; what is named again counts once.
@@ -266,8 +313,8 @@ TEST_CASE("materials of OBJ that do not fit are refused with a limit on memory t
   constexpr std::uint64_t kSmall = std::uint64_t(8) << 20;
   CHECK(limit_named(small, kSmall) == 0);
   const std::uint64_t limit = limit_named(large, kSmall);
-  CHECK(limit > 30000 * 4 * 120);  // materials may take a quarter, and have some 150 bytes each
-  CHECK(limit < 30000 * 4 * 200);
+  CHECK(limit > 300000 * 4 * 16);  // materials may take a quarter, and have 16 bytes each
+  CHECK(limit < 300000 * 4 * 20);
   CHECK(limit_named(large, limit) == 0);
   const std::uint64_t again_named = limit_named(large, limit - (std::uint64_t(1) << 20));
   CHECK(again_named >= limit);

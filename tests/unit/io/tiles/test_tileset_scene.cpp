@@ -33,6 +33,9 @@ Json tile(const std::string& uri, double x = 0, const Json& children = Json::arr
   return t;
 }
 
+/// The asset of a tileset that this suite made.
+const Json kOurs{{"version", "1.1"}, {"extras", {{"provenance", Json::array()}}}};
+
 std::string tileset(const Json& root, const Json& asset = {{"version", "1.1"}}) {
   return Json{{"asset", asset}, {"geometricError", 9}, {"root", root}}.dump();
 }
@@ -71,7 +74,8 @@ TEST_CASE("a tileset is a scene of its leaves, and of all tiles that are added t
   CHECK(drawn(dir.file("t.json", tileset(root))) == "1000 1011 1020 ");
   root = tile("a.glb", 0, {tile("a.glb", 1), tile("b.glb", 2)});
   root["children"][1]["extras"]["leaf"] = true;  // of ours: beside it stands no scene
-  CHECK(drawn(dir.file("t.json", tileset(root))) == "2 ");
+  CHECK(drawn(dir.file("t.json", tileset(root, kOurs))) == "2 ");
+  CHECK(drawn(dir.file("t.json", tileset(root))) == "1 2 ");  // somebody else's
   root = tile("");
   root["contents"] = {{{"uri", "a.glb"}}, {{"url", "b.glb?v=1"}}};
   CHECK(drawn(dir.file("t.json", tileset(root))) == "0 0 ");
@@ -83,7 +87,9 @@ TEST_CASE("a tileset on the globe is a scene in its own coordinates", "[quick][i
   Json root = tile("", 0, {tile("a.glb", 1), tile("b.glb", 20)});
   root["transform"] = east_north_up({4.36, 52.01, 43});
   const Json placement{{"place", {4.36, 52.01, 43}}, {"origin", {1000, 0, 0}}};
-  const std::string placed = tileset(root, {{"version", "1.1"}, {"extras", {{"placement", placement}}}});
+  Json asset = kOurs;
+  asset["extras"]["placement"] = placement;
+  const std::string placed = tileset(root, asset);
   CHECK(drawn(dir.file("t.json", placed)) == "1001 1020 ");
   // Below another tileset it stands where that has it.
   const Json outer = tile("t.json", 500);
@@ -137,7 +143,10 @@ TEST_CASE("contents stand where their tiles and tables say, with z up", "[quick]
   Json far = tile("a.glb");
   far["transform"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 2};
   CHECK_THAT(complaint_of(dir.file("t.json", tileset(far))), Contains("last row is not 0 0 0 1"));
-  CHECK(only(tile("a.glb", 1), {{"version", "1.1"}, {"extras", {{"up", "y"}}}}) == lying);  // ours: the scene's axes
+  CHECK(only(tile("a.glb", 1), {{"version", "1.1"}, {"extras", {{"up", "y"}}}}) == upright({1, 0, 0}));
+  Json ours = kOurs;
+  ours["extras"]["up"] = "y";
+  CHECK(only(tile("a.glb", 1), ours) == lying);  // the scene's axes
   CHECK(open_scene(dir.path("t.json"))->up() == UpAxis::y);
 }
 
@@ -177,14 +186,15 @@ TEST_CASE("tilesets that are open together share the memory for documents", "[qu
     for (int i = 0; i < 700; ++i) children.push_back(tile(""));
     return tileset(tile("", 0, children));
   };
-  const std::string inner = dir.file("inner.json", with_many("a.glb")), outer = dir.file("t.json", with_many(inner));
+  const std::string inner = dir.file("inner.json", with_many("a.glb")),
+                    outer = dir.file("t.json", with_many("inner.json"));
   SceneOptions options;
   options.document.bytes = std::uint64_t(1) << 20;
   CHECK(read_all(inner, options).size() == 1);
   CHECK_THAT(complaint_of(outer, options), Contains("wrong code") && Contains("inner.json: its JSON takes"));
   options.document.bytes *= 2;
   CHECK(read_all(outer, options).size() == 1);
-  const std::string twice = dir.file("t.json", tileset(tile("", 0, {tile(inner), tile(inner)})));
+  const std::string twice = dir.file("t.json", tileset(tile("", 0, {tile("inner.json"), tile("inner.json")})));
   options.document.bytes /= 2;
   CHECK(read_all(twice, options).size() == 2);  // one after the other
 }

@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <filesystem>
 #include <limits>
+#include <map>
 
 #include "io/stream/brick_shelf.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/device/cpu/cpu_backend.h"
+#include "lib/grid/shelf_stream.h"
 #include "lib/pass/close/close_pass.h"
 #include "tests/catch.h"
 #include "tests/reference/flood.h"
@@ -194,7 +196,61 @@ Case hollow() {
   return c;
 }
 
+/// A closing that goes on from an earlier one, or not.
+struct GoneOn {
+  EarlierClosing closing;
+  CloseCounts counts;
+};
+
+GoneOn go_on(const Case& c, std::int32_t tile_vox, const EarlierClosing* earlier) {
+  BitSource source(c.solid, c.slab_axis);
+  Backends backends;
+  for (int i = 0; i < 2; ++i) backends.push_back(std::make_unique<CpuBackend>());
+  CloseOptions options;
+  options.tile_vox = tile_vox;
+  options.context.make_shelf = make_shelf_factory(std::uint64_t(64) << 20, std::filesystem::temp_directory_path());
+  options.earlier = earlier;
+  const std::shared_ptr<BrickShelf> voxels = options.context.make_shelf(), filled = options.context.make_shelf();
+  options.filled = filled.get();
+  ShelfSink sink(nullptr, voxels.get());
+  const CloseCounts counts = close_stream(source, sink, backends, c.field, {c.element}, options);
+  return {{c.field, voxels, filled}, counts};
+}
+
+std::map<BrickCoord, BrickBits> bricks(const BrickShelf& shelf) {
+  std::map<BrickCoord, BrickBits> all;
+  for (const BrickCoord c : shelf.coords()) (void)shelf.get(c, all[c]);
+  return all;
+}
+
 }  // namespace
+
+TEST_CASE("a closing that goes on from an earlier one has the same voxels", "[quick][pass]") {
+  std::uint64_t all = 0, closed = 0, cavities = 0;
+  for (std::uint64_t seed = 200; seed < 208; ++seed) {
+    CAPTURE(seed);
+    Case c = seed % 4 == 0 ? hollow() : random_case(seed);
+    Random random(seed);
+    GoneOn last = go_on(c, 64, nullptr);
+    for (int step = 0; step < 5; ++step) {
+      const auto near = [&] { return double(random.between(-70, 110)); };
+      if (random.one_in(4)) c.field.base = random.between(0, 160) / 16.0;
+      if (random.one_in(3) && !c.field.rules.empty()) c.field.rules.erase(c.field.rules.begin());
+      if (random.one_in(2))
+        c.field.rules.push_back(stroke_rule(ScaleMode(random.between(1, 2)), {near(), near(), near()},
+                                            random.between(1, 8), random.between(0, 160) / 16.0, c.field.base));
+      const GoneOn whole = go_on(c, 64, nullptr), next = go_on(c, random.one_in(2) ? 64 : 128, &last.closing);
+      CHECK(bricks(*next.closing.voxels) == bricks(*whole.closing.voxels));
+      CHECK(bricks(*next.closing.filled) == bricks(*whole.closing.filled));
+      all += whole.counts.tiles_closed;
+      closed += next.counts.tiles_closed;
+      cavities += next.counts.cavity_voxels;
+      last = go_on(c, 128, &last.closing);
+    }
+  }
+  CHECK(closed * 3 < all * 2);
+  CHECK(cavities > 0);
+}
 
 TEST_CASE("a closed stream is the closing of the whole grid", "[quick][pass]") {
   for (std::uint64_t seed = 0; seed < 6; ++seed) {

@@ -96,13 +96,13 @@ BitBox defined(const Solid& touched, const BitBox& e, double scale) {
   const auto in_gap = [&](VoxelCoord p) {
     for (int axis = 0; axis < 3; ++axis) {
       int length = -1;  // the voxel itself counts twice
-      bool walls = true;
+      bool all_walls = true;
       for (const int way : {-1, 1}) {
         VoxelCoord q = p;
         for (; is_added(q); q[axis] += way) ++length;
-        walls = walls && g.test(q);
+        all_walls = all_walls && g.test(q);
       }
-      if (walls && length <= int(2 * std::sqrt(2.0) * scale)) return true;
+      if (all_walls && length <= int(2 * std::sqrt(2.0) * scale)) return true;
     }
     return false;
   };

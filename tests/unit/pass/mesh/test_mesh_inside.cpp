@@ -70,6 +70,32 @@ TEST_CASE("a proxy inside leaves out small parts, and says how much that is", "[
   CHECK(check_proxy(indexed(proxy), nullptr).components == 3 - parts);
 }
 
+TEST_CASE("more faces of a proxy inside hold no less, also where they are few", "[quick][pass]") {
+  const auto house = [](VoxelCoord p) {
+    const bool walls = VoxelBox{{6, 4, 10}, {42, 24, 38}}.contains(p);
+    const bool roof = VoxelBox{{4, 24, 6}, {44, 44, 42}}.contains(p) && p.y - 24 < 18 - std::abs(p.z - 24);
+    return walls || roof;
+  };
+  double last = 0;
+  for (const std::uint64_t faces : {8, 12, 16, 24, 40, 60}) {
+    VoxelSource source(kBox, house);
+    source.header().fill = FillMode::inside;
+    MeshParams params;
+    params.mode = MeshMode::inside;
+    params.faces = {faces};
+    MeshCounts counts;
+    const LatticeMesh proxy = mesh_stream(source, memory_context(), params, counts)[0];
+    CAPTURE(faces);
+    CHECK(proxy.triangles.size() <= faces);
+    check(proxy, nullptr);
+    const double volume = counts.levels[0].measures.volume;
+    CHECK(volume >= last);
+    CHECK(volume <= counts.solid_volume_world);
+    last = volume;
+  }
+  CHECK(last > 0.85 * 33120);  // of the voxels
+}
+
 TEST_CASE("a level goes on inside one that no voxel fits in", "[quick][pass]") {
   VoxelSource source(
       kBox, [](VoxelCoord p) { return p.y == 8 && (p.x == 8 || p.x == 20 || p.x == 30) && p.z >= 4 && p.z < 4 + p.x; });

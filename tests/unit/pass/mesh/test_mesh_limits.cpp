@@ -198,6 +198,33 @@ TEST_CASE("edges across a finer region stay below what the scale is there", "[qu
   }
 }
 
+TEST_CASE("a flat side in a fine place takes few faces where edges follow the shape, and many where they do not",
+          "[quick][pass]") {
+  constexpr double kFactor = 2, kScale = 1.5;
+  const VoxelBox box{{0, 0, 0}, {64, 64, 16}};
+  const auto plate = [](VoxelCoord p) { return VoxelBox{{2, 2, 4}, {62, 62, 12}}.contains(p); };
+  ScaleField scale;
+  scale.base = 20;
+  scale.rules.push_back(box_rule({0, 0, 0}, {64, 64, 16}, kScale));
+  MeshParams params;
+  params.edge_factor = kFactor;
+  params.faces = {50};
+  const auto level_of = [&](MeshCounts& counts) {
+    VoxelSource source(box, plate);
+    source.header().scale = scale;
+    return mesh_stream(source, memory_context(), params, counts)[0];
+  };
+  MeshCounts counts;
+  (void)level_of(counts);
+  CHECK(counts.levels[0].stopped_by == "edge-length");
+  CHECK(counts.levels[0].measures.edge_max <= kFactor * kScale + 1e-9);
+  params.edges_by_shape = true;
+  const LatticeMesh level = level_of(counts);
+  CHECK(level.triangles.size() <= 50);
+  CHECK(counts.levels[0].measures.edge_max > 10 * kFactor * kScale);
+  check(level, nullptr);
+}
+
 TEST_CASE("edges that yield are as short as so few faces allow", "[quick][pass]") {
   VoxelSource source(kBox, dumbbell);
   ScaleField& scale = source.header().scale;

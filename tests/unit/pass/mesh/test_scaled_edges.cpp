@@ -2,6 +2,7 @@
 #include "lib/grid/scale_field.h"
 #include "lib/pass/mesh/detail/scaled_edges.h"
 #include "tests/catch.h"
+#include "tests/support/proxy_checks.h"
 #include "tests/unit/grid/random_fields.h"
 
 using namespace bp;
@@ -50,7 +51,7 @@ TEST_CASE("an edge among many boxes of a scale costs a few points of the field, 
   GridFrame frame;
   frame.voxel = 0.2;
   ScaledEdgeWork work;
-  const EdgeLimit limit = scaled_edges(field, frame, 4, &work);
+  const EdgeLimit limit = scaled_edges(field, frame, 4, nullptr, &work);
   Random random(1);
   constexpr int kEdges = 2000;
   int allowed = 0;
@@ -71,6 +72,33 @@ TEST_CASE("an edge among many boxes of a scale costs a few points of the field, 
   CHECK(work.points < 5 * kEdges);  // 8 at each edge if all were asked that a voxel is halved to
   CHECK(work.parts < 3 * kEdges);
   INFO(work.points << " points, " << work.parts << " parts");
+}
+
+TEST_CASE("an edge near the voxels may be longer than the scale allows, by an eighth of the longest edge and a voxel",
+          "[quick][mesh]") {
+  constexpr std::int32_t kSide = 128;
+  MemoryShelf shelf;
+  fill_shelf(shelf, {{0, 0, 0}, {kSide, kSide, kSide}}, [](VoxelCoord) { return true; });
+  ScaleField field;
+  field.base = 16;
+  ScaleRule& rule = field.rules.emplace_back();
+  rule.shape = ScaleShape::box;
+  rule.points = {{0, 0, 0}, {40, 160, 160}};
+  rule.scale = 2;
+  const GridFrame frame;
+  const EdgeLimit limit = scaled_edges(field, frame, 4, &shelf), without = scaled_edges(field, frame, 4);
+  // An edge of 100 voxels along z, at a height above the top, which is flat.
+  const auto allows = [&](const EdgeLimit& some, std::int64_t x, std::int64_t height) {
+    const LatticeCoord a = LatticeCoord{x, kSide + height, 10} * kLatticePerVoxel;
+    const LatticeCoord b = LatticeCoord{x, kSide + height, 110} * kLatticePerVoxel;
+    return some(a, b);
+  };
+  for (const std::int64_t x : {20, 110}) CHECK_FALSE(allows(without, x, 0));
+  CHECK(allows(limit, 20, 0));  // S is 2: 2 voxels
+  CHECK_FALSE(allows(limit, 20, 5));
+  CHECK(allows(limit, 110, 6));  // S is 16: 9 voxels
+  CHECK_FALSE(allows(limit, 110, 13));
+  CHECK(bytes_of_near_edges(field, frame, shelf) >= 2 * sizeof(BrickBits));
 }
 
 TEST_CASE("the part of a field near a place evaluates as all of it, also found within a larger part", "[quick][mesh]") {

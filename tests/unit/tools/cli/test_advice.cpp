@@ -52,7 +52,7 @@ TEST_CASE("every remedy has its words, and is told only by tools that have the o
                {Remedy::move_scene, "move the scene near to its origin", "bpvox", nullptr},
                {Remedy::repair_file, "repair or re-export the file", "bpcheck", nullptr},
                {Remedy::flood_fill, "use --fill flood", "bpvox", "bpmesh"},
-               {Remedy::fill_inside, "make the stream with bpvox --fill inside", "bpmesh", nullptr},
+               {Remedy::fill_inside, "voxelize with bpvox --fill inside", "bpmesh", nullptr},
                {Remedy::mode_inside, "use --mode inside", "bpmesh", "bpvox"},
                {Remedy::enclose_closing, "use --enclose closing", "bpmesh", "bpvox"},
                {Remedy::enclose_input, "use --enclose input", "bpmesh", "bpvox"},

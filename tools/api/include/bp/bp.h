@@ -4,7 +4,7 @@
  * the proxy is closed, 2-manifold, free of self-intersections, and strictly encloses every triangle. It is made in
  * three steps, as the tools bpvox | bpclose | bpmesh do it:
  *
- *   scene -> bp_voxelize -> grid -> bp_close -> grid -> bp_mesh_make -> mesh        (bp_proxy does all three)
+ *   scene -> bp_voxelize -> grid [-> bp_field] -> bp_close -> grid -> bp_mesh_make -> mesh   (bp_proxy does the three)
  *
  * Source of the method: Stephane Calderon, Tamy Boubekeur, "Bounding Proxies for Shape Approximation", ACM Transactions
  * on Graphics 36(4), 2017. The same scene and options give the same bytes, on any number of threads and with any limit
@@ -21,6 +21,9 @@
  *   Errors    Every function that can fail returns a bp_status. bp_error_message() tells the facts. No exception and no
  *             signal leaves the library, and it prints nothing.
  *   Threads   Calls may run at once in one process, each with its own number of threads (bp_run).
+ *   fork()    In a child of a process that has made calls, each call runs on one thread, and without a GPU that the
+ *             process had used; the result is the same. If another thread was in a call during fork(), calls in the
+ *             child fail with BP_FAILED.
  *   Units     Lengths are in scene units unless a bp_length says otherwise. Coordinates are x, y, z, double precision.
  *   Marks     This header is stable: it is kept within a MAJOR version. bp_experimental.h has more, which may change
  *             with any version. docs/compatibility.md says what that means before version 1.
@@ -45,9 +48,8 @@ extern "C" {
 /* ---- Version and errors ------------------------------------------------------------------------------------------*/
 
 #define BP_API_MAJOR 0
-#define BP_API_MINOR 2
-
-/* Returns the version of the library that runs: "0.2.0". */
+#define BP_API_MINOR 3
+/* Returns the version of the library that runs: "0.3.0". */
 BP_API const char* bp_version(void);
 
 typedef enum bp_status {
@@ -59,8 +61,8 @@ typedef enum bp_status {
   BP_CANCELLED = 5        /* bp_stop_set() or the progress callback ended the call */
 } bp_status;
 
-/* Returns the message of the last call on this thread that failed: "triangle 5 names vertex 99, and there are 10".
- * It is valid until the next call of the library on this thread; "" if none has failed. */
+/* Returns the message of the last call on this thread that failed: "triangle 5 names vertex 99, and the number of
+ * vertices is 10". It is valid until the next call of the library on this thread; "" if none has failed. */
 BP_API const char* bp_error_message(void);
 
 /* ---- How a call runs ---------------------------------------------------------------------------------------------*/
@@ -72,8 +74,8 @@ BP_API void bp_stop_set(bp_stop* stop);   /* calls that have it return BP_CANCEL
 BP_API void bp_stop_clear(bp_stop* stop); /* it may be used for further calls */
 BP_API void bp_stop_free(bp_stop* stop);
 
-/* Called now and then on any thread, by one thread at a time. `pass` names the work, `unit` what is counted; `total` is
- * 0 if it is not known. Returns 0 to go on, any other number to end the call with BP_CANCELLED. */
+/* Called every 0.1 s and at steps of the work, on any thread, by one at a time, also while a sink runs. `pass` names
+ * the work, `unit` what is counted; `total` is 0: not known. Returns 0 to go on; else the call ends: BP_CANCELLED. */
 typedef int (*bp_progress_fn)(void* user, const char* pass, const char* unit, uint64_t done, uint64_t total);
 
 /* Called with a sentence worth a look before the call returns: what was left out, why a target was not reached. */
@@ -91,6 +93,11 @@ typedef struct bp_run {
   bp_stop* stop;           /* may be NULL */
 } bp_run;
 BP_API void bp_run_defaults(bp_run* run, size_t size);
+
+/* Called with the next bytes of a result in place of a file, on any thread, by one thread at a time. Where a call
+ * writes several files, whose bytes may take turns, `file` is the name of one; else NULL. Returns 0 to go on, any other
+ * number to end the call with BP_CANCELLED. Bytes of a call that fails are incomplete. */
+typedef int (*bp_sink_fn)(void* user, const char* file, const void* bytes, size_t count);
 
 /* ---- Lengths -----------------------------------------------------------------------------------------------------*/
 
@@ -134,28 +141,28 @@ typedef enum bp_up {
 /* Triangles in the caller's memory. */
 typedef struct bp_arrays {
   size_t size;
-  const void* vertices;  /* x, y, z of each vertex, next to each other */
-  size_t vertex_count;   /* at most 2^32 - 1 */
-  size_t vertex_stride;  /* bytes from one vertex to the next; 0: next to each other */
-  int32_t vertex_type;   /* BP_FLOAT64 or BP_FLOAT32 */
-  const void* triangles; /* three numbers of vertices each, from 0; counter-clockwise seen from outside */
-  size_t triangle_count;
+  const void* vertices;   /* x, y, z of each vertex, next to each other */
+  size_t vertex_count;    /* at most 2^32 - 1 */
+  size_t vertex_stride;   /* bytes from one vertex to the next; 0: next to each other */
+  int32_t vertex_type;    /* BP_FLOAT64 or BP_FLOAT32 */
+  const void* triangles;  /* three numbers of vertices each, from 0; counter-clockwise seen from outside */
+  size_t triangle_count;  /* at most 2^40 */
   size_t triangle_stride; /* bytes from one triangle to the next; 0: next to each other */
   int32_t triangle_type;  /* BP_UINT32, BP_INT32, BP_UINT64 or BP_INT64 */
   int32_t borrow;         /* not 0: the arrays are not copied. They must stay unchanged while the scene, or a grid that
-                             was made of it, lives. A change is reported, by a sum over the triangles */
+                             was made of it, lives. A change after bp_voxelize() is reported, by a sum */
   int32_t up;             /* bp_up: the axis that points up; glTF that is written is turned by it */
 } bp_arrays;
 BP_API void bp_arrays_defaults(bp_arrays* arrays, size_t size);
 
 /* Makes a scene of triangles in memory. `name` is for messages; NULL: "the scene". Cost: a copy, and a look at each
- * number. BP_BAD_INPUT, with the number of the first fault, if a vertex that is used is not finite or a triangle names
- * a vertex that does not exist; or if there is no triangle. Coordinates below 1e-90 in magnitude count as 0. */
+ * number, on all cores. BP_BAD_INPUT, with the first fault, if a vertex that is used is not finite, if a triangle names
+ * a vertex that does not exist, or if there is no triangle. Coordinates below 1e-90 in magnitude count as 0. */
 BP_API bp_status bp_scene_from_arrays(const bp_arrays* arrays, const char* name, bp_scene** out);
 
 /* Makes a scene of files, voxelized together: PLY, STL, OBJ, OFF, glTF, GLB, tilesets, and what Assimp reads. They are
- * opened when they are needed, and streamed: a scene may be larger than memory. `format`: of files whose names do not
- * tell it; NULL: all names do. */
+ * opened when they are needed, and streamed: a scene may be larger than memory. A relative name counts from the folder
+ * that is current then. `format`: of files whose names do not tell it; NULL: all names do. */
 BP_API bp_status bp_scene_from_files(const char* const* paths, size_t count, const char* format, bp_scene** out);
 
 typedef struct bp_scene_info {
@@ -199,6 +206,12 @@ BP_API void bp_voxelize_defaults(bp_voxelize_options* options, size_t size);
 BP_API bp_status bp_voxelize(const bp_scene* scene, const bp_voxelize_options* options, const bp_run* run,
                              bp_grid** out);
 
+/* Adds a scale field to a grid without a closing, as bpscale does: `rules`, as JSON (docs/bpscale.1.md), tell for each
+ * place how large the gaps are that bp_close() closes there, and how cubes are turned. A field that the grid has is
+ * replaced. Names of parts need a scene of files. BP_BAD_INPUT, with the key at fault, if the rules are none.
+ * Cost: none; rules by shape read all voxels. */
+BP_API bp_status bp_field(const bp_grid* grid, const char* rules, const bp_run* run, bp_grid** out);
+
 typedef enum bp_element {
   BP_CUBE = 0, /* of the dilation; large flat areas stay flat */
   BP_BALL = 1
@@ -207,7 +220,7 @@ typedef enum bp_element {
 typedef struct bp_close_options {
   size_t size;
   bp_length scale;       /* gaps, holes and grooves narrower than twice this radius are filled. 0: `rules`, else the
-                            field that the grid was saved with, else 2 % */
+                            field of the grid (bp_field), else 2 % */
   const char* rules;     /* scales that differ from place to place, as JSON (docs/bpscale.1.md), in place of `scale`;
                             NULL: none */
   int32_t element;       /* bp_element */
@@ -222,9 +235,10 @@ BP_API void bp_close_defaults(bp_close_options* options, size_t size);
 BP_API bp_status bp_close(const bp_grid* grid, const bp_close_options* options, const bp_run* run, bp_grid** out);
 
 /* Reads or writes the stream of voxels that the tools read and write (docs/brick-stream.md). A file that exists is
- * replaced only if `overwrite` is not 0; a file appears complete or not at all. */
+ * replaced only if `overwrite` is not 0; a file appears complete or not at all. A sink gets the bytes of the file. */
 BP_API bp_status bp_grid_load(const char* path, const bp_run* run, bp_grid** out);
 BP_API bp_status bp_grid_save(const bp_grid* grid, const char* path, int overwrite, const bp_run* run);
+BP_API bp_status bp_grid_write(const bp_grid* grid, bp_sink_fn sink, void* user, const bp_run* run);
 
 typedef enum bp_layer { BP_SOLID = 0, BP_CLOSING = 1 } bp_layer;
 
@@ -240,9 +254,15 @@ typedef struct bp_grid_info {
   double scale;                        /* of the closing where it is the same everywhere, scene units; else 0 */
   uint64_t bricks[2];                  /* bricks that are not empty, by bp_layer */
   uint64_t voxels[2];                  /* voxels that are set, by bp_layer */
+  const char* rules;                   /* scale field of the closing, or of the closing to come, as JSON; "": none */
 } bp_grid_info;
 /* Cost: reads every brick once, to count. */
 BP_API bp_status bp_grid_read_info(const bp_grid* grid, bp_grid_info* info, size_t size);
+
+/* Computes the closing radius at points (x, y, z each) by the field of the grid, scene units; bp_close() samples it
+ * every 8 voxels. BP_BAD_ARGUMENT without field and closing. Cost: microseconds for each point and 100 rules. */
+BP_API bp_status bp_grid_scales(const bp_grid* grid, const double* points, size_t count, const bp_run* run,
+                                double* scales);
 
 /* Copies voxels out: one byte each, 0 or 1, for the box of extent[0] x extent[1] x extent[2] voxels from `min` on.
  * Voxel min + (i, j, k) is out[(k * extent[1] + j) * extent[0] + i], so as an array of NumPy the shape is (z, y, x).
@@ -301,7 +321,6 @@ BP_API bp_status bp_proxy(const bp_scene* scene, const bp_voxelize_options* voxe
 
 /* Reads a file of a mesh, all of its levels. Vertices of equal coordinates become one. */
 BP_API bp_status bp_mesh_load(const char* path, const bp_run* run, bp_mesh** out);
-
 BP_API size_t bp_mesh_count(const bp_mesh* mesh);
 
 typedef struct bp_mesh_view {
@@ -322,20 +341,21 @@ typedef struct bp_mesh_info {
   double area;            /* scene units squared */
   uint64_t faces_asked;   /* 0: none */
   double error_bound;     /* no point of the mesh is farther from what is enclosed, scene units; 0: not bounded */
-  const char* stopped_by; /* the target that was reached first: "faces", "error", "volume"; "" for other meshes */
+  const char* stopped_by; /* the target that was reached first: "faces", "error", "volume"; "least-volume": further
+                             faces would save next to no volume; else the reason in words. "" for other meshes */
   const char* enclosed;   /* what lies strictly inside: "scene", "input", "closing"; "" if nothing is known to */
 } bp_mesh_info;
 BP_API bp_status bp_mesh_read_info(const bp_mesh* mesh, size_t index, bp_mesh_info* info, size_t size);
 
 /* Writes one mesh, without loss: .glb .gltf .ply .obj .stl, with the bytes that bpmesh writes. A mesh that was loaded
- * or made of arrays cannot be saved. BP_BAD_ARGUMENT if the format cannot hold the coordinates exactly. */
+ * cannot be saved. BP_BAD_ARGUMENT if the format cannot hold the coordinates. For a sink, `format` is "glb", ... */
 BP_API bp_status bp_mesh_save(const bp_mesh* mesh, size_t index, const char* path, int overwrite);
+BP_API bp_status bp_mesh_write(const bp_mesh* mesh, size_t index, const char* format, bp_sink_fn sink, void* user);
 BP_API void bp_mesh_free(bp_mesh* mesh);
 
 /* ---- Proofs ------------------------------------------------------------------------------------------------------*/
 
 typedef struct bp_verdict bp_verdict;
-
 typedef enum bp_answer { BP_PROVEN = 0, BP_REFUTED = 1, BP_UNDECIDED = 2 } bp_answer;
 
 typedef struct bp_check_options {

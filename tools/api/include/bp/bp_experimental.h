@@ -69,6 +69,8 @@ BP_API bp_status bp_occluder(const bp_scene* scene, const bp_voxelize_options* v
  * NAME_LOD0.glb and so on and NAME.glb with all levels, NAME_occluder.glb, or NAME_cage.obj and NAME_cage.glb. All
  * files appear, or none. The folder is made if it is missing. */
 BP_API bp_status bp_levels_save(const bp_mesh* meshes, const char* folder, const char* name, int overwrite);
+/* Hands the bytes of these files to `sink`, with their names. */
+BP_API bp_status bp_levels_write(const bp_mesh* meshes, const char* name, bp_sink_fn sink, void* user);
 
 /* ---- Cages that deform points ---------------------------------------------------------------------*/
 
@@ -82,7 +84,7 @@ typedef enum bp_symmetry {
 
 typedef struct bp_cage_options {
   size_t size;
-  uint64_t faces;    /* most triangles; 0: chosen, 1000 at most */
+  uint64_t faces;    /* most triangles, 12 at least, and 20 of a symmetric cage; 0: chosen, 1000 at most */
   bp_length margin;  /* least distance from the scene; 0: 0.5 % of the scene's diagonal */
   int32_t no_margin; /* not 0: a margin of exactly 0 */
   int32_t symmetry;  /* bp_symmetry: the cage is its own mirror image */
@@ -94,9 +96,10 @@ BP_API void bp_cage_defaults(bp_cage_options* options, size_t size);
 BP_API bp_status bp_scene_cage(const bp_scene* scene, const bp_voxelize_options* voxelize,
                                const bp_cage_options* options, const bp_run* run, bp_mesh** out);
 
-/* Makes a cage of nothing but quads around the scene of a closed grid: at most `faces` triangles, 12 at least. The
- * quads are pairs of triangles, bp_mesh_view.quads. The cage is closed and strictly around the scene, as other proxies
- * are. Cost: a second for 1000 faces. */
+/* Makes a cage of quads around the scene of a closed grid: at most `faces` triangles, 12 at least. The quads are pairs
+ * of triangles, bp_mesh_view.quads; where a pair's other diagonal would cut the scene or the cage, the two triangles
+ * stay without a quad. The cage is closed and strictly around the scene, as other proxies are. Cost: a second for 1000
+ * faces. */
 BP_API bp_status bp_cage(const bp_grid* grid, uint64_t faces, const bp_run* run, bp_mesh** out);
 
 /* Coordinates of points in a cage, rounded to whole numbers as files of bpdeform hold them. */
@@ -120,10 +123,11 @@ BP_API void bp_bind_defaults(bp_bind_options* options, size_t size);
  * columns are the cage's vertices, with BP_GREEN its faces, too. Cost: microseconds for each 300 faces and point. */
 BP_API bp_status bp_bind(const bp_arrays* cage, const double* points, size_t count, const bp_bind_options* options,
                          const bp_run* run, bp_weights** out);
-/* Moves the points: `moved` has the cage's vertices in their new places, as many and in the same order. `out` gets x,
- * y, z of each point; it may be the array of points that was bound. */
+/* Moves the points: `moved` has the cage's vertices in their new places, bp_weights_cage_count() of them, in the same
+ * order. `out` gets x, y, z of each point; it may be the array of points that was bound. */
 BP_API bp_status bp_weights_apply(const bp_weights* weights, const double* moved, const bp_run* run, double* out);
-BP_API size_t bp_weights_count(const bp_weights* weights); /* of points */
+BP_API size_t bp_weights_count(const bp_weights* weights);      /* of points */
+BP_API size_t bp_weights_cage_count(const bp_weights* weights); /* of vertices of the cage */
 BP_API void bp_weights_free(bp_weights* weights);
 
 #ifdef __cplusplus

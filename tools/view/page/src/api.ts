@@ -16,18 +16,21 @@ export interface LayerState {
   step: 'none' | 'waiting' | 'checking' | 'done' | 'failed'; verdict: Verdict | null; notes: string;
 }
 export interface State {
-  scene: { files: string[]; triangles: number; shown: boolean; min: Vec3; max: Vec3; diagonal: number; middle: Vec3; voxel: number; origin: Vec3; up: string };
+  scene: { files: string[]; triangles: number; shown: boolean; most_shown: number; min: Vec3; max: Vec3; diagonal: number; middle: Vec3; voxel: number; origin: Vec3; up: string };
   design: { revision: number; base: number | string; base_world: number; rules: Rule[]; orientation: Orientation; can_undo: boolean; can_redo: boolean; saved: boolean };
-  closing: { asked: number; shown: number; generation: number; voxels: number; seconds: number; error: string };
+  closing: { asked: number; shown: number; generation: number; drawn_voxel: number; voxels: number; seconds: number; error: string };
   element: 'cube' | 'ball';
   layers: LayerState[];
   made: MadeProxy[];
-  proxy: { step: 'none' | 'meshing' | 'checking' | 'ready' | 'failed' | 'stopped'; current: boolean; faces: number; number: number; bytes: number;
+  proxy: { step: 'none' | 'meshing' | 'checking' | 'ready' | 'failed' | 'stopped'; current: boolean; faces: number; number: number; bytes: number; saved: boolean;
     mesh_seconds: number; check_seconds: number; notes: string; verdict: Verdict | null };
   faces: number; live: boolean; rules_file: string; out_file: string; command: string;
 }
 
-async function checked(response: Response): Promise<Response> {
+export const kGone = 'bpview does not answer; is it still running?';
+
+async function ask(path: string, more: RequestInit = {}): Promise<Response> {
+  const response = await fetch(path, more).catch(() => { throw new Error(kGone); });
   if (response.ok) return response;
   const text = await response.text();
   let message = text;
@@ -39,32 +42,34 @@ async function checked(response: Response): Promise<Response> {
 export async function enter(): Promise<void> {
   const token = location.hash.slice(1);
   if (!token) return;
-  await checked(await fetch('/session', { method: 'POST', body: token }));
+  await ask('/session', { method: 'POST', body: token });
   history.replaceState(null, '', '/');
 }
 
 export async function bytes(path: string): Promise<ArrayBuffer> {
-  return (await checked(await fetch(path))).arrayBuffer();
+  return (await ask(path)).arrayBuffer();
 }
 
 /// Sends a request. Returns the design's revision after it, and 0 if the request does not change the design.
 export async function post(path: string, body: unknown = {}): Promise<number> {
-  const answer = await (await checked(await fetch(path, { method: 'POST', body: JSON.stringify(body) }))).json();
+  const answer = await (await ask(path, { method: 'POST', body: JSON.stringify(body) })).json();
   return answer.revision ?? 0;
 }
 
 /// Names of the scene's parts, for rules by name.
 export async function parts(): Promise<string[]> {
-  return (await checked(await fetch('/api/parts'))).json();
+  return (await ask('/api/parts')).json();
 }
 
 export async function state(): Promise<State> {
-  return (await checked(await fetch('/api/state'))).json();
+  return (await ask('/api/state')).json();
 }
 
-/// Calls `tell` with each state, and `lost` while the server does not answer.
-export function listen(tell: (state: State) => void, lost: () => void): void {
+/// Calls `tell` with each state, `lost` with a message while the server does not answer, and `back` when it answers again.
+export function listen(tell: (state: State) => void, lost: (message: string) => void, back: () => void): void {
   const events = new EventSource('/api/events');
   events.onmessage = (event) => tell(JSON.parse(event.data));
-  events.onerror = lost;
+  events.onopen = back;
+  // A server that refuses the cookie is another one at the same port.
+  events.onerror = () => lost(events.readyState === EventSource.CLOSED ? 'bpview was started anew; open the link that it printed.' : kGone);
 }

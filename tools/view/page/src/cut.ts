@@ -1,4 +1,4 @@
-// The cut plane: what lies before it is left out, in all layers, and back faces get a colour of their own.
+// The cut plane: what lies before it is left out, in all layers. Closed layers are filled there; the back faces of others get a colour of their own.
 import * as THREE from 'three';
 import { shared } from './looks';
 import { show } from './lengths';
@@ -13,10 +13,11 @@ export class Cut {
   private along = new THREE.Vector3();  // unit length; from what is left out to what is kept
   private plane = new THREE.Plane();
 
-  constructor(private view: View, private slider: HTMLInputElement, private text: HTMLElement, private buttons: HTMLButtonElement[], flip: HTMLButtonElement) {
+  constructor(private view: View, private slider: HTMLInputElement, private text: HTMLElement, private buttons: HTMLButtonElement[], flip: HTMLButtonElement, private fill: HTMLInputElement) {
     slider.oninput = () => { this.at = Number(slider.value); this.apply(); };
     for (const button of buttons) button.onclick = () => this.choose(button.dataset.cut as CutAxis);
     flip.onclick = () => this.flip();
+    fill.onchange = () => this.apply();
     this.apply();
   }
 
@@ -39,6 +40,11 @@ export class Cut {
     this.at = 1000 - this.at;
     this.apply();
   }
+  /// Fills closed layers where they are cut, or leaves them hollow.
+  toggleFill(): void {
+    this.fill.checked = !this.fill.checked;
+    this.apply();
+  }
   move(by: number): void {
     if (this.axis === 'off') return;
     this.at = Math.min(1000, Math.max(0, this.at + by));
@@ -55,7 +61,7 @@ export class Cut {
     const on = this.axis !== 'off', place = on ? this.reach() * (this.at / 500 - 1) : 0;
     this.plane.set(this.along, -place);
     shared.uCut.value = on ? 1 : 0;
-    this.view.cut(on ? this.plane : null);
+    this.view.cut(on ? this.plane : null, this.fill.checked);
     this.slider.value = String(this.at);
     this.slider.disabled = !on;
     for (const button of this.buttons) button.ariaPressed = String(button.dataset.cut === this.axis);

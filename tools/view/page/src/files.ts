@@ -4,11 +4,12 @@ import { complain } from './panel';
 import type { View } from './view';
 import { readMesh } from './wire';
 
-const kColors = ['#d98c5f', '#7fa7d9', '#b98bd0', '#d3b85a', '#6fbfb0', '#d77a95'];
+const kColors = ['#d98c5f', '#7fa7d9', '#b98bd0', '#d3b85a', '#6fbfb0', '#d77a95', '#8fbf6a', '#c9c2b2', '#a0763f', '#5a7fd0', '#d05a5a', '#7d8c99'];
 
 interface Row {
   item: HTMLLIElement; shown: HTMLInputElement; color: HTMLInputElement; opacity: HTMLInputElement; level: HTMLSelectElement;
   count: HTMLElement; badge: HTMLElement; prove: HTMLButtonElement; loaded: string | null;
+  inner: boolean;  // the file claims to lie inside the scene
 }
 
 function make<K extends keyof HTMLElementTagNameMap>(tag: K, more: Partial<HTMLElementTagNameMap[K]> = {}): HTMLElementTagNameMap[K] {
@@ -57,7 +58,7 @@ export class Files {
       row.badge.className = `badge ${kind}`;
       row.badge.hidden = text === '';
       row.prove.hidden = !isProvable(layer);
-      row.item.title = factsOf(layer);
+      row.item.title = `${layer.name}\n${factsOf(layer)}`;
       row.item.querySelector('.why')!.textContent = layer.step === 'done' && layer.verdict?.answer !== 'proven' ? layer.verdict?.why ?? '' : layer.step === 'failed' ? layer.notes : '';
     });
   }
@@ -68,7 +69,7 @@ export class Files {
       item: make('li'), shown: make('input', { type: 'checkbox' }), color: make('input', { type: 'color', value: kColors[i % kColors.length], title: 'Colour' }),
       opacity: make('input', { type: 'range', min: '5', max: '100', value: '40', step: '5', title: 'Opacity' }), level: make('select', { title: 'Level; 0 is the finest' }),
       count: make('span', { className: 'count' }), badge: make('span', { className: 'badge', hidden: true }),
-      prove: make('button', { textContent: 'Prove', title: `Asks bpcheck about ${layer.name}` }), loaded: null,
+      prove: make('button', { textContent: 'Prove', title: `Asks bpcheck about ${layer.name}` }), loaded: null, inner: layer.contract === 'inside',
     };
     row.color.setAttribute('aria-label', `Colour of ${layer.name}`);
     row.opacity.setAttribute('aria-label', `Opacity of ${layer.name}`);
@@ -125,7 +126,7 @@ export class Files {
       try {
         const mesh = readMesh(await bytes(`/api/layer?${wanted}`));
         if (row.loaded !== wanted) return;
-        this.view.setFile(i, mesh);
+        this.view.setFile(i, mesh, row.inner);
         row.count.textContent = mesh.faces.toLocaleString('en');
         this.told.loaded++;
       } catch (error) {

@@ -72,8 +72,7 @@ export class Frames {
 
   /// Returns where the chosen frame is on the page, in pixels; for tests.
   place(): [number, number] {
-    const p = this.handle.position.clone().project(this.view.camera), box = this.canvas.getBoundingClientRect();
-    return [box.x + ((p.x + 1) / 2) * box.width, box.y + ((1 - p.y) / 2) * box.height];
+    return this.view.pixelOf(this.handle.position);
   }
 
   /// Adds an upright frame at a point of the scene, and chooses it.

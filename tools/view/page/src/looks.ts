@@ -38,7 +38,8 @@ export function makeMatcap(): THREE.DataTexture {
 }
 
 /// The attribute of a geometry by which a material colours it.
-export type ColoredBy = 'nothing' | 'scale' | 'distance';
+/// 'section': the face of a cut, which is hatched.
+export type ColoredBy = 'nothing' | 'scale' | 'distance' | 'section';
 
 /// Colours of distances from the scene, from 0 to the farthest; page.css has the same.
 const kRamp = ['#4a74c9', '#45b5a4', '#ecd860', '#e8803a', '#b3245f'];
@@ -47,7 +48,7 @@ const ramp = kRamp.map((text) => { const c = new THREE.Color(text); return `vec3
 /// A matcap material that shows the brush, and colours by `aValue` of the geometry.
 export function surfaceMaterial(matcap: THREE.Texture, color: string, by: ColoredBy, more: THREE.MeshMatcapMaterialParameters = {}): THREE.MeshMatcapMaterial {
   const material = new THREE.MeshMatcapMaterial({ matcap, color, ...more });
-  const valued = by !== 'nothing';
+  const valued = by === 'scale' || by === 'distance', section = by === 'section';
   material.onBeforeCompile = (shader) => {
     Object.assign(shader.uniforms, shared);
     shader.vertexShader = shader.vertexShader
@@ -66,7 +67,7 @@ export function surfaceMaterial(matcap: THREE.Texture, color: string, by: Colore
         diffuseColor.rgb = share < 1.0 ? mix(${ramp[0]}, ${ramp[1]}, share) : share < 2.0 ? mix(${ramp[1]}, ${ramp[2]}, share - 1.0)
           : share < 3.0 ? mix(${ramp[2]}, ${ramp[3]}, share - 2.0) : mix(${ramp[3]}, ${ramp[4]}, share - 3.0);
         diffuseColor.rgb *= 1.3;` : ''}
-        if (uCut > 0.5 && !gl_FrontFacing) diffuseColor.rgb = vec3(0.52, 0.05, 0.075);
+        ${section ? 'if (mod(gl_FragCoord.x + gl_FragCoord.y, 9.0) < 1.5) diffuseColor.rgb *= 0.6;' : 'if (uCut > 0.5 && !gl_FrontFacing) diffuseColor.rgb = vec3(0.52, 0.05, 0.075);'}
         if (uBrush.w > 0.0) {
           float d = distance(vPlace, uBrush.xyz) / uBrush.w, w = fwidth(d) + 1e-5;
           float ring = 1.0 - smoothstep(w, 2.2 * w, abs(d - 1.0));

@@ -1,10 +1,10 @@
 // The page of bpview (docs/bpview.1.md).
 import { bytes, enter, listen, parts as askParts, post, state as askState, type State, type Vec3 } from './api';
 import { Brush, type Tool } from './brush';
-import { percent, show } from './lengths';
+import { percent, show, toWorld } from './lengths';
 import { Plot, type PlotPoint } from './plot';
 import { Ruler } from './ruler';
-import { complain, FaceField, LengthField, showState } from './panel';
+import { complain, FaceField, LengthField, showState, withdraw } from './panel';
 import { View, type Layer } from './view';
 import { Cut } from './cut';
 import { Files, isProvable } from './files';
@@ -12,11 +12,14 @@ import { Frames } from './frames';
 import { Mirror } from './mirror';
 import { readMesh, readSurface } from './wire';
 
+// A new link in this tab changes the part behind # only.
+addEventListener('hashchange', () => { if (location.hash.length > 1) location.reload(); });
+
 const byId = <T extends HTMLElement>(id: string): T => document.getElementById(id) as T;
 let state: State;
 const shown: Record<Layer, boolean> = { scene: false, closing: true, proxy: false };
 /// State that the tests wait for and read.
-const told = { generation: 0, proxy: 0, revision: 0, ready: false, files: () => files.told.loaded, frames: () => view.frames, frame: () => frames.place() };
+const told = { generation: 0, proxy: 0, revision: 0, ready: false, files: () => files.told.loaded, frames: () => view.frames, frame: () => frames.place(), pixel: (p: Vec3) => view.pixelOf(view.fromScene(p)) };
 (window as any).bpview = told;
 
 function makeView(): View {
@@ -30,11 +33,13 @@ const view = makeView();
 /// Edits reach the server in the order in which they were made.
 let queue: Promise<unknown> = Promise.resolve();
 let onTheWay = 0, answered = 0;  // requests without an answer; the design's revision after the last one that has one
-function send(path: string, body: unknown = {}): Promise<unknown> {
+/// Returns whether the server has done it.
+function send(path: string, body: unknown = {}): Promise<boolean> {
   ++onTheWay;
-  queue = queue.then(() => post(path, body)).then((revision) => { answered = Math.max(answered, revision); }).catch(complain)
-    .finally(() => { --onTheWay; settle(); });
-  return queue;
+  const sent = queue.then(() => post(path, body)).then((revision) => { answered = Math.max(answered, revision); return true; })
+    .catch((error) => { complain(error); return false; }).finally(() => { --onTheWay; settle(); });
+  queue = sent;
+  return sent;
 }
 /// The state lags behind while edits are on the way: what depends on the design waits until it has all of them.
 const isSettled = () => onTheWay === 0 && waiting === null && state.design.revision >= answered;
@@ -57,7 +62,10 @@ function sendLast(body: unknown): void {
 
 const facts = () => state.scene;
 const base = new LengthField('base', facts, false, (value, again) => sendLast({ op: 'base', base: value, again }));
-const target = new LengthField('target', facts, false, (value) => { brush.target = value; });
+const target = new LengthField('target', facts, false, (value, again) => {
+  brush.target = value;
+  if (!again && (brush.tool === 'decrease' || brush.tool === 'increase')) checkTarget(brush.tool);
+});
 const radius = new LengthField('radius', facts, false, (value) => { brush.radius = value; });
 const faces = new FaceField((n) => { void send('/api/edit', { op: 'faces', faces: n }); });
 let hovered: Vec3 | null = null;  // the point of the surface under the pointer
@@ -133,8 +141,16 @@ function toggle(layer: Layer): void {
   shown[layer] = !shown[layer];
   showLayers();
 }
+/// Says it if the scale of the brush would change nothing: only a scale below that of a place is finer.
+function checkTarget(mode: 'decrease' | 'increase'): void {
+  if (!state) return;
+  const its = toWorld(brush.target, state.scene), everywhere = state.design.base_world;
+  if (mode === 'increase' && its <= everywhere) complain(`Its scale, ${brush.target}, is not above ${state.design.base}, the scale everywhere: raise it, and places become coarser.`);
+  if (mode === 'decrease' && its >= everywhere) complain(`Its scale, ${brush.target}, is not below ${state.design.base}, the scale everywhere: lower it, and places become finer.`);
+}
 function choose(tool: Tool): void {
   brush.tool = tool;
+  if (tool === 'decrease' || tool === 'increase') checkTarget(tool);
   byId('canvas').classList.toggle('brush', tool !== 'turn');
   ruler.active = tool === 'ruler';
   frames.activate(tool === 'turn');
@@ -168,7 +184,8 @@ byId<HTMLInputElement>('distances').onchange = (event) => void turnDistances((ev
 /// A rule by name has the scale of the brush. A name that no part has is refused by the server.
 function rulePart(mode: 'decrease' | 'increase'): void {
   const node = byId<HTMLInputElement>('part').value.trim();
-  if (node) void send('/api/edit', { op: 'rule', rule: { node, scale: brush.target, mode } });
+  if (!node) return;
+  void send('/api/edit', { op: 'rule', rule: { node, scale: brush.target, mode } }).then((done) => { if (done) checkTarget(mode); });
 }
 byId('part-finer').onclick = () => rulePart('decrease');
 byId('part-coarser').onclick = () => rulePart('increase');
@@ -211,7 +228,7 @@ addEventListener('keydown', (event) => {
     '+': () => view.zoom(0.9), '=': () => view.zoom(0.9), '-': () => view.zoom(1 / 0.9),
     v: () => choose('turn'), escape: () => choose('turn'), b: () => choose('decrease'), c: () => choose('increase'), e: () => choose('erase'),
     m: () => byId('mesh').click(), r: () => choose('ruler'), y: () => mirror.next(), o: addFrame, d: () => void turnDistances(!distances), l: () => turnTo(byId('look').hidden ? 'look' : 'design'),
-    x: () => cut.next(), ',': () => cut.move(-10), '.': () => cut.move(10), '<': () => cut.move(-1), '>': () => cut.move(1), '\\': () => cut.flip(),
+    x: () => cut.next(), ',': () => cut.move(-10), '.': () => cut.move(10), '<': () => cut.move(-1), '>': () => cut.move(1), '\\': () => cut.flip(), k: () => cut.toggleFill(),
   };
   if (key >= '4' && key <= '9') files.toggle(Number(key) - 4);
   else acts[key]?.();
@@ -226,11 +243,12 @@ async function follow(): Promise<void> {
     while (told.generation !== state.closing.generation || told.proxy !== (chosen || state.proxy.number)) {
       if (told.generation !== state.closing.generation) {
         const surface = readSurface(await bytes(`/api/surface?after=${told.generation}`));
-        view.setPieces(surface.pieces);
+        view.setSurface(surface);
         told.generation = surface.generation;
       }
       if (told.proxy !== (chosen || state.proxy.number)) {
-        const number = chosen || state.proxy.number, asked = distances, data = await bytes(`/api/proxy?number=${chosen}&distances=${Number(distances)}`);
+        const number = chosen || state.proxy.number, asked = distances, query = `/api/proxy?number=${chosen}&distances=${Number(distances)}`;
+        const data = await bytes(query).catch((error) => { complain(error); return new ArrayBuffer(0); });  // it may be too large to draw
         view.setProxy(data.byteLength ? readMesh(data) : null);
         if (asked !== distances || number !== (chosen || state.proxy.number)) continue;  // they were switched meanwhile
         told.proxy = number;
@@ -263,7 +281,7 @@ async function begin(): Promise<void> {
   target.set('0.5%');
   radius.set('3%');
   [brush.target, brush.radius] = ['0.5%', '3%'];
-  cut = new Cut(view, byId('cut'), byId('cut-place'), [...document.querySelectorAll<HTMLButtonElement>('[data-cut]')], byId('cut-flip'));
+  cut = new Cut(view, byId('cut'), byId('cut-place'), [...document.querySelectorAll<HTMLButtonElement>('[data-cut]')], byId('cut-flip'), byId('cut-fill'));
   mirror = new Mirror(view, facts, byId('mirror-at'), [...document.querySelectorAll<HTMLButtonElement>('[data-mirror]')]);
   byId('cubes').hidden = state.element !== 'cube';
   files.tell(state.layers);  // the plot needs its rows
@@ -271,12 +289,16 @@ async function begin(): Promise<void> {
   turnTo(state.layers.length > 0 ? 'look' : 'design');
   showLayers();
   tell(state);
-  listen(tell, () => complain('bpview does not answer; is it still running?'));
+  listen(tell, (message) => complain(message, true), withdraw);
   if (state.scene.shown) view.setScene(readMesh(await bytes('/api/scene')));
-  else byId<HTMLButtonElement>('layers').querySelector<HTMLButtonElement>('[data-layer=scene]')!.disabled = true;
+  else {
+    const button = byId('layers').querySelector<HTMLButtonElement>('[data-layer=scene]')!;
+    button.disabled = true;
+    button.title = `More than ${state.scene.most_shown.toLocaleString('en')} triangles: the scene is not drawn`;
+  }
   const names = await askParts();
   byId('part-names').replaceChildren(...names.map((value) => Object.assign(document.createElement('option'), { value })));
   byId('part-row').hidden = names.length === 0;
   told.ready = true;
 }
-begin().catch(complain);
+begin().catch((error) => complain(error, true));

@@ -23,7 +23,7 @@ export class LengthField {
     text.addEventListener('change', () => {
       const value = parse(text.value), world = toWorld(value, this.scene());
       text.classList.toggle('wrong', Number.isNaN(world));
-      if (Number.isNaN(world)) return;
+      if (Number.isNaN(world)) return complain(`“${text.value}” is no length; write 0.5 (scene units), 2% or 20vx. It stays ${this.value}.`);
       this.set(value);
       this.changed(value, false);
     });
@@ -35,6 +35,7 @@ export class LengthField {
   set(value: Length): void {
     this.value = value;
     input(this.name).value = String(value);
+    input(this.name).classList.remove('wrong');
     input(`${this.name}-slide`).value = String(slide.fromPercent((toWorld(value, this.scene()) / this.scene().diagonal) * 100));
   }
 }
@@ -52,11 +53,13 @@ export class FaceField {
       const n = Number(input('faces').value), fine = Number.isInteger(n) && n >= 4 && n <= 1e7;
       input('faces').classList.toggle('wrong', !fine);
       if (fine) this.changed(n);
+      else complain(`“${input('faces').value}” is no number of faces; write a whole number from 4 to 10000000, without commas.`);
     });
   }
   follow(n: number): void {
     if (this.wait !== 0 || document.activeElement === input('faces')) return;
     input('faces').value = String(n);
+    input('faces').classList.remove('wrong');
     input('faces-slide').value = String(faceSlide.from(n));
   }
 }
@@ -86,7 +89,9 @@ function showRules(rules: Rule[], remove: (i: number) => void): void {
   }).reverse());
 }
 
-const kProof = 'Closed, oriented, 2-manifold and free of self-intersections; every triangle of the scene lies strictly inside.';
+const kProof = 'Closed, without self-intersections; every triangle of the scene lies strictly inside.';
+
+const kVolume = 'Parts inside others count, too, in the scene’s volume. So the number may be below 1.';
 
 function showProxy(state: State): void {
   const p = state.proxy, badge = byId('badge'), verdict = byId('verdict'), v = p.verdict;
@@ -102,22 +107,25 @@ function showProxy(state: State): void {
   badge.textContent = text;
   badge.className = `badge ${kind}`;
   verdict.textContent = sentence;
-  const rows: [string, string][] = [];
+  byId('notes').textContent = p.step === 'ready' && p.current ? p.notes : '';
+  const rows: [string, string, string?][] = [];
   if (v && v.levels.length > 0 && p.step === 'ready') {
     const { triangles, farthest: far, volume_ratio: ratio } = v.levels[0];
     rows.push(['triangles', triangles.toLocaleString('en')]);
-    if (ratio !== null) rows.push(['volume, of the scene’s', show(ratio)]);
+    if (ratio !== null) rows.push(['volume, of the scene’s', show(ratio), kVolume]);
     if (far !== null) rows.push(['farthest from scene', `${show(far)} (${percent(far, state.scene)})`]);
     rows.push(['made, checked', `${show(p.mesh_seconds, 2)} s, ${show(p.check_seconds, 2)} s`]);
   }
-  byId('measures').replaceChildren(...rows.flatMap(([name, value]) => {
+  byId('measures').replaceChildren(...rows.flatMap(([name, value, hint = '']) => {
     const dt = document.createElement('dt'), dd = document.createElement('dd');
+    dt.title = dd.title = hint;
     dt.textContent = name;
     dd.textContent = value;
     return [dt, dd];
   }));
   byId('mesh').textContent = working ? 'Stop' : 'Mesh';
   byId<HTMLButtonElement>('save-proxy').disabled = !(p.step === 'ready' && p.current);
+  byId('save-proxy').textContent = p.saved && p.current ? 'Proxy saved' : 'Proxy';
   byId('save-proxy').title = `Writes ${state.out_file}`;
 }
 
@@ -127,7 +135,7 @@ export function showState(state: State, remove: (i: number) => void): void {
   byId('title').title = s.files.join(', ');
   document.title = `${s.files[0] ?? ''} – bpview`;
   const size = s.max.map((x, i) => show(x - s.min[i])).join(' × ');
-  byId('facts').textContent = `${s.triangles.toLocaleString('en')} triangles, ${size}; voxel ${show(s.voxel)}`;
+  byId('facts').textContent = byId('facts').title = `${s.triangles.toLocaleString('en')} triangles, ${size}; voxel ${show(s.voxel)}`;
   byId('base-world').textContent = `${show(state.design.base_world)} in scene units, ${show(state.design.base_world / s.voxel, 2)} voxels`;
   byId<HTMLButtonElement>('undo').disabled = !state.design.can_undo;
   byId<HTMLButtonElement>('redo').disabled = !state.design.can_redo;
@@ -138,17 +146,29 @@ export function showState(state: State, remove: (i: number) => void): void {
   byId('save-rules').title = `Writes ${state.rules_file}`;
   byId('command').textContent = state.command;
   const behind = c.asked !== c.shown && !c.error;
-  byId('times').textContent = c.error ? c.error : behind ? 'closing …' : `closing ${Math.round(c.seconds * 1000)} ms, ${c.voxels.toLocaleString('en')} voxels`;
+  const wide = Math.round(c.drawn_voxel / s.voxel), drawn = wide > 1 ? `, drawn ${wide} times as coarse` : '';
+  byId('times').textContent = c.error ? c.error : behind ? 'closing …' : `closing ${Math.round(c.seconds * 1000)} ms, ${c.voxels.toLocaleString('en')} voxels${drawn}`;
+  byId('times').title = drawn ? 'The surface has more faces than a page draws; the closing and the proxy have all voxels' : '';
   byId('legend').hidden = state.design.rules.length === 0;
   byId('legend-low').textContent = `${percent(state.design.base_world / 8, s)}`;
   byId('legend-high').textContent = `${percent(state.design.base_world * 8, s)}`;
 }
 
-/// Shows a message for some seconds, or until the page is left.
+let standing = '', timer = 0;  // a message that stays; the timer of one that goes
+function showMessage(text: string): void {
+  byId('message').textContent = text;
+  byId('message').hidden = text === '';
+}
+/// Shows a message for some seconds, or until it is withdrawn.
 export function complain(error: unknown, stays = false): void {
-  const message = byId('message');
-  message.textContent = error instanceof Error ? error.message : String(error);
-  message.hidden = false;
-  clearTimeout(Number(message.dataset.timer));
-  if (!stays) message.dataset.timer = String(setTimeout(() => { message.hidden = true; }, 6000));
+  const text = error instanceof Error ? error.message : String(error);
+  if (stays) standing = text;
+  showMessage(text);
+  clearTimeout(timer);
+  timer = stays ? 0 : window.setTimeout(() => { timer = 0; showMessage(standing); }, 6000);
+}
+/// Withdraws the message that stays.
+export function withdraw(): void {
+  standing = '';
+  if (timer === 0) showMessage('');
 }

@@ -1,11 +1,13 @@
 // Finds the point of the surface under the pointer: one pixel is drawn with distances in place of colours. So pieces that arrive
 // with each stroke need no search tree of their own.
 import * as THREE from 'three';
+import { kWhereCounted } from './caps';
 
-export class Picker {
-  private target = new THREE.WebGLRenderTarget(1, 1);
-  private material = new THREE.ShaderMaterial({
+/// Writes distances in place of colours.
+function depths(more: THREE.MaterialParameters): THREE.ShaderMaterial {
+  return new THREE.ShaderMaterial({
     side: THREE.DoubleSide,
+    ...more,
     clipping: true,  // by the cut plane
     uniforms: { uFar: { value: 1 } },
     vertexShader: `varying float vDepth;
@@ -26,14 +28,20 @@ export class Picker {
         gl_FragColor = vec4(part, 1.0);
       }`,
   });
+}
+
+export class Picker {
+  private target = new THREE.WebGLRenderTarget(1, 1, { stencilBuffer: true });
+  private material = depths({});
+  private section = depths(kWhereCounted);
   private pixel = new Uint8Array(4);
 
   constructor(private renderer: THREE.WebGLRenderer, private scene: THREE.Scene) {}
 
-  /// Returns the point at pixel (`x`, `y`) of the canvas; null: the background.
-  pick(camera: THREE.PerspectiveCamera, x: number, y: number, width: number, height: number, hidden: THREE.Object3D[]): THREE.Vector3 | null {
+  /// Returns the point at pixel (`x`, `y`) of the canvas; null: the background. `fill` draws the sections of a cut with the material that it gets.
+  pick(camera: THREE.PerspectiveCamera, x: number, y: number, width: number, height: number, hidden: THREE.Object3D[], fill: (depths: THREE.Material) => void): THREE.Vector3 | null {
     const far = camera.far;
-    this.material.uniforms.uFar.value = far;
+    this.material.uniforms.uFar.value = this.section.uniforms.uFar.value = far;
     const visible = hidden.map((object) => object.visible);
     hidden.forEach((object) => { object.visible = false; });
     const background = this.scene.background;
@@ -46,11 +54,12 @@ export class Picker {
     this.renderer.setRenderTarget(this.target);
     this.renderer.clear();
     this.renderer.render(this.scene, camera);
+    this.scene.overrideMaterial = null;
+    fill(this.section);
     this.renderer.readRenderTargetPixels(this.target, 0, 0, 1, 1, this.pixel);
     this.renderer.setRenderTarget(null);
     this.renderer.setClearColor(clear, alpha);
     camera.clearViewOffset();
-    this.scene.overrideMaterial = null;
     this.scene.background = background;
     hidden.forEach((object, i) => { object.visible = visible[i]; });
     const [a, b, c, there] = this.pixel;

@@ -1,5 +1,7 @@
 // A mesh in the view, with its edges: the scene, the proxy or a file.
 import * as THREE from 'three';
+import type { Solid } from './caps';
+import { isClosed } from './closed';
 import { surfaceMaterial } from './looks';
 import type { Mesh } from './wire';
 
@@ -18,6 +20,8 @@ export class ShownMesh {
   farthest = 0;  // distance from the scene, scene units; 0: not known
   private surface: THREE.Mesh | null = null;
   private colored = false;
+  private mesh: Mesh | null = null;
+  private bounds: boolean | null = null;  // whether the mesh is closed; null: not known yet
 
   constructor(matcap: THREE.Texture, color: string, more: THREE.MeshMatcapMaterialParameters = {}) {
     const all = { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1, ...more };
@@ -36,6 +40,8 @@ export class ShownMesh {
     this.edges.geometry = new THREE.BufferGeometry();
     this.surface = null;
     this.farthest = 0;
+    this.mesh = mesh;
+    this.bounds = null;
     if (!mesh) return;
     const geometry = geometryOf(mesh), flat = mesh.normals === null;
     for (const look of this.looks) {
@@ -63,6 +69,10 @@ export class ShownMesh {
     this.edges.material.opacity = colored ? 0.3 : 0.75;
   }
 
+  /// Returns whether the mesh bounds a solid. The first question about a mesh takes some time.
+  get closed(): boolean { return this.bounds ??= this.mesh !== null && isClosed(this.mesh.positions, this.mesh.corners); }
+
+  get solid(): Solid { return { group: this.group, lines: [this.edges], color: this.looks[0].color, opacity: this.looks[0].opacity }; }
   get transparent(): boolean { return this.looks[0].transparent; }
   /// An opacity below 1 shows what is behind.
   setOpacity(opacity: number): void {

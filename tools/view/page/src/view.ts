@@ -2,10 +2,11 @@
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import type { State, Vec3 } from './api';
+import { Caps, withOnly, type Solid } from './caps';
 import { makeMatcap, shared, surfaceMaterial } from './looks';
 import { Picker } from './picker';
 import { ShownMesh } from './shown';
-import type { Mesh, Piece } from './wire';
+import type { Mesh, Surface } from './wire';
 
 export type Layer = 'scene' | 'closing' | 'proxy';
 const kBrick = 64, kPerVoxel = 256, kOrigin = 8;  // lib/live/surface_piece.h
@@ -18,14 +19,21 @@ export class View {
   private stroke = new THREE.Line(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: '#ffffff', depthTest: false, transparent: true }));
   private matcap = makeMatcap();
   private closingLook = surfaceMaterial(this.matcap, '#d8d4cc', 'scale');
-  private mesh = new ShownMesh(this.matcap, '#c9d1dc', { side: THREE.DoubleSide });
+  // The scene lies farther back than what encloses it closely, to within the digits of the depth buffer.
+  private mesh = new ShownMesh(this.matcap, '#c9d1dc', { side: THREE.DoubleSide, polygonOffsetFactor: 2, polygonOffsetUnits: 8 });
   private proxy = new ShownMesh(this.matcap, '#9fd0b4');
   private files: ShownMesh[] = [];
+  private inner = new Set<ShownMesh>();  // files that lie inside the scene
+  private caps = new Caps(this.matcap);
+  private plane: THREE.Plane | null = null;
+  private filled = true;
   private layers: Record<Layer, THREE.Group> = { scene: this.mesh.group, closing: new THREE.Group(), proxy: this.proxy.group };
   private dark = matchMedia('(prefers-color-scheme: dark)');
   private ruler = new THREE.Line(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: '#d21f5b', depthTest: false, transparent: true }));
   private ends = new THREE.Points(this.ruler.geometry, new THREE.PointsMaterial({ color: '#d21f5b', size: 9, sizeAttenuation: false, depthTest: false, transparent: true }));
   private pieces = new Map<string, THREE.Mesh>();
+  private drawnVoxel = 0;  // edge of the voxels of the pieces
+  private base = 0;
   private picker: Picker;
   private size = 1;
   private due = false;
@@ -35,7 +43,7 @@ export class View {
   drawn: () => void = () => {};  // called after each frame
 
   constructor(private canvas: HTMLCanvasElement) {
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: false });
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: false, stencil: true });
     this.picker = new Picker(this.renderer, this.scene);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.zoomToCursor = true;
@@ -100,15 +108,21 @@ export class View {
     this.draw();
   }
 
-  setPieces(pieces: Piece[]): void {
-    const { voxel, origin, middle } = this.facts;
+  private removePiece(key: string): void {
+    const old = this.pieces.get(key);
+    if (!old) return;
+    old.geometry.dispose();
+    this.layers.closing.remove(old);
+    this.pieces.delete(key);
+  }
+
+  setSurface({ whole, voxel, origin, pieces }: Surface): void {
+    const { middle } = this.facts;
+    if (whole) [...this.pieces.keys()].forEach((key) => this.removePiece(key));
+    this.drawnVoxel = voxel;
+    this.setBase(this.base);
     for (const piece of pieces) {
-      const old = this.pieces.get(piece.key);
-      if (old) {
-        old.geometry.dispose();
-        this.layers.closing.remove(old);
-        this.pieces.delete(piece.key);
-      }
+      this.removePiece(piece.key);
       if (piece.vertices === 0) continue;
       const geometry = new THREE.BufferGeometry();
       const words = new THREE.InterleavedBuffer(new Uint16Array(piece.bytes), 6), small = new THREE.InterleavedBuffer(new Int8Array(piece.bytes), 12);
@@ -164,7 +178,8 @@ export class View {
     this.controls.update();
   }
 
-  setFile(i: number, mesh: Mesh): void {
+  /// `inner`: the file lies inside the scene.
+  setFile(i: number, mesh: Mesh, inner: boolean): void {
     while (this.files.length <= i) {
       const file = new ShownMesh(this.matcap, '#ffffff', { side: this.closingLook.side });
       this.files.push(file);
@@ -172,6 +187,7 @@ export class View {
       file.group.visible = false;
     }
     this.files[i].set(mesh);
+    if (inner) this.inner.add(this.files[i]);
     this.dress();
   }
   styleFile(i: number, visible: boolean, color: string, opacity: number): void {
@@ -187,9 +203,11 @@ export class View {
     return new THREE.Vector3(...this.facts.max).sub(new THREE.Vector3(...this.facts.min)).multiplyScalar(0.5);
   }
 
-  /// Leaves out what lies behind `plane`. Then surfaces are open, and are drawn from both sides.
-  cut(plane: THREE.Plane | null): void {
+  /// Leaves out what lies behind `plane`. Closed layers are filled there if `filled`. Others are open, and are drawn from both sides.
+  cut(plane: THREE.Plane | null, filled: boolean): void {
     this.renderer.clippingPlanes = plane ? [plane] : [];
+    this.plane = plane;
+    this.filled = filled;
     const side = plane ? THREE.DoubleSide : THREE.FrontSide;
     for (const look of [this.closingLook, ...[this.proxy, ...this.files].flatMap((shown) => shown.looks)]) {
       if (look.side !== side) look.needsUpdate = true;
@@ -205,7 +223,8 @@ export class View {
   }
 
   setBase(world: number): void {
-    shared.uBase.value = (world / this.facts.voxel) * 16 || 1;
+    this.base = world;
+    shared.uBase.value = (world / (this.drawnVoxel || this.facts.voxel)) * 16 || 1;
     this.draw();
   }
 
@@ -233,7 +252,14 @@ export class View {
   pick(x: number, y: number): THREE.Vector3 | null {
     const hidden: THREE.Object3D[] = [this.stroke, this.ruler, this.ends, ...this.tools];
     for (const shown of [this.proxy, ...this.files]) hidden.push(shown.transparent ? shown.group : shown.edges);
-    return this.picker.pick(this.camera, x, y, this.canvas.clientWidth, this.canvas.clientHeight, hidden);
+    const fill = (depths: THREE.Material) => this.caps.draw(this.renderer, this.scene, this.camera, this.size, this.solids().filter((solid) => solid.opacity === 1), depths);
+    return this.picker.pick(this.camera, x, y, this.canvas.clientWidth, this.canvas.clientHeight, hidden, this.plane && this.filled ? fill : () => {});
+  }
+
+  /// Returns where a point relative to the middle is on the page, in pixels; for tests.
+  pixelOf(p: THREE.Vector3): [number, number] {
+    const q = p.clone().project(this.camera), box = this.canvas.getBoundingClientRect();
+    return [box.x + ((q.x + 1) / 2) * box.width, box.y + ((1 - q.y) / 2) * box.height];
   }
 
   toScene(p: THREE.Vector3): Vec3 {
@@ -255,13 +281,34 @@ export class View {
     this.draw();
   }
 
+  /// The visible layers that are closed, from the outermost to the innermost.
+  private solids(): Solid[] {
+    const closing: Solid = { group: this.layers.closing, lines: [], color: this.closingLook.color, opacity: 1 };
+    const of = (shown: ShownMesh): Solid[] => (shown.group.visible && shown.closed ? [shown.solid] : []);
+    const [inner, outer] = [true, false].map((inside) => this.files.filter((file) => this.inner.has(file) === inside).flatMap(of));
+    return [...outer, ...of(this.proxy), ...(this.layers.closing.visible ? [closing] : []), ...of(this.mesh), ...inner];
+  }
+
+  /// With a cut, what marks places is drawn last, and whole.
+  private render(): void {
+    const { renderer, scene, camera } = this;
+    if (!this.plane) return renderer.render(scene, camera);
+    const marks = [this.stroke, this.ruler, this.ends, ...this.tools], background = scene.background;
+    withOnly(scene, scene.children.filter((child) => !marks.includes(child)), () => renderer.render(scene, camera));
+    scene.background = null;
+    if (this.filled) this.caps.draw(renderer, scene, camera, this.size, this.solids());
+    [renderer.autoClear, renderer.clippingPlanes] = [false, []];
+    withOnly(scene, marks, () => renderer.render(scene, camera));
+    [renderer.autoClear, renderer.clippingPlanes, scene.background] = [true, [this.plane], background];
+  }
+
   draw(): void {
     if (this.due) return;
     this.due = true;
     requestAnimationFrame(() => {
       this.due = false;
       if (this.facts) this.frames++;
-      this.renderer.render(this.scene, this.camera);
+      this.render();
       this.drawn();
     });
   }

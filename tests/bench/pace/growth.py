@@ -1,41 +1,29 @@
 #!/usr/bin/env python3
 """How time and memory grow with triangles, voxels and faces: `bpvox | bpclose | bpmesh` of generated plants.
-  growth.py BIN_DIR [--triangles 1e5,1e6] [--voxels 256,512,1024] [--faces 1000,5000,20000] [--memory 1G] [--table FILE] [--svg FILE]
+  growth.py BIN_DIR [--triangles 1e5,1e6] [--voxels 256,512,1024] [--faces 1000,5000,20000] [--memory 1G] [--table FILE] [--svg FILE] [--work FOLDER]
   growth.py --draw TABLE --svg FILE
-BIN_DIR (build/release) holds tools/ and samples/. One of the three varies, the others stay at 10^6 triangles, 1024 voxels along the longest side and
+BIN_DIR is a build, or a folder of programs as pace.py takes it. One of the three varies, the others stay at 10^6 triangles, 1024 voxels along the longest side and
 5000 faces; the scale is 5 voxels. Prints a line for each run: seconds from file to file, those of the processor, and the largest peak of
 the three in MiB; then the slopes between the first and the last of each row, on logarithmic axes."""
 import argparse
 import math
-import os
-import subprocess
-import sys
 import tempfile
-import time
+
+from pace import Programs
 
 FIXED = {"triangles": 10**6, "voxels": 1024, "faces": 5000}
 COLUMNS = ("varies", *FIXED, "seconds", "processor", "mib")
 
 
-def run(folder, bin_dir, scene, o, memory):
-    tool = lambda name, *args: [os.path.join(bin_dir, "tools", name), *map(str, args), "--memory", memory, "--temp", folder, "-q", "--overwrite"]
-    begin = time.monotonic()
-    vox = subprocess.Popen(tool("bpvox", scene, "--resolution", o["voxels"]), stdout=subprocess.PIPE)
-    close = subprocess.Popen(tool("bpclose", "--scale", "5vx"), stdin=vox.stdout, stdout=subprocess.PIPE)
-    mesh = subprocess.Popen(tool("bpmesh", "--enclose", "closing", "--faces", o["faces"], "-o", f"{folder}/proxy.ply"), stdin=close.stdout)
-    processor = peak = 0
-    for process in (vox, close, mesh):
-        _, status, used = os.wait4(process.pid, 0)
-        if status != 0:
-            sys.exit(f"failed: {process.args}")
-        processor += used.ru_utime + used.ru_stime
-        peak = max(peak, used.ru_maxrss)
-    return time.monotonic() - begin, processor, peak / 1024
+def run(folder, programs, scene, o, memory):
+    more = ("--memory", memory, "--temp", folder, "--overwrite")
+    return programs.run(("bpvox", scene, "--resolution", o["voxels"], *more), ("bpclose", "--scale", "5vx", *more),
+                        ("bpmesh", "--enclose", "closing", "--faces", o["faces"], "-o", f"{folder}/proxy.ply", *more))
 
 
 def measure(o):
-    rows, known = [], {}
-    with tempfile.TemporaryDirectory(prefix="bp-growth-") as folder:
+    rows, known, programs = [], {}, Programs(o.bin_dir)
+    with tempfile.TemporaryDirectory(prefix="bp-growth-", dir=o.work) as folder:
         made = None
         for varies in FIXED:
             for value in (int(float(v)) for v in getattr(o, varies).split(",") if v):
@@ -43,10 +31,9 @@ def measure(o):
                 key = tuple(one.values())
                 if made != one["triangles"]:
                     made = one["triangles"]
-                    subprocess.run([os.path.join(o.bin_dir, "samples", "bp-plant"), "--triangles", str(made), "--seed", "7", "-o",
-                                    f"{folder}/plant.ply", "--overwrite"], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+                    programs.run(("bp-plant", "--triangles", made, "--seed", 7, "-o", f"{folder}/plant.ply", "--overwrite"))
                 if key not in known:
-                    known[key] = [float(f"{x:.4g}") for x in run(folder, o.bin_dir, f"{folder}/plant.ply", one, o.memory)]
+                    known[key] = [float(f"{x:.4g}") for x in run(folder, programs, f"{folder}/plant.ply", one, o.memory)]
                 rows.append([varies, *key, *known[key]])
                 print(*rows[-1], sep="\t", flush=True)
     return rows
@@ -94,7 +81,7 @@ def main():
     parser.add_argument("bin_dir", nargs="?")
     for name, value in (("--triangles", "1e5,1e6"), ("--voxels", "256,512,1024"), ("--faces", "1000,5000,20000"), ("--memory", "1G")):
         parser.add_argument(name, default=value)
-    for name in ("--table", "--svg", "--draw"):
+    for name in ("--table", "--svg", "--draw", "--work"):
         parser.add_argument(name)
     o = parser.parse_args()
     print(*COLUMNS, sep="\t")

@@ -2,7 +2,7 @@
 // forces of the others. The stiffness is a multiple of the identity at each vertex, so a force on a face shifts its
 // corners at once, and no matrix is factorised. Conjugate gradients on penalties did not converge, since each step
 // changes which points press.
-#include "lib/tighten/detail/joint_fit.h"
+#include "lib/tighten/joint_fit.h"
 
 #include <algorithm>
 

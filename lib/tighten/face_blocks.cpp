@@ -1,4 +1,4 @@
-#include "lib/tighten/detail/face_blocks.h"
+#include "lib/tighten/face_blocks.h"
 
 #include <algorithm>
 

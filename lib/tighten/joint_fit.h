@@ -5,7 +5,7 @@
 #include "lib/enclosed/contact_points.h"
 #include "lib/mesh/lanes.h"
 #include "lib/tighten/contact_forces.h"
-#include "lib/tighten/detail/face_blocks.h"
+#include "lib/tighten/face_blocks.h"
 
 /// Finds where all vertices of a proxy should go at once, so that it encloses less volume and still lies over its
 /// contact points. Vertices that move one at a time jam, since a face that rests on three points holds its corners. The

@@ -1,0 +1,86 @@
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+#include "io/scene/detail/exact/exact_scene.h"
+
+// DXF (AutoCAD 2012 DXF Reference). Assimp reads faces and polyface meshes; it moves what INSERT places in single
+// precision, and drops its turn. Here, only what it does not follow is counted.
+
+namespace bp {
+
+namespace {
+
+/// Entities that Assimp reads, and those that are points, lines or letters.
+constexpr std::array<std::string_view, 24> kRead{
+    "3DFACE",  "POLYLINE",  "VERTEX",    "SEQEND", "LWPOLYLINE", "LINE",     "POINT",   "CIRCLE",
+    "ARC",     "ELLIPSE",   "SPLINE",    "TEXT",   "MTEXT",      "ATTDEF",   "ATTRIB",  "LEADER",
+    "MLEADER", "DIMENSION", "TOLERANCE", "XLINE",  "RAY",        "VIEWPORT", "SECTION", "ENDSEC"};
+
+std::string_view trimmed_line(std::string_view& text) {
+  constexpr std::string_view kSpace = " \t\r";
+  std::string_view line = text.substr(0, text.find('\n'));
+  text.remove_prefix(std::min(text.size(), line.size() + 1));
+  line.remove_prefix(std::min(line.size(), line.find_first_not_of(kSpace)));
+  return line.substr(0, line.find_last_not_of(kSpace) + 1);
+}
+
+double number_of(std::string_view text) {
+  double value = 0;
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return value;
+}
+
+class Entities {
+ public:
+  /// Takes a group: its code, and its value.
+  void take(std::string_view code, std::string_view value) {
+    if (code == "0") {
+      begins_section_ = value == "SECTION";
+      if (inside_) begin(value);
+    } else if (code == "2" && begins_section_) {
+      inside_ = value == "ENTITIES";
+    } else if (inside_) {
+      look_at(code, value);
+    }
+  }
+  [[nodiscard]] const Unfollowed& unfollowed() const { return unfollowed_; }
+
+ private:
+  void begin(std::string_view entity) {
+    entity_ = entity;
+    if (entity == "INSERT") {
+      ++unfollowed_.placed;
+    } else if (std::find(kRead.begin(), kRead.end(), entity) == kRead.end() && entity != "EOF") {
+      ++unfollowed_.missing;
+    }
+  }
+  void look_at(std::string_view code, std::string_view value) {
+    constexpr int kGrid = 16;
+    const bool is_grid = entity_ == "POLYLINE" && code == "70" && (int(number_of(value)) & kGrid) != 0;
+    const bool is_thick = code == "39" && number_of(value) != 0;
+    const bool is_turned =
+        ((code == "210" || code == "220") && number_of(value) != 0) || (code == "230" && number_of(value) != 1);
+    unfollowed_.missing += is_grid || is_thick ? 1 : 0;
+    unfollowed_.transforms += is_turned ? 1 : 0;
+  }
+
+  bool begins_section_ = false, inside_ = false;
+  std::string_view entity_;
+  Unfollowed unfollowed_;
+};
+
+}  // namespace
+
+ExactScene exact_dxf(std::string_view text) {
+  Entities entities;
+  while (!text.empty()) {
+    const std::string_view code = trimmed_line(text);
+    entities.take(code, trimmed_line(text));
+  }
+  ExactScene scene;
+  scene.unfollowed = entities.unfollowed();
+  return scene;
+}
+
+}  // namespace bp
