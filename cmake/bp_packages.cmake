@@ -45,8 +45,11 @@ macro(bp_package component package section summary text)
   set(CPACK_COMPONENT_${bp_upper}_DESCRIPTION "${summary}\n${text}")
   install(FILES ${bp_changelog}.gz ${bp_debian}/copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package} COMPONENT ${component}
           EXCLUDE_FROM_ALL)
-  install(FILES ${PROJECT_SOURCE_DIR}/cmake/debian/${package}.lintian-overrides DESTINATION ${CMAKE_INSTALL_DATADIR}/lintian/overrides
-          RENAME ${package} COMPONENT ${component} EXCLUDE_FROM_ALL)
+  set(bp_overrides ${PROJECT_SOURCE_DIR}/cmake/debian/${package}.lintian-overrides)
+  if(EXISTS ${bp_overrides})
+    install(FILES ${bp_overrides} DESTINATION ${CMAKE_INSTALL_DATADIR}/lintian/overrides RENAME ${package} COMPONENT ${component}
+            EXCLUDE_FROM_ALL)
+  endif()
 endmacro()
 set(bp_about "A proxy is watertight, encloses its scene, and has few faces. It serves as
 body for collisions, as occluder, as cage, or as level of detail.
