@@ -11,7 +11,7 @@ typedef std::int32_t FourInts __attribute__((vector_size(16)));
 typedef float FourFloats __attribute__((vector_size(16)));
 
 typedef double TwoDoubles __attribute__((vector_size(16)));
-typedef std::int64_t TwoLongs __attribute__((vector_size(16)));
+using TwoLongs = decltype(TwoDoubles{} < TwoDoubles{});  // int64_t is long in both, and Clang compares to long long
 
 /// Returns a bit for each lane of two comparisons' results (all ones where true), the four lanes of `low` first. It has
 /// no branches, because the processor could only guess them.
