@@ -97,9 +97,8 @@ std::string scene_lines(const CheckReport& r) {
   text += left_out_lines(c, "  ");
   if (c.rounding.most > 0) text += fmt::format("  coordinates are read to within {:.2g}\n", c.rounding.most);
   if (c.kept_degenerate > 0)
-    text += fmt::format(
-        "  {} without area: {}\n", bp::counted(c.kept_degenerate, "triangle"),
-        r.wants_inside ? "counted for whether the scene is closed, and no more" : "checked as segments or points");
+    text +=
+        fmt::format("  {} without area: checked as segments or points\n", bp::counted(c.kept_degenerate, "triangle"));
   if (r.bent > 0)
     text += fmt::format(
         "  {} not flat, and proven as the triangles that were read; {} of them {} proven over other diagonals, too\n",

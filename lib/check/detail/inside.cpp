@@ -61,11 +61,11 @@ void check_batch(const WeldedMesh& mesh, const Surface& surface, const std::vect
     }
     if (collinear(t[0], t[1], t[2])) {
       batch.edges->degenerate.add(t);
-      continue;
+    } else {
+      batch.edges->plain.add(t);
+      for (std::size_t p = 0; p < probes.size(); ++p) batch.windings[p] += crossing_above(t, probes[p].point);
     }
-    batch.edges->plain.add(t);
     ++batch.result.triangles;
-    for (std::size_t p = 0; p < probes.size(); ++p) batch.windings[p] += crossing_above(t, probes[p].point);
     const std::int64_t touched = surface.touched_by(t);
     if (touched != Surface::kNone)
       batch.result.touching.add({number, mesh.number[std::size_t(touched)], t[0]}, max_examples);

@@ -8,10 +8,10 @@ namespace bp {
 
 /// The report on a proxy inside a scene. It is strictly inside if no triangle of the scene meets the proxy's solid, and
 /// if every path from far away to a part of the proxy crosses the scene, since the scene or a closed shell of it winds
-/// around the part. Exact. Triangles without area count only for their edges, which may close the T-junctions of the
-/// others.
+/// around the part. Exact. A triangle without area is the segment or the point of its corners, and its edges may close
+/// the T-junctions of the others.
 struct InsideReport {
-  std::uint64_t triangles = 0;  ///< tested triangles of the scene: those with an area; numbers count these only
+  std::uint64_t triangles = 0;  ///< tested triangles of the scene
   Finding touching;             ///< index: scene triangle, other: proxy triangle that it touches or crosses
   Finding swallowed;            ///< index: scene triangle that lies inside the proxy
   Finding undecidable;          ///< index: scene triangle outside the domain of exact predicates
