@@ -118,13 +118,15 @@ int run_tileset(const bp::CheckRun& o) {
   options.document = bp::document_budget(o.common.memory_bytes, bp::kMeshProgram, 2);
   bp::SceneOptions of_tileset = options;
   of_tileset.document = bp::part_of(bp::document_budget(o.common.memory_bytes, bp::kMeshProgram, 1), 0.5);
-  const std::vector<std::string> scenes(o.files.begin(), o.files.end() - 1);
+  std::vector<std::string> scenes(o.files.begin(), o.files.end() - 1);
   const bp::Tileset tileset = bp::read_tileset(o.files.back(), of_tileset);
   std::optional<bp::Contract> claim;
   if (o.claimed) {
     claim = bp::told_contract(tileset, o.files.back());
     if (!claim) return tell_no_claim(o);
-    if (scenes.empty())
+    if (claim == bp::Contract::fit)
+      scenes.clear();
+    else if (scenes.empty())
       bp::fail(bp::ErrorCode::bad_argument, "{}: its contents claim that {}; name the scene before it",
                bp::file_name(o.files.back()), claim_of(*claim));
   }

@@ -163,8 +163,8 @@ class GlbBuilder {
   }
   /// Returns the content of a tile. Its extras.up does not ask readers of this suite to turn back to the axes of the
   /// scene.
-  [[nodiscard]] std::string tile_bytes(const LatticeMesh& mesh, const Vec3d& tile_origin) {
-    Json asset = gltf_asset("bplod", mesh.provenance, UpAxis::y, {}, name_of(Contract::tile));
+  [[nodiscard]] std::string tile_bytes(const LatticeMesh& mesh, const Vec3d& tile_origin, Contract contract) {
+    Json asset = gltf_asset("bplod", mesh.provenance, UpAxis::y, {}, name_of(contract));
     asset["extras"]["tile_origin"] = tile_origin;
     return glb_head(document(std::move(asset), {0}), data_.bytes().size(), file_) + data_.bytes();
   }
@@ -328,11 +328,11 @@ void write_parts_glb(std::span<const NamedMesh> parts, OutputFile& out, const Me
   builder.write(*parts.front().mesh, roots, contract_name(options), out);
 }
 
-std::string tile_glb(const NamedMesh& tile, LatticeCoord origin, TileCompression compression) {
+std::string tile_glb(const NamedMesh& tile, LatticeCoord origin, TileCompression compression, Contract contract) {
   const bool plain = compression == TileCompression::none;
   GlbBuilder builder(tile.name + ".glb", plain ? GlbBuilder::Data::plain : GlbBuilder::Data::compressed);
   builder.add_tile(tile, origin);
-  return builder.tile_bytes(*tile.mesh, tile.mesh->frame.world(origin));
+  return builder.tile_bytes(*tile.mesh, tile.mesh->frame.world(origin), contract);
 }
 
 LatticeCoord lattice_point(const GridFrame& frame, const Vec3d& p) {

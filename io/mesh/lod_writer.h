@@ -3,6 +3,7 @@
 #include <string>
 
 #include "io/files/file.h"
+#include "io/mesh/contract.h"
 #include "io/mesh/leaf_looks.h"
 #include "io/mesh/mesh_writer.h"
 #include "io/mesh/tile_compression.h"
@@ -40,8 +41,10 @@ void write_parts_glb(std::span<const NamedMesh> parts, OutputFile& out, const Me
 /// mesh, else float32, and normals are octahedral, 8 bits. The node has a scale and no offset: vertices are relative to
 /// `origin` (asset.extras.tile_origin), which the tile's transform adds again, in double. A z-up mesh is turned to
 /// glTF's y up, which 3D Tiles turns back; unlike in other files of this suite, extras.up does not ask a reader to.
+/// `contract`: what the file claims.
 [[nodiscard]] std::string tile_glb(const NamedMesh& tile, LatticeCoord origin,
-                                   TileCompression compression = TileCompression::meshopt);
+                                   TileCompression compression = TileCompression::meshopt,
+                                   Contract contract = Contract::tile);
 
 /// Returns the lattice point of `frame` that lies at `p`. Throws `failed` if there is none.
 [[nodiscard]] LatticeCoord lattice_point(const GridFrame& frame, const Vec3d& p);

@@ -33,7 +33,8 @@ std::optional<Contract> told_contract(const std::string& file) {
 std::optional<Contract> told_contract(const Tileset& tileset, const std::string& file) {
   const auto contents = tileset_level(tileset, file, 0).contents;
   const std::optional<Contract> claim = contents.empty() ? std::nullopt : told_contract(contents.front().path);
-  return claim == Contract::tile || claim == Contract::leaf ? std::optional(Contract::tile) : std::nullopt;
+  if (claim == Contract::leaf) return Contract::tile;  // only some contents of a tileset are leaves
+  return claim == Contract::tile || claim == Contract::fit ? claim : std::nullopt;
 }
 
 CheckRun asking_for(Contract contract, CheckRun run) {

@@ -13,7 +13,7 @@ namespace bp {
 /// Returns the contract that the file names. Empty: it names none, or one that this version does not know.
 [[nodiscard]] std::optional<Contract> told_contract(const std::string& file);
 
-/// Returns the contract that the contents of a tileset name: that of tiles, or none.
+/// Returns the contract that the contents of a tileset name: that of tiles, that of fits, or none.
 [[nodiscard]] std::optional<Contract> told_contract(const Tileset& tileset, const std::string& file);
 
 /// Returns the command line with the question that proves the claim. If the claim says nothing about the scene, the

@@ -125,6 +125,10 @@ Contract contract_of_levels(const BuildOptions& options) {
   return options.proxy.mode == MeshMode::fit ? Contract::fit : Contract::encloses;
 }
 
+Contract contract_of_tiles(const BuildOptions& options) {
+  return options.proxy.mode == MeshMode::fit ? Contract::fit : Contract::tile;
+}
+
 std::string level_name(const std::string& name, std::size_t level) {
   return name + "_LOD" + std::to_string(level);
 }
@@ -162,8 +166,9 @@ WholeLevels encoded(const BuildOptions& options, const CompleteLevels& made, std
   whole.left_out = made.left_out;
   for (std::size_t i = 0; i < made.levels.size(); ++i) {
     const LatticeMesh& mesh = made.levels[i].mesh;
-    std::string content = tile_glb({level_name(options.name, first + i), &mesh},
-                                   lattice_point(mesh.frame, whole.origin), options.compression);
+    std::string content =
+        tile_glb({level_name(options.name, first + i), &mesh}, lattice_point(mesh.frame, whole.origin),
+                 options.compression, contract_of_tiles(options));
     whole.levels.push_back({std::move(content), bounds_of(mesh), made.facts[i], mesh.provenance});
   }
   return whole;

@@ -49,6 +49,8 @@ class OutputFolder {
 
 /// Returns what levels promise (docs/contracts.md). Only the mode decides it.
 [[nodiscard]] Contract contract_of_levels(const BuildOptions& options);
+/// Returns what each content of a tileset promises.
+[[nodiscard]] Contract contract_of_tiles(const BuildOptions& options);
 /// Returns "NAME_LOD0", by a convention of Unity and others.
 [[nodiscard]] std::string level_name(const std::string& name, std::size_t level);
 /// Returns the files of a profile, in the order of their commit.

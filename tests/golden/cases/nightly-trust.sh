@@ -43,14 +43,17 @@ rm scenes/c.* scenes/textures -r
 printf '#!/bin/bash\necho "${@/#*\\/}" >> checks\n' > bin/bpcheck
 chmod +x bin/bpcheck
 write_cube scenes/box_unreal.obj 3
-for options in "--profile occluder" "--profile=cage" "--margin 1% --profile cage" "--profile cage --margin 1vx" "--profile collision" "--profile gltf"; do
+for options in "--profile=cage" "--profile collision --hull-files obj" "--profile gltf" "--mode visual"; do
   echo "$options"
   options=($options --resolution 24 --faces 200)
   PATH=$PWD/bin:$PATH nightly scenes checked "${options[@]}" > table
   cut -f 2,3 table
   cat checks && rm checks
 done
-for profile in occluder cage; do nightly scenes proven --profile $profile --faces 200 --resolution 24; done
+for options in "--profile occluder" "--margin 1% --profile cage" "--profile collision --hull-files stl" "--mode fit --profile 3dtiles" "--leaves scene --profile 3dtiles" \
+  "--enclose scene" "--mode visual"; do
+  nightly scenes proven $options --faces 200 --resolution 24
+done
 # One night at a time.
 ln -s "$(type -P true)" bin/snakemake
 try flock out/.lock "$BP_ROOT/samples/nightly" scenes out --faces 12 2>&1 | sed "s|$BP_ROOT/||"

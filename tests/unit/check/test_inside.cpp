@@ -84,7 +84,8 @@ TEST_CASE("of an open scene it is refuted what is seen along an axis, and nothin
   CHECK(inside_of(cube(1), turned).answer() == Answer::undecided);
 }
 
-TEST_CASE("a triangle of no area closes T-junctions, and is kept out of the proxy as the segment that it is", "[quick][check]") {
+TEST_CASE("a triangle of no area closes T-junctions, and is kept out of the proxy as the segment that it is",
+          "[quick][check]") {
   IndexedMesh scene = cube(2);
   const auto middle = std::uint32_t(scene.vertices.size());
   scene.vertices.push_back({0, -2, -2});  // of the edge from vertex 0 to vertex 1
