@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 
 #include "lib/core/clones.h"
 
@@ -43,8 +44,23 @@ BP_CLONES void join_rows(const Word* from, std::size_t n, Word* to) {
 /// vector instructions. kVector is their size in bytes.
 constexpr std::size_t kVector = sizeof(Word) * kAcross;
 typedef Word Words __attribute__((vector_size(kVector)));
-typedef Word WordsInMemory __attribute__((vector_size(kVector), aligned(sizeof(Word)), may_alias));
 typedef std::uint64_t LongWords __attribute__((vector_size(kVector)));
+
+/// Words lie at any multiple of their size. A reference to a vector type of less alignment would be shorter, and Clang
+/// takes it for aligned.
+BP_INLINE void load(const Word* from, Words& to) {
+  std::memcpy(&to, from, kVector);
+}
+BP_INLINE void store(const Words& from, Word* to) {
+  std::memcpy(to, &from, kVector);
+}
+/// Sets `to` to what both have.
+BP_INLINE void load_both(const Word* a, const Word* b, Words& to) {
+  Words other;
+  load(a, to);
+  load(b, other);
+  to &= other;
+}
 
 BP_INLINE bool any(const Words& words) {
   LongWords w = (LongWords)words;
@@ -71,7 +87,9 @@ namespace {
 /// Ors into `sum` what the window from `start` on holds.
 template <class Asker>
 BP_INLINE void add_window(const Asker& a, const Word* table, std::int32_t start, Words& sum) {
-  sum |= *reinterpret_cast<const WordsInMemory*>(table + a.of_start[start]) >> (start & (kAcross - 1));
+  Words words;
+  load(table + a.of_start[start], words);
+  sum |= words >> (start & (kAcross - 1));
 }
 
 /// Ors into `sum` the voxels that meet row dy.
@@ -85,16 +103,13 @@ BP_INLINE void add_row(const Asker& a, const CubeRow& row, std::int32_t dy, Word
   add_window(a, table, row.last + 1 - voxels, sum);
 }
 
-BP_INLINE const WordsInMemory& vector(const Word* words) {
-  return *reinterpret_cast<const WordsInMemory*>(words);
-}
-
 /// Returns a bit for each of n blocks that meets one of the `open` voxels of the mask. The first has bit `first`;
 /// 2^shared blocks share a bit.
 BP_WIDE_CLONES std::uint64_t find_blocks(const RowTables::Asker& at, const CubeRow* blocks, std::int32_t n,
                                          std::int32_t dy, const Word* mask, const Word* open, std::int32_t first,
                                          std::int32_t shared) {
-  const Words asking = vector(mask) & vector(open);
+  Words asking;
+  load_both(mask, open, asking);
   if (!any(asking)) return 0;
   std::uint64_t bits = 0;
   for (std::int32_t k = 0; k < n; ++k) {
@@ -108,21 +123,25 @@ BP_WIDE_CLONES std::uint64_t find_blocks(const RowTables::Asker& at, const CubeR
 /// Takes from `open`, within the mask, the voxels that meet one of n rows from dy on. Returns false if none does.
 BP_WIDE_CLONES bool ask_rows(const RowTables::Asker& at, const CubeRow* rows, std::int32_t n, std::int32_t dy,
                              const Word* mask, Word* open) {
-  Words met = {};
+  Words met = {}, asking;
   for (std::int32_t i = 0; i < n; ++i) add_row(at, rows[i], dy + i, met);
-  met &= vector(mask) & vector(open);
+  load_both(mask, open, asking);
+  met &= asking;
   if (!any(met)) return false;
-  *reinterpret_cast<WordsInMemory*>(open) ^= met;
+  Words left;
+  load(open, left);
+  store(left ^ met, open);
   return true;
 }
 
 /// Sets `met` to the voxels of `open`, within the mask, that meet the row. Returns false if none does.
 BP_WIDE_CLONES bool meet_row(const RowTables::Asker& at, const CubeRow& row, std::int32_t dy, const Word* mask,
                              const Word* open, Word* met) {
-  Words sum = {};
+  Words sum = {}, asking;
   add_row(at, row, dy, sum);
-  sum &= vector(mask) & vector(open);
-  *reinterpret_cast<WordsInMemory*>(met) = sum;
+  load_both(mask, open, asking);
+  sum &= asking;
+  store(sum, met);
   return any(sum);
 }
 
