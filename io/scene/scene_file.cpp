@@ -59,21 +59,27 @@ class FilePart : public SceneFile {
   std::uint64_t offset_, size_;
 };
 
-SceneFilePtr spool(InputFile& pipe, const std::string& temp_dir) {
+SceneFilePtr spool(InputFile& pipe, const std::string& temp_dir, const PipeCheck& check) {
   auto scratch = std::make_shared<ScratchFile>(temp_dir);
   std::vector<std::byte> block(std::size_t(1) << 20);
-  while (const std::size_t n = pipe.read(block)) scratch->append(std::span(block).first(n));
+  std::string start;
+  while (const std::size_t n = pipe.read(block)) {
+    if (start.empty()) start.assign(reinterpret_cast<const char*>(block.data()), n);
+    if (check) check(pipe.name(), start, scratch->size() + n);
+    scratch->append(std::span(block).first(n));
+  }
   return view_of(std::move(scratch), pipe.name());
 }
 
 }  // namespace
 
-SceneFilePtr open_scene_file(const std::string& path, const std::string& temp_dir, NamedBy named_by) {
+SceneFilePtr open_scene_file(const std::string& path, const std::string& temp_dir, NamedBy named_by,
+                             const PipeCheck& check) {
   note_looked_for(path);
   auto file = std::make_unique<InputFile>(path, named_by);
   keep_file(path);  // keeps it also if no list of a scene's parts has it
   // A seekable stdin may be read from the middle of its file, so it is spooled from there as a pipe is.
-  if (!file->seekable() || path == "-") return spool(*file, temp_dir);
+  if (!file->seekable() || path == "-") return spool(*file, temp_dir, check);
   return std::make_shared<PlainFile>(std::move(file));
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -23,9 +24,12 @@ class SceneFile {
 };
 using SceneFilePtr = std::shared_ptr<const SceneFile>;
 
-/// Opens a file; a pipe ("-" or a named one) is spooled to a scratch file first.
+/// Looks at the first bytes of a pipe (1 MiB, or all), and at how many came so far. Throws if the rest is not wanted.
+using PipeCheck = std::function<void(const std::string& name, const std::string& start, std::uint64_t bytes)>;
+
+/// Opens a file; a pipe ("-" or a named one) is spooled to a scratch file first, as long as `check` lets it.
 [[nodiscard]] SceneFilePtr open_scene_file(const std::string& path, const std::string& temp_dir,
-                                           NamedBy named_by = NamedBy::user);
+                                           NamedBy named_by = NamedBy::user, const PipeCheck& check = {});
 
 /// Returns the bytes of a scratch file to which other code appends. `size`: set if another process does.
 [[nodiscard]] SceneFilePtr view_of(std::shared_ptr<const ScratchFile> scratch, const std::string& name,

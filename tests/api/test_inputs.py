@@ -114,7 +114,8 @@ class Inputs(unittest.TestCase):
                            (dict(rules="{"), "rules"), (dict(rules={"base": "1%"}, scale="1%"), "scale and rules exclude each other"),
                            (dict(threads=-1), "threads"), (dict(device="tpu"), "none of auto, cpu"), (dict(temp="/no/such"), "no such directory"),
                            (dict(volume=-1), "volume"), (dict(error="-1"), "-1"), (dict(voxel="3vx"), "not measured in voxels"),
-                           (dict(resolution=2**40), "no number from 0 to 2147483647")):
+                           (dict(resolution=2**40), "no number from 1 to 2147483647"),
+                           (dict(resolution=0), "from 1"), (dict(voxel=0), "voxel: 0 is no length above 0"), (dict(resolution=True), "no whole number")):
             with self.subTest(how=how):
                 self.refused(bp.Error, words, bp.proxy, v, t, **how)
         self.refused(TypeError, "is no length", bp.proxy, v, t, scale=[1])

@@ -1,5 +1,6 @@
 #include "io/scene/detail/open_raw.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "io/files/lower.h"
@@ -23,15 +24,18 @@ Reader reader_of(const std::string& extension) {
   return extension.empty() ? Reader::unknown : Reader::other;
 }
 
-bool is_binary_stl(const std::string& start, std::uint64_t size) {
-  if (start.size() < 84) return false;
+constexpr std::size_t kStart = 1024;  // bytes in which a format is looked for
+
+/// Returns the size of a binary STL that begins so; 0: none does.
+std::uint64_t binary_stl_size(const std::string& start) {
+  if (start.size() < 84) return 0;
   std::uint32_t triangles = 0;
   std::memcpy(&triangles, start.data() + 80, sizeof triangles);
-  return 84 + std::uint64_t(50) * triangles == size;
+  return 84 + std::uint64_t(50) * triangles;
 }
 
 std::string start_of(const SceneFile& file) {
-  std::string start(1024, '\0');
+  std::string start(kStart, '\0');
   start.resize(file.read_at(0, std::as_writable_bytes(std::span(start))));
   return start;
 }
@@ -39,7 +43,7 @@ std::string start_of(const SceneFile& file) {
 /// Returns the reader that the first bytes of a file tell; else the one that its name tells. `extension` is set for a
 /// format that goes to Assimp.
 Reader reader_by_content(const std::string& start, std::uint64_t size, std::string& extension) {
-  if (is_binary_stl(start, size)) return Reader::stl;
+  if (size == binary_stl_size(start)) return Reader::stl;
   const std::size_t first = start.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
   const std::string text = first == std::string::npos ? std::string() : start.substr(first);
   const auto begins = [&](const char* word) { return text.compare(0, std::strlen(word), word) == 0; };
@@ -57,11 +61,26 @@ Reader reader_by_content(const std::string& start, std::uint64_t size, std::stri
   return reader_of(extension);
 }
 
-void refuse_brick_stream(const SceneFile& file) {
+void refuse_brick_stream(const std::string& name, const std::string& start) {
   std::uint32_t magic = 0;
-  file.read_at(0, std::as_writable_bytes(std::span(&magic, 1)));
+  std::memcpy(&magic, start.data(), std::min(start.size(), sizeof magic));
   if (magic == detail::kFrameMagic)
-    fail(ErrorCode::bad_input, "{}: a stream of voxels, not a scene or a mesh; bpmesh makes a mesh of it", file.name());
+    fail(ErrorCode::bad_input, "{}: a stream of voxels, not a scene or a mesh; bpmesh makes a mesh of it", name);
+}
+
+[[noreturn]] void fail_unknown(const std::string& name) {
+  fail(ErrorCode::bad_input, {Remedy::name_format}, "{}: neither its name nor its first bytes tell its format", name);
+}
+
+/// Refuses a pipe as soon as no format fits what came of it. Else all of it, which may have no end, would be written to
+/// a scratch file first.
+void refuse_pipe(const std::string& name, const std::string& all, std::uint64_t bytes) {
+  const std::string start = all.substr(0, kStart);
+  std::string extension;
+  refuse_brick_stream(name, start);
+  refuse_foreign(name, start);
+  if (reader_by_content(start, bytes, extension) == Reader::unknown && bytes > binary_stl_size(start))
+    fail_unknown(name);
 }
 
 }  // namespace
@@ -98,13 +117,14 @@ RawSourcePtr open_raw(const SceneFilePtr& file, const std::string& path, const S
     case Reader::unknown:
       break;
   }
-  fail(ErrorCode::bad_input, {Remedy::name_format}, "{}: neither its name nor its first bytes tell its format",
-       file->name());
+  fail_unknown(file->name());
 }
 
 SceneFilePtr open_scene_or_mesh(const std::string& path, const SceneOptions& options) {
-  SceneFilePtr file = open_scene_file(path, temp_dir_of(options));
-  refuse_brick_stream(*file);
+  const bool is_named = !options.format.empty() || !scene_format_of(path).empty();
+  SceneFilePtr file =
+      open_scene_file(path, temp_dir_of(options), NamedBy::user, is_named ? PipeCheck() : PipeCheck(refuse_pipe));
+  refuse_brick_stream(file->name(), start_of(*file));
   return file;
 }
 

@@ -27,3 +27,7 @@ bplod "${options[@]}" -o tiles2 --cache cache > list && diff -r tiles tiles2 && 
 find cache -mindepth 2 -type p | wc -l
 rm tiles/tileset.json && mkfifo tiles/tileset.json
 bplod "${options[@]}" -o tiles --overwrite > list && diff -r tiles tiles2 && echo "the same bytes"
+
+# A pipe that can be no scene is refused by its first bytes, and not when it ends, which it may never do.
+try bpvox /dev/zero -o zero.bpv
+said 'bpvox part0.obj --resolution 8 -q | bpcheck -'

@@ -72,7 +72,7 @@ class Weights(Unchanging):
         if not isinstance(out, np.ndarray):
             raise TypeError(f"out: {type(out).__name__} is no array of NumPy")
         if out.shape != (len(self), 3) or out.dtype != np.float64 or not out.flags.c_contiguous or not out.flags.writeable:
-            raise ValueError(f"out: an array of {out.dtype} of shape {out.shape}; it must be contiguous, writeable float64 of {(len(self), 3)}")
+            raise ArgumentError(f"out: an array of {out.dtype} of shape {out.shape}; it must be contiguous, writeable float64 of {(len(self), 3)}")
         call(Options(**run), "bp_weights_apply", lambda r: (self._handle.address, moved.ctypes.data, r, out.ctypes.data))
         return out
 

@@ -5,7 +5,7 @@ from ctypes import byref, c_size_t
 import numpy as np
 
 from ._call import Options, call
-from ._library import (CloseOptions, GridInfo, Unchanging, VoxelizeOptions, check, choice, length, lib, needed, path_bytes, read_struct, sunk, text, write_all,
+from ._library import (ArgumentError, CloseOptions, GridInfo, Unchanging, VoxelizeOptions, check, choice, length, lib, needed, path_bytes, read_struct, sunk, text, write_all,
                        whole)
 from ._scene import UPS, points_of, scene_of
 
@@ -18,7 +18,9 @@ BRICK = 64
 def voxelize_options(voxel=None, resolution=None, fill="flood", up=None):
     options = VoxelizeOptions.made()
     options.voxel = length(voxel, "voxel")
-    options.resolution = 0 if resolution is None else whole(resolution, "resolution")
+    if voxel is not None and not options.voxel.value > 0:
+        raise ArgumentError(f"voxel: {voxel!r} is no length above 0; leave it out for voxels by resolution")
+    options.resolution = 0 if resolution is None else whole(resolution, "resolution", 1)
     options.fill = choice(fill, FILLS, "fill")
     options.up = choice("unknown" if up is None else up, UPS, "up")
     return options
@@ -46,7 +48,7 @@ def _place(coord, name):
     except TypeError:
         numbers = []
     if len(numbers) != 3:
-        raise ValueError(f"{name}: {coord!r} are not three whole numbers")
+        raise ArgumentError(f"{name}: {coord!r} are not three whole numbers")
     return np.array(numbers, np.int64)
 
 
@@ -140,7 +142,7 @@ class Grid(Unchanging):
         low, high = _place(self.min if min is None else min, "min"), _place(self.max if max is None else max, "max")
         extent = high - low
         if (extent < 0).any() or extent.max() >= 2**31:
-            raise ValueError(f"min {low.tolist()} and max {high.tolist()} are no box of voxels")
+            raise ArgumentError(f"min {low.tolist()} and max {high.tolist()} are no box of voxels")
         out = np.empty(extent[::-1], np.uint8)
         corner, size = low.astype(np.int32), extent.astype(np.int32)
         check(lib().bp_grid_read(self._handle.address, choice(layer, LAYERS, "layer"), corner.ctypes.data, size.ctypes.data, out.ctypes.data))

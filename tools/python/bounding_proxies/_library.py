@@ -338,6 +338,8 @@ def factor(value, name):
 def whole(value, name, least=0, below=2**31):
     """Returns a whole number, from `least` on and smaller than `below`."""
     try:
+        if isinstance(value, bool):
+            raise TypeError
         number = operator.index(value) if not isinstance(value, float) or not value.is_integer() else int(value)
     except TypeError:
         raise ArgumentError(f"{name}: {value!r} is no whole number; write it without quotes, as {name}={max(least, 8)}") from None
@@ -358,9 +360,10 @@ def size(value, name):
 
 def choice(value, names, name):
     """Returns the number of a word."""
-    if not isinstance(value, str) or value not in names:
+    word = value.replace("-", "_") if isinstance(value, str) else value  # as the tools write words
+    if word not in names:
         raise ArgumentError(f"{name}: {value!r} is none of {', '.join(map(str, names))}")
-    return names.index(value)
+    return names.index(word)
 
 
 def read_struct(cls, function, *arguments):

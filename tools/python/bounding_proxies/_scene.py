@@ -16,12 +16,12 @@ def _rows(array, name, kinds, wanted):
     try:
         array = np.asarray(array)
     except ValueError as e:  # rows of several lengths
-        raise ValueError(f"{name}: no array: {e}") from None
+        raise ArgumentError(f"{name}: no array: {e}") from None
     if array.dtype.kind not in kinds:
         raise TypeError(f"{name}: an array of {array.dtype}; it must hold {wanted}")
     if array.ndim != 2 or array.shape[1] != 3:
         hint = "; split polygons into triangles" if name == "triangles" and array.ndim == 2 and array.shape[1] > 3 else ""
-        raise ValueError(f"{name}: an array of shape {array.shape}; the shape must be (n, 3){hint}")
+        raise ArgumentError(f"{name}: an array of shape {array.shape}; the shape must be (n, 3){hint}")
     code = array.dtype.str[1:]
     known = code in (("u4", "i4", "u8", "i8") if name == "triangles" else ("f8", "f4"))
     if not known or not array.dtype.isnative:
@@ -52,7 +52,7 @@ def points_of(points, name, count=None):
     if array.dtype.kind not in "fiu":
         raise TypeError(f"{name}: an array of {array.dtype}; it must hold real numbers")
     if array.ndim != 2 or array.shape[1] != 3:
-        raise ValueError(f"{name}: an array of shape {array.shape}; the shape must be (n, 3)")
+        raise ArgumentError(f"{name}: an array of shape {array.shape}; the shape must be (n, 3)")
     if count is not None and len(array) != count:
         raise ArgumentError(f"{name}: an array of {len(array)} rows, and the number of the cage's vertices is {count}")
     return np.ascontiguousarray(array, np.float64)
