@@ -14,9 +14,9 @@ std::size_t list_size(const LevelRequest& r) {
 }
 
 /// Returns the default budget of a finest level. In a scene of few triangles each of them may be needed.
-std::uint64_t default_faces(std::uint64_t triangles, double triangles_per_face) {
-  const auto share = std::uint64_t(double(triangles) / triangles_per_face);
-  return std::max({share, std::min(triangles, kLeastFirstFaces), kLeastFaces});
+std::uint64_t default_faces(std::uint64_t triangles, const LevelDefaults& defaults) {
+  const auto share = std::uint64_t(double(triangles) / defaults.triangles_per_face);
+  return std::max({share, std::min(triangles, kLeastFirstFaces), defaults.least_faces});
 }
 
 /// Returns the number of levels that have at least kLeastFaces if each has a quarter of the faces before; at most
@@ -52,7 +52,7 @@ LevelRequest with_defaults(LevelRequest r, std::uint64_t triangles, const LevelD
         std::uint64_t(std::max(std::round(share / 100 * double(triangles)), double(kFacesOfTetrahedron))));
   r.shares.clear();
   if (!asks_for_nothing(r)) return r;
-  r.most_faces = default_faces(triangles, defaults.triangles_per_face);
+  r.most_faces = default_faces(triangles, defaults);
   if (!defaults.by_voxels) r.faces = {std::min(r.most_faces, defaults.most_faces)};
   r.is_chosen = !r.levels;
   if (!r.levels) r.levels = levels_from(r.most_faces);

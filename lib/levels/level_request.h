@@ -40,10 +40,14 @@ struct LevelRequest {
 struct LevelDefaults {
   double triangles_per_face = 2;  ///< triangles of the scene for each face of the finest level
   std::uint64_t most_faces = kMostDefaultFaces;
+  /// The least faces of the finest level if the scene has fewer triangles: a proxy around few triangles that overlap
+  /// needs more faces than they are.
+  std::uint64_t least_faces = kLeastFaces;
   bool by_voxels = false;  ///< the budget is derived from the voxels, and has fewer faces than the scene has triangles
 };
 /// Completes the request for a scene of `triangles`. Shares become faces. If nothing is asked for, the finest level
-/// gets one face for `triangles_per_face` triangles (at least 200 faces, or one for each triangle if these are fewer).
+/// gets one face for `triangles_per_face` triangles (at least 200 faces, or one for each triangle and `least_faces` if
+/// these are fewer).
 /// There are at most 4 levels, each with a quarter of the faces before, down to kLeastFaces.
 [[nodiscard]] LevelRequest with_defaults(LevelRequest request, std::uint64_t triangles, const LevelDefaults& defaults);
 

@@ -44,7 +44,7 @@ LevelRequest request_for(const BuildOptions& o, std::uint64_t triangles, double 
     request.most_faces = std::max(kFacesPerTriangle * triangles, kLeastFirstFaces);
   if (o.is_tileset() || o.profile == LodProfile::occluder) return request;
   LevelDefaults defaults;
-  if (o.profile == LodProfile::collision) defaults = {kPerCollisionFace, kMostCollisionFaces};
+  if (o.profile == LodProfile::collision) defaults = {kPerCollisionFace, kMostCollisionFaces, kLeastFirstFaces};
   if (o.proxy.visual) defaults.triangles_per_face = 1;  // a small scene is its own finest level
   if (o.profile == LodProfile::cage) defaults = {kPerCageFace, kMostCageFaces};
   defaults.by_voxels = !o.proxy.visual && o.profile != LodProfile::cage && (o.voxels.voxel || o.voxels.resolution);

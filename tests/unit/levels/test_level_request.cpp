@@ -33,6 +33,15 @@ TEST_CASE("levels that nobody asked for follow from the triangles of the scene",
   CHECK(budgets(two, 12) == Faces{12, 12});  // which is left out when it is made
 }
 
+TEST_CASE("a body for collisions may have more faces than a scene of few triangles", "[quick][levels]") {
+  LevelDefaults body{8, kMostCollisionFaces, kLeastFirstFaces};
+  LevelRequest one;
+  one.levels = 1;
+  CHECK(budgets(one, 54, body) == Faces{200});
+  CHECK(budgets(one, 8000, body) == Faces{1000});
+  CHECK(budgets(one, 1000000, body) == Faces{kMostCollisionFaces});
+}
+
 TEST_CASE("voxels that were named decide the faces, up to those of the scene", "[quick][levels]") {
   LevelDefaults named;
   named.by_voxels = true;
