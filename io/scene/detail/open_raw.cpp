@@ -72,8 +72,8 @@ void refuse_brick_stream(const std::string& name, const std::string& start) {
   fail(ErrorCode::bad_input, {Remedy::name_format}, "{}: neither its name nor its first bytes tell its format", name);
 }
 
-/// Refuses a pipe as soon as no format fits what came of it. Else all of it, which may have no end, would be written to
-/// a scratch file first.
+/// Refuses a pipe as soon as no format fits what came of it: a device may have no end, and all that came is written to
+/// a scratch file.
 void refuse_pipe(const std::string& name, const std::string& all, std::uint64_t bytes) {
   const std::string start = all.substr(0, kStart);
   std::string extension;

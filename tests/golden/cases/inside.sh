@@ -17,5 +17,5 @@ said 'bpcheck --inside split.obj in.2.ply | grep -E "strictly|hold"'
 echo 'f 9 1 4' >> split.obj
 said 'bpcheck --inside split.obj in.2.ply | grep -E "area|strictly|hold"'
 # One from the proxy's surface to the outside meets the proxy.
-cp "$BP_ROOT"/tests/data/bugs/thread_in_occluder.* .
+cp "$BP_ROOT"/tests/data/bugs/occluder/thread_in_occluder.* .
 said 'bpcheck --inside thread_in_occluder.obj thread_in_occluder.off | grep -E "area|strictly|hold"'
