@@ -32,6 +32,16 @@ void ByteStream::skip(std::uint64_t n) {
   }
 }
 
+void check_data_end(const SceneFile& file, std::uint64_t end) {
+  constexpr std::uint64_t kMostBlanks = 16;
+  constexpr std::string_view kBlanks{"\0 \t\r\n\x1A", 6};
+  char left[kMostBlanks + 1];
+  const std::string_view rest(left, file.read_at(end, std::as_writable_bytes(std::span(left))));
+  if (rest.size() > kMostBlanks || rest.find_first_not_of(kBlanks) != rest.npos)
+    fail(ErrorCode::bad_input, "{}: byte {}: data begin that the header does not promise; is the file damaged?",
+         file.name(), end);
+}
+
 void ByteStream::fail_truncated() const {
   fail(ErrorCode::bad_input, "{}: ends at byte {} in the middle of its data; the file is truncated", file_->name(),
        file_->size());

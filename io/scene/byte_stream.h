@@ -4,6 +4,9 @@
 /// Consecutive bytes of a file, one buffer at a time.
 namespace bp {
 
+/// Throws bad_input if more than a few blanks, with which some programs fill up, follow the data of a binary file.
+void check_data_end(const SceneFile& file, std::uint64_t end);
+
 class ByteStream {
  public:
   static constexpr std::size_t kMaxTake = std::size_t(1) << 16;

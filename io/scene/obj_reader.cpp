@@ -6,17 +6,18 @@
 #include "io/scene/detail/ahead/face_maker.h"
 #include "io/scene/detail/ahead/obj_blocks.h"
 #include "io/scene/detail/mtl_file.h"
-#include "io/scene/detail/text_scanner.h"
+#include "io/scene/detail/text/text_scanner.h"
 #include "io/scene/detail/vertex_pool.h"
 #include "io/scene/part_names.h"
 #include "io/scene/raw_source.h"
 
 // Wavefront OBJ: the lines "v" and "f" ("fo"). A free-form surface, and another file that is called, count as a face
-// that cannot be read; everything else is skipped. If colours or walls are asked for, "usemtl" and "mtllib" are read,
-// too, and the three numbers after a vertex' position (an extension of many programs). One pass streams faces while the
-// vertices before them are added to the pool. A face that names a later vertex makes all other vertices load at once,
-// so that a vertex is called missing only if the file does not have it. If the bounds were asked for, all vertices are
-// known before the first face, and the faces of a file with plain lines only are read on all cores.
+// that cannot be read; everything else is skipped. A vertex, or a face, of another form than nearly all programs write
+// is read and counted, since others read it in other ways. If colours or walls are asked for, "usemtl" and "mtllib" are
+// read, too, and the three numbers after a vertex' position (an extension of many programs). One pass streams faces
+// while the vertices before them are added to the pool. A face that names a later vertex makes all other vertices load
+// at once, so that a vertex is called missing only if the file does not have it. If the bounds were asked for, all
+// vertices are known before the first face, and the faces of a file with plain lines only are read on all cores.
 
 namespace bp {
 
@@ -57,16 +58,16 @@ class ObjSource final : public PolygonSource {
   [[nodiscard]] PackedNormal corner_normal(std::size_t k) override;
   [[nodiscard]] std::uint64_t lines() const override { return lines_; }
   [[nodiscard]] Unfollowed unfollowed() const override {
-    Unfollowed u = unfollowed_;
-    u.lines += text_.ends().odd();
+    Unfollowed u;
+    u.lines = text_.odd_lines();
+    u.hidden = elements_ > 0 ? 1 : 0;  // some programs draw the faces beside them as lines or points
     return u;
   }
   void rewind_faces() override {
-    lines_ = 0;
-    unfollowed_ = {};
+    lines_ = elements_ = 0;
     block_ = 0;
     text_.seek({});
-    seen_ = seen_places_ = seen_normals_ = 0;
+    seen_ = {};
     texture_ = TriangleTexture::kNoMaterial;
     materials_.clear();
     material_name_.clear();
@@ -76,16 +77,19 @@ class ObjSource final : public PolygonSource {
     names_ = {};
   }
 
-  /// Consumes the keyword. Returns 'v', 'f', 'l', 'o' or 'g' for these words, 't' for "vt", 'n' for "vn", 's' for those
-  /// of adds_unread_surface(), '1' for is_glued(), 'u' for "usemtl" and 'm' for "mtllib", 0 for any other, comments
-  /// included.
+  /// Consumes the keyword. Returns 'v', 'f', 'l', 'p', 'o' or 'g' for these words, 't' for "vt", 'n' for "vn", 's' for
+  /// those of adds_unread_surface(), '1' for is_glued(), 'u' for "usemtl" and 'm' for "mtllib", 0 for any other,
+  /// comments included.
   static char keyword(TextScanner& text);
   /// Moves to the next line. For some programs it belongs to this one, if that goes on where nothing was read, as in a
   /// comment.
-  void end_line() { unfollowed_.lines += text_.next_line() ? 1 : 0; }
+  void end_line() {
+    const std::uint64_t line = text_.line();
+    if (text_.next_line()) text_.doubt(line);
+  }
   [[nodiscard]] bool is_wanted() const { return parts_.takes_all() || fits_.object || fits_.group || fits_.material; }
   void read_vertex(TextScanner& text);
-  void read_vertex_color(TextScanner& text);
+  void read_vertex_rest(TextScanner& text);
   static void read_vector(TextScanner& text, std::size_t numbers, VertexPool& pool);
   void use_material(char key, const std::string& name);
   void load_materials(const std::string& name);
@@ -93,8 +97,8 @@ class ObjSource final : public PolygonSource {
   void note_part(const std::vector<std::uint64_t>& corners);
   void read_corners(std::vector<std::uint64_t>& corners);
   void check_last_line(const std::vector<std::uint64_t>& corners);
-  void read_corner_place();
-  [[nodiscard]] static std::uint64_t number_before(std::int64_t index, std::uint64_t seen);
+  void read_corner_rest();
+  std::uint64_t read_number_before(std::uint64_t seen);
   std::uint64_t resolve(std::int64_t index);
   void load_ahead();
 
@@ -123,11 +127,11 @@ class ObjSource final : public PolygonSource {
     // Part: name of the last line "o" or "g", of which a group in an object tells more; material: of "usemtl".
     std::string part, material;
   } names_;
-  bool passed_over_ = false;                                     // faces of the current material are left out
-  std::uint64_t seen_ = 0, seen_places_ = 0, seen_normals_ = 0;  // lines "v", "vt" and "vn" of this pass
-  std::uint64_t lines_ = 0;                                      // lines "l" of this pass
-  Unfollowed unfollowed_;                                        // of this pass
-  bool all_loaded_ = false;                                      // the pool holds every vertex of the file
+  bool passed_over_ = false;    // faces of the current material are left out
+  ObjLines seen_;               // of this pass
+  std::uint64_t lines_ = 0;     // lines "l" of this pass
+  std::uint64_t elements_ = 0;  // lines "l" and "p" of this pass
+  bool all_loaded_ = false;     // the pool holds every vertex of the file
 };
 
 bool ObjSource::next_face(std::vector<std::uint64_t>& corners) {
@@ -135,22 +139,23 @@ bool ObjSource::next_face(std::vector<std::uint64_t>& corners) {
     if (!text_.word_on_line()) continue;
     const char key = keyword(text_);
     if (key == 'v') {
-      if (seen_ == pool_.size()) read_vertex(text_);
-      ++seen_;
-    } else if (key == 't' && places_) {
-      if (seen_places_ == places_->size()) read_vector(text_, 2, *places_);
-      ++seen_places_;
-    } else if (key == 'n' && normals_) {
-      if (seen_normals_ == normals_->size()) read_vector(text_, 3, *normals_);
-      ++seen_normals_;
+      if (seen_.vertices == pool_.size()) read_vertex(text_);
+      ++seen_.vertices;
+    } else if (key == 't') {
+      if (places_ && seen_.places == places_->size()) read_vector(text_, 2, *places_);
+      ++seen_.places;
+    } else if (key == 'n') {
+      if (normals_ && seen_.normals == normals_->size()) read_vector(text_, 3, *normals_);
+      ++seen_.normals;
     } else if (key == 'u' || key == 'm' || (parts_.asks() && (key == 'o' || key == 'g'))) {
       const std::string name = text_.rest_of_line();
       if (parts_.asks() && key != 'm') use_name(key, name);
       if (key == 'u' || key == 'm') use_material(key, name);
-    } else if (key == 'l') {
-      ++lines_;
+    } else if (key == 'l' || key == 'p') {
+      lines_ += key == 'l' ? 1 : 0;
+      ++elements_;
     } else if (key == '1') {
-      ++unfollowed_.lines;
+      text_.doubt();
     } else if (key == 's' && !passed_over_ && is_wanted()) {
       corners.clear();  // a face without corners
       end_line();
@@ -169,7 +174,8 @@ bool ObjSource::next_face(std::vector<std::uint64_t>& corners) {
 
 char ObjSource::keyword(TextScanner& text) {
   const char first = text.peek();
-  if (std::string_view("vfumogslcbr").find(first) == std::string_view::npos) return 0;
+  const bool is_ascii = static_cast<unsigned char>(first) < 0x80;
+  if (is_ascii && std::string_view("vfumogslcbrp").find(first) == std::string_view::npos) return 0;
   const std::string_view word = text.word();
   if (word == "vt") return 't';
   if (word == "vn") return 'n';
@@ -207,17 +213,20 @@ void ObjSource::read_vertex(TextScanner& text) {
     if (!text.word_on_line() || !text.real(c)) text.fail_here("a vertex needs three numbers; is the file damaged?");
   }
   pool_.push(p);
-  if (vertex_colors_) read_vertex_color(text);
+  if (text.has_more()) read_vertex_rest(text);
 }
 
-// Reads a vertex's colour. A single number after the position is the weight of a rational curve's point.
-void ObjSource::read_vertex_color(TextScanner& text) {
-  Vec3d rgb;
-  for (double& c : rgb) {
-    if (!text.word_on_line() || !text.real(c)) return;
-  }
+// Reads what follows a position: a colour, or the weight of a rational curve's point. Some programs divide by a weight,
+// and drop a vertex with other words behind it.
+void ObjSource::read_vertex_rest(TextScanner& text) {
+  double rest[4];
+  std::size_t n = 0;
+  while (n < std::size(rest) && text.has_more() && text.real(rest[n])) ++n;
+  const bool is_known = n >= 3 || (n == 1 && rest[0] == 1);
+  if (!is_known || text.has_more()) text.doubt();
+  if (n < 3 || !vertex_colors_) return;
   while (vertex_colors_->size() + 1 < pool_.size()) vertex_colors_->push({1, 1, 1});
-  vertex_colors_->push(rgb);
+  vertex_colors_->push({rest[0], rest[1], rest[2]});
   has_colors_ = true;
 }
 
@@ -293,22 +302,22 @@ void ObjSource::note_part(const std::vector<std::uint64_t>& corners) {
   }
 }
 
-// Reads corners: "v", "v/vt", "v//vn" or "v/vt/vn". Only the vertex's number is required.
+// Reads corners: "v", "v/vt", "v//vn" or "v/vt/vn". Only the vertex's number is required. Other forms are noted.
 void ObjSource::read_corners(std::vector<std::uint64_t>& corners) {
   corners.clear();
   corner_places_.clear();
   corner_normals_.clear();
   while (text_.word_on_line() && text_.peek() != '#') {
+    if (text_.peek() == '+') text_.doubt();
     std::int64_t index = 0;
     if (!text_.integer(index)) text_.fail_here("a face corner is not a number; is the file damaged?");
-    if (texture_ != TriangleTexture::kNoMaterial || normals_) read_corner_place();
-    if (text_.peek() == '/') text_.skip_word();
-    if (static_cast<unsigned char>(text_.peek()) > ' ' && text_.peek() != '\\')
-      text_.fail_here("a face corner is not of the form v/vt/vn; is the file damaged?");
+    read_corner_rest();
+    if (!text_.at_word_end()) text_.fail_here("a face corner is not of the form v/vt/vn; is the file damaged?");
     if (corners.size() == kMaxCorners)
       text_.fail_here("a face of more than {} corners; is the file intact?", kMaxCorners);
     corners.push_back(resolve(index));
   }
+  if (text_.peek() == '#') text_.doubt();  // some programs read the numbers of a comment
 }
 
 /// Checks a face on a last line without a line end. Many good files lack that end: only a face that cannot be whole
@@ -319,38 +328,50 @@ void ObjSource::check_last_line(const std::vector<std::uint64_t>& corners) {
   if (corners.size() < 3 || !whole) text_.fail_here("the file ends in the middle of its data; it is truncated");
 }
 
-/// Returns the number of a line that a face names: counted from 1, or backwards from `seen` lines; kNoVertex: none.
-std::uint64_t ObjSource::number_before(std::int64_t index, std::uint64_t seen) {
-  if (index == 0 || index < -std::int64_t(seen) || index > std::int64_t(seen)) return kNoVertex;
+/// Reads the number of a line that a corner names: counted from 1, or backwards from `seen` lines. Returns kNoVertex if
+/// there is none, or if the line does not stand further up, and notes that.
+std::uint64_t ObjSource::read_number_before(std::uint64_t seen) {
+  const bool has_sign = text_.peek() == '+';
+  std::int64_t index = 0;
+  const bool is_there =
+      text_.integer(index) && index != 0 && index >= -std::int64_t(seen) && index <= std::int64_t(seen);
+  if (has_sign || !is_there) text_.doubt();
+  if (!is_there) return kNoVertex;
   return index > 0 ? std::uint64_t(index) - 1 : seen - std::uint64_t(-index);
 }
 
-/// Reads the numbers after a vertex: its place in the image and its normal, which must stand further up.
-void ObjSource::read_corner_place() {
-  corner_places_.push_back(kNoVertex);
-  if (normals_) corner_normals_.push_back(kNoVertex);
-  if (text_.peek() != '/') return;
-  text_.step();
-  std::int64_t index = 0;
-  if (text_.integer(index)) corner_places_.back() = number_before(index, seen_places_);
-  if (normals_ && text_.peek() == '/') {
+/// Reads the numbers after a vertex: its place in the image and its normal.
+void ObjSource::read_corner_rest() {
+  std::uint64_t place = kNoVertex, normal = kNoVertex;
+  if (text_.peek() == '/') {
     text_.step();
-    if (text_.integer(index)) corner_normals_.back() = number_before(index, seen_normals_);
+    if (text_.peek() != '/') place = read_number_before(seen_.places);
+    if (text_.peek() == '/') {
+      text_.step();
+      normal = read_number_before(seen_.normals);
+    }
+    if (!text_.at_word_end()) {
+      text_.doubt();
+      text_.skip_word();
+    }
   }
-  text_.skip_word();
+  if (texture_ != TriangleTexture::kNoMaterial || normals_) corner_places_.push_back(place);
+  if (normals_) corner_normals_.push_back(normal);
 }
 
 std::uint64_t ObjSource::resolve(std::int64_t index) {
-  if (index == 0 || index < -std::int64_t(seen_)) return kNoVertex;
-  const std::uint64_t i = index > 0 ? std::uint64_t(index) - 1 : seen_ - std::uint64_t(-index);
+  const std::uint64_t seen = seen_.vertices;
+  if (index == 0 || index < -std::int64_t(seen)) return kNoVertex;
+  const std::uint64_t i = index > 0 ? std::uint64_t(index) - 1 : seen - std::uint64_t(-index);
   if (i >= pool_.size() && !all_loaded_) load_ahead();
+  if (i >= seen && i < pool_.size()) text_.doubt();  // some programs read the file once
   return i;
 }
 
 // Loads all later vertices. An earlier pass that was cut short may have left the pool ahead of this one: those vertices
 // are not read twice.
 void ObjSource::load_ahead() {
-  std::uint64_t known = pool_.size() - seen_;
+  std::uint64_t known = pool_.size() - seen_.vertices;
   TextScanner ahead(file_, text_.mark());
   for (ahead.next_line(); !ahead.at_end(); ahead.next_line()) {
     if (!ahead.word_on_line() || keyword(ahead) != 'v') continue;

@@ -1,10 +1,11 @@
-#include "io/scene/detail/text_scanner.h"
+#include "io/scene/detail/text/text_scanner.h"
 #include "io/scene/detail/vertex_pool.h"
 #include "io/scene/raw_source.h"
 
 // OFF (Geomview's object file format), ASCII: OFF and its variants with colours, normals and texture coordinates (COFF,
 // NOFF, STOFF, CNOFF ...), whose extra numbers follow the three of the position on the same line. The header may be
-// missing, or be glued to the first count. Comments start with '#'.
+// missing, or be glued to the first count. Comments start with '#'. A vertex or a face of two lines,
+// and a comment on a line among them, is noted: some programs read lines, others words.
 
 namespace bp {
 
@@ -25,7 +26,7 @@ class OffSource final : public PolygonSource {
   [[nodiscard]] Vec3d vertex(std::uint64_t i) override { return pool_[i]; }
   [[nodiscard]] Unfollowed unfollowed() const override {
     Unfollowed u;
-    u.lines = odd_lines_ + text_.ends().odd();
+    u.lines = text_.odd_lines();
     return u;
   }
   void rewind_faces() override {
@@ -40,7 +41,9 @@ class OffSource final : public PolygonSource {
   std::uint64_t end_line();
   void read_vertices();
   std::int64_t need_integer(const char* what);
+  std::int64_t integer_here(const char* what);
   void need_word();
+  void need_word_of_record();
   void check_room(std::uint64_t count, std::uint64_t bytes, const char* what);
 
   TextScanner text_;
@@ -48,7 +51,7 @@ class OffSource final : public PolygonSource {
   TextScanner::Mark start_;  // start of the faces
   std::uint64_t vertices_ = 0, faces_ = 0, face_ = 0;
   std::uint64_t least_extras_ = 0, most_extras_ = 0;  // words of a vertex' line behind its position
-  std::uint64_t odd_lines_ = 0;                       // lines of the header and the vertices with other words
+  bool in_record_ = false;                            // behind the first word of a vertex or a face
 };
 
 void OffSource::need_word() {
@@ -57,9 +60,22 @@ void OffSource::need_word() {
 
 std::int64_t OffSource::need_integer(const char* what) {
   need_word();
+  return integer_here(what);
+}
+
+std::int64_t OffSource::integer_here(const char* what) {
   std::int64_t value = 0;
   if (!text_.count(value)) text_.fail_here("{} is not an integer; is this an OFF file?", what);
   return value;
+}
+
+/// Moves to the next word of a vertex or a face.
+void OffSource::need_word_of_record() {
+  const bool is_here = text_.has_more() && text_.peek() != '#';
+  if (is_here && in_record_) return;
+  if (in_record_ || (text_.word_anywhere() && text_.peek() == '#')) text_.doubt();
+  in_record_ = true;
+  need_word();
 }
 
 /// Moves to the next line. Returns how many words, but for a comment, stand before it.
@@ -69,6 +85,7 @@ std::uint64_t OffSource::end_line() {
     text_.step();  // skip_word() stops at a control character
     text_.skip_word();
   }
+  in_record_ = false;
   text_.next_line();
   return words;
 }
@@ -113,7 +130,8 @@ void OffSource::read_header() {
   if (vertices < 0 || faces < 0) text_.fail_here("a count is negative; is this an OFF file?");
   vertices_ = std::uint64_t(vertices);
   faces_ = std::uint64_t(faces);
-  if (end_line() != 1) ++odd_lines_;  // the count of edges may be missing
+  const std::uint64_t line = text_.line();
+  if (end_line() != 1) text_.doubt(line);  // the count of edges may be missing
 }
 
 // Throws if the file is too short: each number takes at least two characters; the last one may lack its line end.
@@ -129,12 +147,12 @@ void OffSource::read_vertices() {
   for (std::uint64_t i = 0; i < vertices_; ++i) {
     Vec3d p;
     for (double& c : p) {
-      need_word();
+      need_word_of_record();
       if (!text_.real(c)) text_.fail_here("a vertex needs three numbers; is the file damaged?");
     }
     pool_.push(p);
-    const std::uint64_t extras = end_line();
-    if (extras < least_extras_ || extras > most_extras_) ++odd_lines_;
+    const std::uint64_t line = text_.line(), extras = end_line();
+    if (extras < least_extras_ || extras > most_extras_) text_.doubt(line);
   }
   check_room(faces_, 2, "faces");
 }
@@ -147,14 +165,21 @@ bool OffSource::next_face(std::vector<std::uint64_t>& corners) {
   }
   ++face_;
   corners.clear();
-  const std::int64_t size = need_integer("the size of a face");
+  const auto need = [&](const char* what) {
+    need_word_of_record();
+    std::int64_t value = 0;
+    if (text_.plain_integer(value)) return value;
+    text_.doubt();
+    return integer_here(what);
+  };
+  const std::int64_t size = need("the size of a face");
   if (size < 0 || std::uint64_t(size) > kMaxCorners)
     text_.fail_here("a face of {} corners; is the file damaged?", size);
   for (std::int64_t i = 0; i < size; ++i) {
-    const std::int64_t corner = need_integer("a corner of a face");
+    const std::int64_t corner = need("a corner of a face");
     corners.push_back(corner < 0 ? kNoVertex : std::uint64_t(corner));
   }
-  text_.next_line();
+  end_line();
   return true;
 }
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <optional>
 
 #include "io/scene/detail/ahead/face_maker.h"
@@ -65,6 +66,8 @@ class PlySource final : public PolygonSource {
   [[nodiscard]] Unfollowed unfollowed() const override {
     Unfollowed u;
     u.lines = cursor_.odd_lines();
+    const auto shows = [](const PlyElement& e) { return holds_faces(e) && e.count > 0; };
+    u.hidden = std::count_if(header_.elements.begin(), header_.elements.end(), shows) > 1 ? 1 : 0;  // one of the kinds
     return u;
   }
   /// Returns the bounds of all vertices where they are loaded: faces seldom leave out those that are farthest out.
@@ -342,7 +345,7 @@ RawSourcePtr open_ply(SceneFilePtr file, const SceneOptions& options) {
   if (header.format == PlyHeader::Format::ascii)
     return std::make_unique<PlySource<PlyAsciiCursor>>(file, options, std::move(header));
   // The packed reader knows no colours, and tells of no odd lines.
-  const bool packs = !(options.colors && ply_has_colors(header)) && header.ends.odd() == 0;
+  const bool packs = !(options.colors && ply_has_colors(header)) && header.ends.odd() + header.odd_lines == 0;
   if (RawSourcePtr packed = packs ? open_packed_ply(file, options, header) : nullptr) return packed;
   return std::make_unique<PlySource<PlyBinaryCursor>>(file, options, std::move(header));
 }

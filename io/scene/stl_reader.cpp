@@ -3,8 +3,9 @@
 #include <mutex>
 
 #include "io/files/lower.h"
+#include "io/scene/byte_stream.h"
 #include "io/scene/detail/ahead/stl_blocks.h"
-#include "io/scene/detail/text_scanner.h"
+#include "io/scene/detail/text/text_scanner.h"
 #include "io/scene/raw_source.h"
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
@@ -35,6 +36,7 @@ class BinaryStl final : public TwoStepSource {
            "{}: the number of triangles in its header is {}, and it has room for {}; the file is truncated",
            file_->name(), triangles, room);
     }
+    check_data_end(*file_, kHeaderBytes + triangles_ * kTriangleBytes);
   }
   bool next(RawBatch& batch) override {
     batch.bad_faces = 0;
@@ -103,12 +105,12 @@ class AsciiStl final : public RawSource {
     block_ = 0;
     text_.seek({});
     in_solid_ = in_facet_ = false;
-    corners_ = facet_corners_ = odd_lines_ = 0;
+    corners_ = facet_corners_ = 0;
     bad_faces_ = 0;
   }
   [[nodiscard]] Unfollowed unfollowed() const override {
     Unfollowed u;
-    u.lines = odd_lines_ + text_.ends().odd();
+    u.lines = text_.odd_lines();
     return u;
   }
 
@@ -128,7 +130,6 @@ class AsciiStl final : public RawSource {
   bool in_solid_ = false, in_facet_ = false;
   std::uint64_t corners_ = 0;        // corners of the open polygon
   std::uint64_t facet_corners_ = 0;  // of the open facet, or since the last one
-  std::uint64_t odd_lines_ = 0;      // other programs read facets, or a name, in another way
   Vec3d first_{}, previous_{};
 };
 
@@ -161,16 +162,17 @@ bool AsciiStl::read(std::vector<TriangleD>& out) {
 
 void AsciiStl::statement(std::string_view raw, std::vector<TriangleD>& out) {
   const std::string word = lower(raw);
+  if (word != raw) text_.doubt();  // some programs know lower case only
   if (word == "vertex") return read_vertex(out);
   if (word == "facet") return begin_facet();
   if (word == "outer") {
     if (corners_ > 0) end_polygon();
-    if (text_.word_anywhere()) text_.skip_word();  // loop
+    if (text_.word_anywhere() && text_.word() != "loop") text_.doubt();
     return;
   }
   if (word == "endloop") return end_polygon();
   if (word == "endfacet") {
-    if (!in_facet_) ++odd_lines_;
+    if (!in_facet_) text_.doubt();
     return end_facet();
   }
   if (word == "solid" || word == "endsolid" || word == "color") {  // a name of any number of words follows
@@ -181,7 +183,7 @@ void AsciiStl::statement(std::string_view raw, std::vector<TriangleD>& out) {
 }
 
 void AsciiStl::begin_or_end_solid(bool begins) {
-  if (in_facet_) ++odd_lines_;  // some programs pass over a facet that does not end
+  if (in_facet_) text_.doubt();  // some programs pass over a facet that does not end
   end_facet();
   in_solid_ = begins;
 }
@@ -189,21 +191,22 @@ void AsciiStl::begin_or_end_solid(bool begins) {
 /// Begins a facet and skips "normal x y z". Some programs pass over a facet outside of a solid, or behind one that does
 /// not end.
 void AsciiStl::begin_facet() {
-  constexpr int kWords = 4;
+  constexpr int kNumbers = 3;
   bool is_odd = in_facet_ || !in_solid_;
   end_facet();
   in_facet_ = true;
-  for (int i = 0; i < kWords && text_.word_anywhere(); ++i) {
-    is_odd = is_odd || !begins_normal(text_.peek());
+  is_odd = !text_.word_anywhere() || text_.word() != "normal" || is_odd;
+  for (int i = 0; i < kNumbers && text_.word_anywhere(); ++i) {
+    is_odd = is_odd || !begins_number(text_.peek());
     text_.skip_word();
   }
-  if (is_odd) ++odd_lines_;
+  if (is_odd) text_.doubt();
 }
 
 /// Ends a facet. Other programs make a triangle of every three corners.
 void AsciiStl::end_facet() {
   if (corners_ > 0) end_polygon();
-  if (facet_corners_ != (in_facet_ ? 3 : 0)) ++odd_lines_;
+  if (facet_corners_ != (in_facet_ ? 3 : 0)) text_.doubt();
   facet_corners_ = 0;
   in_facet_ = false;
 }
@@ -216,11 +219,12 @@ void AsciiStl::end_polygon() {
 /// Moves to the next line. Some programs read the statements in a name.
 void AsciiStl::skip_name() {
   std::string name;
+  const std::uint64_t line = text_.line();
   for (; !text_.at_end() && text_.peek() != '\n' && text_.peek() != '\r'; text_.step()) {
     if (name.size() <= kLongestName) name += text_.peek();
   }
   (void)text_.next_line();
-  if (names_facets(name)) ++odd_lines_;
+  if (names_facets(name)) text_.doubt(line);
 }
 
 void AsciiStl::read_vertex(std::vector<TriangleD>& out) {

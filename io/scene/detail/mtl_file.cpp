@@ -7,7 +7,7 @@
 
 #include "io/files/beside.h"
 #include "io/files/utf8.h"
-#include "io/scene/detail/text_scanner.h"
+#include "io/scene/detail/text/text_scanner.h"
 #include "lib/core/error.h"
 
 namespace bp {

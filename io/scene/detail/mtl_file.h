@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "io/scene/detail/text_scanner.h"
+#include "io/scene/detail/text/text_scanner.h"
 #include "io/scene/texture_table.h"
 #include "lib/core/color.h"
 #include "lib/core/memory_share.h"

@@ -1,6 +1,6 @@
 #include <optional>
 
-#include "io/scene/detail/text_scanner.h"
+#include "io/scene/detail/text/text_scanner.h"
 #include "io/scene/points/scene_points.h"
 #include "io/scene/points/text_copy.h"
 

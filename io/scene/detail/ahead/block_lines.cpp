@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "io/scene/detail/text/odd_characters.h"
+
 namespace bp {
 
 BlockLines::BlockLines(const SceneFile& file, std::uint64_t begin, std::uint64_t first) {
@@ -13,10 +15,16 @@ BlockLines::BlockLines(const SceneFile& file, std::uint64_t begin, std::uint64_t
   end_ = at_ + text_.size();
   last_ = at_ + std::min<std::size_t>(std::size_t(before + kBlock), text_.size());
   whole_ = begin_ + text_.size() >= file.size();
-  if (begin == 0 && std::string_view(at_, text_.size()).starts_with("\xEF\xBB\xBF")) at_ += 3;
+  if (begin == 0 && starts_with_mark({at_, text_.size()})) at_ += 3;
   if (before == 0) return;
   at_ = std::find(at_, end_, '\n');  // the line before ends here, or later
   at_ += at_ != end_ ? 1 : 0;
+}
+
+bool BlockLines::has_odd_characters() const {
+  OddCharacters odd;
+  odd.add({at_, std::size_t(end_ - at_)});
+  return odd.lines() > 0;
 }
 
 bool BlockLines::next() {

@@ -55,6 +55,8 @@ class BlockLines {
   bool next_here() { return at_ < last_ && next(); }
   /// Moves to the next line, which may begin behind the block.
   bool next();
+  /// Returns whether OddCharacters stand in the lines that are left, or a little behind them.
+  [[nodiscard]] bool has_odd_characters() const;
   /// Returns false if a line has a lone CR, or goes on behind the text that is held.
   [[nodiscard]] bool is_plain() const { return plain_; }
 

@@ -18,12 +18,18 @@ namespace bp {
   return std::find(kKeywords.begin(), kKeywords.end(), keyword) != kKeywords.end();
 }
 
-/// Returns whether a keyword is "v" or "f" and a number without a blank between them. Some programs read both.
+/// Returns whether a keyword is "v" or "f" and, without a blank between them, something other than a letter, or begins
+/// beyond ASCII. Some programs find a blank there, or read a number without one.
 [[nodiscard]] inline bool is_glued(std::string_view keyword) {
-  constexpr std::string_view kNumberStarts = "0123456789+-.";
-  return keyword.size() > 1 && (keyword[0] == 'v' || keyword[0] == 'f') &&
-         kNumberStarts.find(keyword[1]) != std::string_view::npos;
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  if (!keyword.empty() && static_cast<unsigned char>(keyword[0]) >= 0x80) return true;
+  return keyword.size() > 1 && (keyword[0] == 'v' || keyword[0] == 'f') && !is_letter(keyword[1]);
 }
+
+/// Lines "v", "vt" and "vn", of which a face names one each.
+struct ObjLines {
+  std::uint64_t vertices = 0, places = 0, normals = 0;
+};
 
 /// An OBJ file whose lines are as nearly all programs write them, in blocks of text that all cores read at once.
 class ObjBlocks {
@@ -31,12 +37,13 @@ class ObjBlocks {
   explicit ObjBlocks(SceneFilePtr file) : file_(std::move(file)) {}
 
   /// Reads all vertices. Calls take() with them, in the order of the file. Returns false if a line is not plain (a
-  /// continued line, a lone CR, a number that a plain one is not): take() then got the vertices of the lines before
-  /// some line, and none of them is wrong. Takes 1 MiB for each thread.
+  /// continued line, a lone CR, an odd character, a number that a plain one is not, a vertex with other words than a
+  /// weight of 1 or a colour): take() then got the vertices of the lines before some line, and none of them is wrong.
+  /// Takes 1 MiB for each thread.
   [[nodiscard]] bool read_vertices(const std::function<void(const std::vector<Vec3d>&)>& take);
 
   /// Returns whether read_faces() may be called: read_vertices() returned true, and all other lines are plain, too.
-  /// Such a file has no face that is refused.
+  /// Such a file has no face that is refused, and none that names what does not stand before it.
   [[nodiscard]] bool has_plain_faces() const { return plain_faces_; }
   [[nodiscard]] std::size_t size() const { return seen_before_.size(); }
   /// Makes the triangles of the faces whose lines begin in block `i`, as PolygonSource does. `pool`: all vertices, in

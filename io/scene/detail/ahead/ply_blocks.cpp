@@ -5,6 +5,7 @@
 
 #include "io/scene/detail/ahead/block_lines.h"
 #include "io/scene/detail/ahead/face_maker.h"
+#include "io/scene/detail/text/plain_integer.h"
 #include "lib/core/parallel.h"
 
 namespace bp {
@@ -33,6 +34,7 @@ bool read_records(const SceneFile& file, std::uint64_t first, std::uint64_t coun
       },
       [&](RecordBlock& block) {
         BlockLines lines(file, block.begin, first);
+        block.plain = !lines.has_odd_characters();
         while (block.plain && lines.next_here()) {
           block.plain = read(lines.line(), block);
           if (block.plain) ++block.records;
@@ -49,32 +51,58 @@ bool read_records(const SceneFile& file, std::uint64_t first, std::uint64_t coun
   return left == 0;
 }
 
+/// Reads an integer. Returns false if it is not plain, or if the type does not hold it.
+bool take_integer(std::string_view& line, const PlyRange& range, std::int64_t& number) {
+  drop_blanks(line);
+  const char* const end = line.data() + line.size();
+  const char* const last = take_digits(line.data(), end, number);
+  if (last == nullptr || (last != end && !is_blank(*last))) return false;
+  line.remove_prefix(std::size_t(last - line.data()));
+  return range.holds(number);
+}
+
+/// Skips the number of a property. Returns false if it is not plain.
+bool skip_number(std::string_view& line, PlyType type) {
+  std::int64_t number = 0;
+  return is_integer(type) ? take_integer(line, range_of(type), number) : !take_word(line).empty();
+}
+
+bool take_coordinate(std::string_view& line, PlyType type, double& c) {
+  if (!is_integer(type)) return take_number(line, c);
+  std::int64_t number = 0;
+  const bool is_plain = take_integer(line, range_of(type), number);
+  c = double(number);
+  return is_plain;
+}
+
 bool read_vertex(std::string_view line, const PlyElement& vertex, const PlyPosition& position, Vec3d& p) {
   for (std::size_t k = 0; k < vertex.properties.size(); ++k) {
     const std::size_t axis = position.axis_of(k);
-    if (axis < 3 ? !take_number(line, p[axis]) : take_word(line).empty()) return false;
+    const PlyType type = vertex.properties[k].type;
+    if (axis < 3 ? !take_coordinate(line, type, p[axis]) : !skip_number(line, type)) return false;
   }
   drop_blanks(line);
   return line.empty();
 }
 
 /// Calls f(number) for each corner of a face, and moves the line's begin behind them. Returns false if a number is not
-/// plain.
+/// plain. `counts`, `numbers`: those that the types of the list hold.
 template <class F>
-bool take_corners(std::string_view& line, const F& f) {
+bool take_corners(std::string_view& line, const PlyRange& counts, const PlyRange& numbers, const F& f) {
   std::int64_t n = 0, number = 0;
-  if (!take_number(line, n) || n < 0) return false;
+  if (!take_integer(line, counts, n) || n < 0) return false;
   for (; n > 0; --n) {
-    if (!take_number(line, number)) return false;
+    if (!take_integer(line, numbers, number)) return false;
     f(number);
   }
   return true;
 }
 
-bool is_face(std::string_view line, std::size_t words_behind) {
-  if (!take_corners(line, [](std::int64_t) {})) return false;
-  for (; words_behind > 0; --words_behind) {
-    if (take_word(line).empty()) return false;
+bool is_face(std::string_view line, const std::vector<PlyProperty>& properties) {
+  const PlyRange counts = range_of(properties[0].count_type), numbers = range_of(properties[0].type);
+  if (!take_corners(line, counts, numbers, [](std::int64_t) {})) return false;
+  for (std::size_t k = 1; k < properties.size(); ++k) {
+    if (!skip_number(line, properties[k].type)) return false;
   }
   drop_blanks(line);
   return line.empty();
@@ -119,7 +147,7 @@ std::optional<TextMark> PlyBlocks::find_faces(const PlyElement& face) {
   faces_in_.clear();
   const bool plain = read_records(
       *file_, faces_.offset, face.count,
-      [&](std::string_view line, RecordBlock&) { return is_face(line, face.properties.size() - 1); },
+      [&](std::string_view line, RecordBlock&) { return is_face(line, face.properties); },
       [&](const RecordBlock& block) { faces_in_.push_back(block.records); });
   if (!plain) return {};
   if (faces_in_.empty()) return faces_;
@@ -134,7 +162,7 @@ void PlyBlocks::read_faces(std::size_t i, const VertexPool& pool, bool fans, Raw
   for (std::uint64_t left = faces_in_[i]; left > 0 && lines.next_here(); --left) {
     std::string_view line = lines.line();
     corners.clear();
-    (void)take_corners(line, [&](std::int64_t number) {
+    (void)take_corners(line, {}, {}, [&](std::int64_t number) {
       corners.push_back(std::uint64_t(number));  // a negative number is beyond all vertices
     });
     faces.add(corners);

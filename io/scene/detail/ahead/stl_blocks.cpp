@@ -48,10 +48,11 @@ bool read_facet(BlockLines& lines, TriangleD& t) {
 
 /// Returns whether the normal, which is not read, has the words that it must have.
 bool is_normal(std::string_view line) {
-  constexpr int kWords = 4;
-  for (int i = 0; i < kWords; ++i) {
+  constexpr int kNumbers = 3;
+  if (take_word(line) != "normal") return false;
+  for (int i = 0; i < kNumbers; ++i) {
     const std::string_view word = take_word(line);
-    if (word.empty() || !begins_normal(word.front())) return false;
+    if (word.empty() || !begins_number(word.front())) return false;
   }
   drop_blanks(line);
   return line.empty();
@@ -81,6 +82,7 @@ bool begins_statement(std::string_view line) {
 /// Reads the statements that begin in the block. The lines before the first one belong to the block before.
 void read_facets(const SceneFile& file, FacetBlock& block) {
   BlockLines lines(file, block.begin);
+  block.plain = !lines.has_odd_characters();
   bool more = lines.next_here();
   while (more && block.begin > 0 && !begins_statement(lines.line())) more = lines.next_here();
   if (more) block.first = lines.line_begin();

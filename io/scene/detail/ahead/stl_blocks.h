@@ -9,8 +9,8 @@
 
 namespace bp {
 
-/// Returns whether a word of "normal x y z" may begin with c: also a number such as "nan", "inf" or "-1".
-[[nodiscard]] inline bool begins_normal(char c) {
+/// Returns whether a number of "normal x y z" may begin with c: also one such as "nan", "inf" or "-1".
+[[nodiscard]] inline bool begins_number(char c) {
   return std::string_view("0123456789+-.nNiI").find(c) != std::string_view::npos;
 }
 

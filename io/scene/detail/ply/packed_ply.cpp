@@ -31,10 +31,6 @@ struct Layout {
   }
 };
 
-bool is_integer(PlyType type) {
-  return type != PlyType::f32 && type != PlyType::f64;
-}
-
 bool lay_out_vertices(const PlyElement& vertex, Layout& layout) {
   const char* const names[] = {"x", "y", "z"};
   layout.stride = vertex.fixed_bytes();

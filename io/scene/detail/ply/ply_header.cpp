@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::uint64_t kMaxHeaderBytes = std::uint64_t(1) << 20;
 constexpr std::size_t kMaxProperties = 1024;
+constexpr std::string_view kEnd = "end_header";
 
 struct TypeName {
   std::string_view old_name, new_name;
@@ -95,12 +96,15 @@ void check_names(const TextScanner& text, const PlyHeader& header) {
   }
 }
 
-/// Reads one line; returns true at "end_header".
+/// Reads one line; returns true at "end_header". Words behind those that a line must have are noted.
 bool header_line(TextScanner& text, PlyHeader& header, bool& has_format) {
   const std::string key = word_of(text);
+  if (key == "comment" || key == "obj_info") return false;
   if (key == "format") {
+    if (has_format) text.fail_here("the header has two lines 'format'; programs disagree on what that means");
     header.format = format_of(text);
     has_format = true;
+    if (text.has_more()) (void)text.word();  // the version
   } else if (key == "element") {
     if (header.elements.size() == kMaxProperties) text.fail_here("more than {} elements", kMaxProperties);
     header.elements.push_back(element_of(text));
@@ -109,13 +113,35 @@ bool header_line(TextScanner& text, PlyHeader& header, bool& has_format) {
     if (header.elements.back().properties.size() == kMaxProperties)
       text.fail_here("more than {} properties", kMaxProperties);
     header.elements.back().properties.push_back(property_of(text));
-  } else if (key != "comment" && key != "obj_info" && key != "end_header") {
+  } else if (key != kEnd) {
     text.fail_here("'{}' does not belong into a PLY header; is this a PLY file?", key);
   }
-  return key == "end_header";
+  if (text.has_more()) text.doubt();
+  return key == kEnd;
+}
+
+/// Returns how many lines of a header have odd characters, or name its end, in which case some programs end it there.
+std::uint64_t odd_lines_of(const SceneFile& file, std::uint64_t end) {
+  std::string all(std::size_t(end), '\0');
+  all.resize(file.read_at(0, std::as_writable_bytes(std::span(all))));
+  const std::string_view text = std::string_view(all).substr(starts_with_mark(all) ? 3 : 0);
+  OddCharacters odd;
+  odd.add(text);
+  std::uint64_t lines = odd.lines();
+  for (std::size_t at = text.find(kEnd), last = text.rfind(kEnd); at < last; at = text.find(kEnd, at + 1)) ++lines;
+  return lines;
 }
 
 }  // namespace
+
+PlyRange range_of(PlyType type) {
+  const int bits = 8 * int(bytes_of(type));
+  const bool is_signed = type == PlyType::i8 || type == PlyType::i16 || type == PlyType::i32;
+  if (!is_integer(type) || type == PlyType::i64) return {};
+  const PlyRange all{is_signed ? std::numeric_limits<std::int64_t>::min() : 0};
+  const int lost = 64 - bits - (is_signed || bits == 64 ? 0 : 1);
+  return {all.least >> (64 - bits), all.most >> lost};
+}
 
 std::size_t bytes_of(PlyType type) {
   constexpr std::size_t kBytes[] = {1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
@@ -138,9 +164,9 @@ std::size_t PlyElement::index_of(const std::string& property) const {
   return i;
 }
 
-PlyHeader read_ply_header(SceneFilePtr file) {
+PlyHeader read_ply_header(const SceneFilePtr& file) {
   PlyHeader header;
-  TextScanner text(std::move(file));
+  TextScanner text(file);
   if (!text.word_anywhere() || text.word() != "ply")
     text.fail_here("does not start with 'ply'; this is not a PLY file");
   bool has_format = false;
@@ -155,17 +181,8 @@ PlyHeader read_ply_header(SceneFilePtr file) {
   text.next_line();
   header.data = text.mark();
   header.ends = text.ends();
+  header.odd_lines = text.doubted() + odd_lines_of(*file, header.data.offset);
   return header;
-}
-
-void check_ply_end(const SceneFile& file, std::uint64_t end) {
-  constexpr std::uint64_t kMostBlanks = 16;
-  constexpr std::string_view kBlanks{"\0 \t\r\n\x1A", 6};
-  char left[kMostBlanks + 1];
-  const std::string_view rest(left, file.read_at(end, std::as_writable_bytes(std::span(left))));
-  if (rest.size() > kMostBlanks || rest.find_first_not_of(kBlanks) != rest.npos)
-    fail(ErrorCode::bad_input, "{}: byte {}: data begin that the header does not promise; is the file damaged?",
-         file.name(), end);
 }
 
 }  // namespace bp

@@ -1,10 +1,26 @@
 #pragma once
-#include "io/scene/detail/text_scanner.h"
+#include <limits>
+
+#include "io/scene/detail/text/text_scanner.h"
 
 namespace bp {
 
 enum class PlyType : std::uint8_t { i8, u8, i16, u16, i32, u32, i64, u64, f32, f64 };
 [[nodiscard]] std::size_t bytes_of(PlyType type);
+[[nodiscard]] inline bool is_integer(PlyType type) {
+  return type < PlyType::f32;
+}
+
+struct PlyRange {
+  std::int64_t least = std::numeric_limits<std::int64_t>::min(), most = std::numeric_limits<std::int64_t>::max();
+
+  template <class Number>
+  [[nodiscard]] bool holds(Number n) const {
+    return n >= Number(least) && n <= Number(most);
+  }
+};
+/// Returns which integers a type holds, as far as 64 bits with a sign do. All, if it is a type of floats.
+[[nodiscard]] PlyRange range_of(PlyType type);
 
 struct PlyProperty {
   std::string name;
@@ -27,13 +43,12 @@ struct PlyHeader {
   enum class Format { ascii, little_endian, big_endian };
   Format format = Format::ascii;
   std::vector<PlyElement> elements;
-  TextScanner::Mark data;  ///< first byte behind the header
-  LineEnds ends;           ///< of the header
+  TextScanner::Mark data;       ///< first byte behind the header
+  LineEnds ends;                ///< of the header
+  std::uint64_t odd_lines = 0;  ///< of the header, which other programs read in another way, but for their ends
 };
 
-/// Reads a header. Throws bad_input with the line of the header that is wrong, or where it names something twice.
-[[nodiscard]] PlyHeader read_ply_header(SceneFilePtr file);
-/// Throws bad_input if more than a few blanks, with which some programs fill up, follow the data of a binary file.
-void check_ply_end(const SceneFile& file, std::uint64_t end);
+/// Reads a header. Throws bad_input with the line of the header that is wrong, or where it says something twice.
+[[nodiscard]] PlyHeader read_ply_header(const SceneFilePtr& file);
 
 }  // namespace bp

@@ -23,7 +23,7 @@ Bounds3d box_of(const std::vector<TriangleD>& triangles) {
 struct Outcome {
   std::vector<TriangleD> triangles;
   std::string complaint;
-  std::uint64_t bad_faces = 0;
+  std::uint64_t bad_faces = 0, odd_lines = 0;
   friend bool operator==(const Outcome&, const Outcome&) = default;
 };
 
@@ -35,8 +35,10 @@ Outcome outcome_of(const std::string& path, bool ahead, std::optional<Bounds3d>&
     if (ahead) told = source->bounds();
     outcome.triangles = read_all(*source);
     outcome.bad_faces = source->counts().bad_faces;
+    outcome.odd_lines = source->counts().unfollowed.lines;
     source->rewind();
     CHECK((read_all(*source) == outcome.triangles));
+    CHECK(source->counts().unfollowed.lines == outcome.odd_lines);
   } catch (const Error& e) {
     outcome.complaint = e.what();
   }
@@ -63,7 +65,8 @@ std::string long_obj(unsigned seed, const std::string& line_end) {
   std::mt19937 random(seed);
   const auto number = [&] { return std::to_string(double(int(random() % 2000001) - 1000000) / 997); };
   const char* const blanks[] = {" ", "  ", "\t"};
-  std::string text = "# a comment" + line_end;
+  std::string text = "# a comment of \xC3\xA9" + line_end;
+  for (int i = 0; i < 7; ++i) text += "vt 0 0" + line_end + "vn 0 0 1" + line_end;
   int vertices = 0;
   while (text.size() < 1200000) {
     for (int k = 0; k < 3; ++k, ++vertices) {
@@ -78,7 +81,7 @@ std::string long_obj(unsigned seed, const std::string& line_end) {
     text += "f -1 -2 -3" + line_end;
     if (vertices > 9) text += "f 1/2/3 5//7 " + std::to_string(vertices) + line_end;
     if (random() % 3 == 0) text += " f\t-1 -2/1\t-3 -" + std::to_string(1 + random() % 9) + " " + line_end;
-    if (random() % 9 == 0) text += "f 1 2 " + std::to_string(random() % 99999) + line_end;  // it may be missing
+    if (random() % 9 == 0) text += "f 1 2 " + std::to_string(1 + random() % unsigned(vertices)) + line_end;
   }
   return text;
 }
@@ -107,12 +110,35 @@ TEST_CASE("an OBJ tells its bounds, and is read as if it had not", "[quick][io][
 
 TEST_CASE("an OBJ with odd lines is read, or refused, as if nobody had asked for its bounds", "[quick][io][bounds]") {
   const TempDir dir;
-  const std::vector<std::string> odd{
-      "v 5 \\\n6 7\n",  "v 5 6 7\rv 8 9 9\r", "v +5 6 7\n",        "v 5 6 7#c\n",   "\fv 5 6 7\n",
-      "\vv 5 6 7\n",    "v\v5 6 7\n",         "v 5 6\n",           "v\n",           "v 1e999 0 0\n",
-      "v nan inf 0\n",  "v 1.#INF 0 0\n",     "# c \\\nv 5 6 7\n", "v 5 6 x\n",     "v 5,6,7\n",
-      "v 0x10 0 0\n",   "\x01v 5 6 7\n",      "v 1e-320 0 0\n",    "v 5 6 7\x1A\n", "v 5\f6 7\n",
-      "v 5 6 7 \\\n8\n"};
+  const std::vector<std::string> odd{"v 5 \\\n6 7\n",
+                                     "v 5 6 7\rv 8 9 9\r",
+                                     "v +5 6 7\n",
+                                     "v 5 6 7#c\n",
+                                     "\fv 5 6 7\n",
+                                     "\vv 5 6 7\n",
+                                     "v\v5 6 7\n",
+                                     "v 5 6\n",
+                                     "v\n",
+                                     "v 1e999 0 0\n",
+                                     "v nan inf 0\n",
+                                     "v 1.#INF 0 0\n",
+                                     "# c \\\nv 5 6 7\n",
+                                     "v 5 6 x\n",
+                                     "v 5,6,7\n",
+                                     "v 0x10 0 0\n",
+                                     "\x01v 5 6 7\n",
+                                     "v 1e-320 0 0\n",
+                                     "v 5 6 7\x1A\n",
+                                     "v 5\f6 7\n",
+                                     "v 5 6 7 \\\n8\n",
+                                     "v 5 6 7 0.5\n",
+                                     "v 5 6 7 8 9\n",
+                                     "v 5 6 7 # 8\n",
+                                     "# a\fv 5 6 7\n",
+                                     "# \xC2\xA0\n",
+                                     "\xE9v 5 6 7\n",
+                                     "v\xC2\xA0 5 6 7\n",
+                                     std::string("# a\0v\n", 6)};
   for (const std::string& line : odd) {
     CAPTURE(line);
     for (const std::string& text : {line + kTriangle, kTriangle + line + "f 1 2 4\n", kTriangle + line}) {
@@ -120,8 +146,8 @@ TEST_CASE("an OBJ with odd lines is read, or refused, as if nobody had asked for
       (void)bounds_ahead(dir.file("b.obj", long_obj(1, "\n") + text));  // in the last block
     }
   }
-  for (const char* const line :
-       {"vx 5 6 7\n", "v 0 0 0 1\n", "vertex\n", " \t\n", "l 1 2\n", "o \\a\\b\n", "g v 5 6 7\n"}) {
+  for (const char* const line : {"vx 5 6 7\n", "v 0 0 0 1\n", "v 0 0 0 1 0 0\n", "v 0 0 0 1 0 0 1\n", "vertex\n",
+                                 " \t\n", "l 1 2\n", "o \\a\\b\n", "g v 5 6 7\n"}) {
     CAPTURE(line);
     CHECK(bounds_ahead(dir.file("c.obj", line + std::string(kTriangle))));
   }
@@ -164,7 +190,14 @@ TEST_CASE("odd faces of an OBJ are read, or refused, as if nobody had asked for 
                                      "fo 1 2 3\n",
                                      "f -0 1 2\n",
                                      "f 1 2 - 3\n",
-                                     "f 1,2,3\n"};
+                                     "f 1,2,3\n",
+                                     "f 1/1 2/1 3/1\n",
+                                     "f 1//1 2//1 3//1\n",
+                                     "vt 0 0\nf 1/1 2/1 3/2\n",
+                                     "vn 0 0 1\nf 1//-1 2//-2 3//-1\n",
+                                     "f 1/ 2/ 3/\n",
+                                     "f 4 1 2\nv 5 6 7\n",
+                                     "p 1\n"};
   for (const std::string& line : odd) {
     CAPTURE(line);
     (void)bounds_ahead(dir.file("a.obj", kTriangle + line));
@@ -226,4 +259,20 @@ TEST_CASE("a glTF tells no bounds if they would take more than its triangles", "
   shared.json["meshes"].push_back({{"primitives", primitives}});
   shared.node({{"mesh", 0}});
   CHECK_FALSE(check_ahead(dir.file("b.glb", shared.glb())));
+}
+
+TEST_CASE("an odd line of an OBJ is counted once, wherever it stands", "[quick][io][bounds]") {
+  const TempDir dir;
+  const std::string text = long_obj(4, "\n");
+  const auto odd_lines = [&](const std::string& all) {
+    std::optional<Bounds3d> told;
+    return outcome_of(dir.file("a.obj", all), true, told).odd_lines;
+  };
+  CHECK(odd_lines(text) == 0);
+  for (const char* const line :
+       {"f 1 2 3 # 4\n", "v 5 6 7 0.5\n", "# \xE2\x80\xA8\n", "f +1 2 3\n", "f 1/99999 2/1 3/1\n"}) {
+    CAPTURE(line);
+    CHECK(odd_lines(text + line + text) == 1);
+    CHECK(odd_lines(text + line) == 1);
+  }
 }

@@ -139,9 +139,10 @@ TEST_CASE("an ASCII PLY is read in blocks as by one thread", "[quick][io][blocks
 TEST_CASE("an ASCII PLY with odd lines is read, or refused, as by one thread", "[quick][io][blocks]") {
   const TempDir dir;
   const std::vector<std::string> vertices{
-      "+1 2 3 4\n",    "1 2 3\n4\n",   "\n1 2 3 4\n",  "1 2 3 4\r",      "1 2 3\r4\n",   "1 2 3 x\n",
-      "1 2 1e999 4\n", "1 2 3 4#c\n",  "1 2 3 4 \\\n", "1 2 3 4\v\n",    "\f1 2 3 4\n",  "1 2 nan 4\n",
-      "1 2 0x1 4\n",   "1 2 3 \x01\n", "1 2 3",        "1 2 1.#INF 4\n", "1\x01 2 3 4\n"};
+      "+1 2 3 4\n",    "1 2 3\n4\n",   "\n1 2 3 4\n",  "1 2 3 4\r",        "1 2 3\r4\n",    "1 2 3 x\n",
+      "1 2 1e999 4\n", "1 2 3 4#c\n",  "1 2 3 4 \\\n", "1 2 3 4\v\n",      "\f1 2 3 4\n",   "1 2 nan 4\n",
+      "1 2 0x1 4\n",   "1 2 3 \x01\n", "1 2 3",        "1 2 1.#INF 4\n",   "1\x01 2 3 4\n", "1 256 3 4\n",
+      "1 2.5 3 4\n",   "1 +2 3 4\n",   "1 -2 3 4\n",   "1 2 3\xC2\xA0 4\n"};
   const std::vector<std::string> faces{"3 0 1 2 0",
                                        "3 0 1 2\n0\n",
                                        "\n3 0 1 2 0\n",
@@ -160,6 +161,10 @@ TEST_CASE("an ASCII PLY with odd lines is read, or refused, as by one thread", "
                                        "3 0 1 99999999999999999999 0\n",
                                        "3 0 1 2 0 9 9\n",
                                        "3 0 1 2\t\x01\n",
+                                       "3 0 1 2 1.5\n",
+                                       "3 0 1 2 9999999999\n",
+                                       "3 0 1 9999999999 0\n",
+                                       "3 0 1\n2 0\n",
                                        ""};
   const LongPly ply(3, "\n");
   const std::string good = "0 0 0 0\n1 0 0 0\n0 0 1 1\n", face = "3 0 1 2 0\n";

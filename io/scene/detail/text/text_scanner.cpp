@@ -1,8 +1,10 @@
-#include "io/scene/detail/text_scanner.h"
+#include "io/scene/detail/text/text_scanner.h"
 
 #include <cmath>
 #include <cstring>
 #include <limits>
+
+#include "io/scene/detail/text/plain_integer.h"
 
 namespace bp {
 
@@ -49,7 +51,11 @@ bool TextScanner::refill() {
   end_ = cur_ + kept + got;
   eof_ = kept + got < kBuffer;
   *end_ = '\n';
-  if (begin_ == 0 && kept == 0 && got >= 3 && std::memcmp(cur_, "\xEF\xBB\xBF", 3) == 0) cur_ += 3;
+  if (begin_ == 0 && kept == 0) cur_ += starts_with_mark({cur_, got}) ? 3 : 0;
+  const std::uint64_t behind = begin_ + std::uint64_t(end_ - text_);
+  const std::uint64_t first = std::max({begin_ + std::uint64_t(kept), looked_to_, offset()});
+  if (behind > first) characters_.add({text_ + (first - begin_), std::size_t(behind - first)});
+  looked_to_ = std::max(looked_to_, behind);
   return got > 0;
 }
 
@@ -172,6 +178,14 @@ bool TextScanner::skip_microsoft_nan(double& value) {
   if (cur_[1] != 'I' && cur_[1] != 'Q' && cur_[1] != 'S') return false;
   value = std::numeric_limits<double>::quiet_NaN();
   skip_word();
+  return true;
+}
+
+bool TextScanner::plain_integer(std::int64_t& value) {
+  need_word();
+  const char* const last = take_digits(cur_, end_, value);
+  if (last == nullptr || !ends_word(*last)) return false;
+  cur_ += last - cur_;
   return true;
 }
 

@@ -2,6 +2,7 @@
 #include <charconv>
 #include <string_view>
 
+#include "io/scene/detail/text/odd_characters.h"
 #include "io/scene/scene_file.h"
 #include "lib/core/error.h"
 
@@ -33,6 +34,7 @@ class TextScanner {
 
   void seek(Mark mark);
   [[nodiscard]] Mark mark() const { return {offset(), line_}; }
+  [[nodiscard]] std::uint64_t line() const { return line_; }
   [[nodiscard]] std::uint64_t offset() const { return begin_ + std::uint64_t(cur_ - text_); }
   [[nodiscard]] std::uint64_t remaining() const { return file_->size() - std::min(file_->size(), offset()); }
 
@@ -60,6 +62,8 @@ class TextScanner {
   /// Returns whether anything but blanks follows on this line. Skips these blanks.
   bool has_more();
   [[nodiscard]] char peek() const { return *cur_; }
+  /// Returns whether a blank, a line end or a backslash is next.
+  [[nodiscard]] bool at_word_end() const { return static_cast<unsigned char>(*cur_) <= ' ' || *cur_ == '\\'; }
   void step() { cur_ += cur_ != end_; }  ///< moves over the character that peek() returned
   void skip_word();                      ///< a word of any length
 
@@ -71,9 +75,24 @@ class TextScanner {
   bool integer(std::int64_t& value);
   /// Reads an integer that may be written as a real ("3.0") and must end as one.
   bool count(std::int64_t& value);
+  /// Reads an integer of up to 18 digits, with "-" before them at most. Returns false, and reads nothing, if the word
+  /// is another.
+  bool plain_integer(std::int64_t& value);
 
   [[nodiscard]] bool at_end() { return cur_ == end_ && (eof_ || !refill()); }
 
+  /// Notes that other programs read a line in another way: this one, or one behind the last that was noted. A line
+  /// counts once, and not if it is read again.
+  void doubt() { doubt(line_); }
+  void doubt(std::uint64_t line) {
+    if (line <= doubted_to_ || offset() < counted_to_) return;
+    ++doubted_;
+    doubted_to_ = line;
+  }
+  [[nodiscard]] std::uint64_t doubted() const { return doubted_; }  ///< lines that doubt() has noted
+  /// Returns how many lines of the text that was read so far, or of that behind it in the buffer, other programs read
+  /// in another way: those of doubt(), with odd line ends, and with odd characters.
+  [[nodiscard]] std::uint64_t odd_lines() const { return doubted_ + ends_.odd() + characters_.lines(); }
   /// Returns the line ends that were met so far. One that is read again after seek() counts once.
   [[nodiscard]] const LineEnds& ends() const { return ends_; }
   /// Adds line ends of a part of the file that this scanner does not read.
@@ -110,6 +129,9 @@ class TextScanner {
   bool eof_ = false;  // the buffer reaches the end of the file
   LineEnds ends_;
   std::uint64_t counted_to_ = 0;  // line ends before this offset are in ends_
+  OddCharacters characters_;
+  std::uint64_t looked_to_ = 0;                 // characters before this offset are in characters_
+  std::uint64_t doubted_ = 0, doubted_to_ = 0;  // lines of doubt(), and the last one
 };
 
 }  // namespace bp
