@@ -88,8 +88,8 @@ std::string importer_of(const std::string& extension) {
 
 class SceneUnloader {
  public:
-  /// `exact`: lists that are known better than Assimp knows them; may be null.
-  SceneUnloader(ScratchFile& scratch, const SceneOptions& options, const ExactScene* exact)
+  /// `exact`: lists that are known better than Assimp knows them.
+  SceneUnloader(ScratchFile& scratch, const SceneOptions& options, const ExactScene& exact)
       : scratch_(scratch),
         exact_(exact),
         colors_(options.colors),
@@ -98,11 +98,12 @@ class SceneUnloader {
         textures_(scratch),
         cut_(options.fans) {}
   Summary unload(const aiScene& scene) {
-    if (exact_ != nullptr) summary_.unfollowed = exact_->unfollowed;
+    summary_.unfollowed = exact_.unfollowed;
     for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
-      const ExactMesh* const exact = exact_ == nullptr ? nullptr : exact_mesh(*exact_, *scene.mMeshes[i], i);
+      const ExactMesh* const exact = exact_mesh(exact_, *scene.mMeshes[i], i);
       add_mesh(*scene.mMeshes[i], exact, walls_only_ && see_through(*scene.mMeshes[i], scene));
       add_positions(*scene.mMeshes[i], exact);
+      if (exact_.is_known && exact == nullptr && summary_.meshes.back().triangles > 0) ++summary_.unfollowed.vertices;
       if (colors_) add_colors(*scene.mMeshes[i], scene);
       if (wants_textures_) summary_.meshes.back().texture = textures_.unload(*scene.mMeshes[i], scene);
     }
@@ -128,7 +129,7 @@ class SceneUnloader {
   void follow_bones(const aiScene& scene, const BonePlaces& places);
 
   ScratchFile& scratch_;
-  const ExactScene* const exact_;
+  const ExactScene& exact_;
   const bool colors_, walls_only_, wants_textures_;
   TextureUnloader textures_;
   FaceTriangles cut_;
@@ -198,15 +199,15 @@ void SceneUnloader::add_nodes(const aiScene& scene) {
   const bool has_bones =
       std::any_of(scene.mMeshes, scene.mMeshes + scene.mNumMeshes, [](const aiMesh* m) { return m->HasBones(); });
   BonePlaces places;
-  const ExactNode* const root = exact_ != nullptr && exact_->root ? &*exact_->root : nullptr;
-  if (root == nullptr && exact_ != nullptr && exact_->knows_nodes) ++summary_.unfollowed.transforms;
+  const ExactNode* const root = exact_.root ? &*exact_.root : nullptr;
+  if (root == nullptr && exact_.is_known) ++summary_.unfollowed.transforms;
   std::vector<Pending> stack{{scene.mRootNode, root, Affine()}};
   while (!stack.empty()) {
     Pending next = stack.back();
     stack.pop_back();
     if (next.exact != nullptr && !is_rounded(*next.exact, *next.node)) {
       next.exact = nullptr;
-      if (exact_->knows_nodes) ++summary_.unfollowed.transforms;  // counted once for all nodes below
+      if (exact_.is_known) ++summary_.unfollowed.transforms;  // counted once for all nodes below
     }
     const Affine transform = next.parent * (next.exact != nullptr ? next.exact->transform : rounded_affine(*next.node));
     if (has_bones) places.add(*next.node, transform);
@@ -220,10 +221,9 @@ void SceneUnloader::add_nodes(const aiScene& scene) {
 
 /// Assimp knows too little of COLLADA's morph targets; read_collada_nodes() has counted them.
 void SceneUnloader::follow_bones(const aiScene& scene, const BonePlaces& places) {
-  const bool knows_morphs = exact_ != nullptr && exact_->knows_nodes;
   for (NodeRecord& node : summary_.nodes) {
     const aiMesh& mesh = *scene.mMeshes[node.mesh];
-    if (!knows_morphs && is_morphed(mesh)) ++summary_.unfollowed.morphs;
+    if (!exact_.is_known && is_morphed(mesh)) ++summary_.unfollowed.morphs;
     if (!mesh.HasBones()) continue;
     Affine place = node.transform();
     if (places.hold(mesh, place))
@@ -233,25 +233,20 @@ void SceneUnloader::follow_bones(const aiScene& scene, const BonePlaces& places)
   }
 }
 
-/// Returns whether Assimp passes the numbers of vertices and nodes on as they are, but for rounding. The importers of
-/// other formats multiply and subtract places in single precision, where numbers cancel: nothing bounds that.
-bool passes_numbers_on(const std::string& extension) {
-  return extension == "fbx" || extension == "x" || extension == "3mf";
-}
-
-/// Reads a format that has an exact reader; of others, only what is not followed. Throws bad_alloc without room for it:
-/// memory must not decide what is read.
-std::optional<ExactScene> read_exactly(const SceneFile& file, const std::string& extension) {
-  const bool collada = extension == "dae", ac3d = is_ac3d(extension), dxf = extension == "dxf";
-  if (passes_numbers_on(extension)) return {};
-  if (!collada && !ac3d && !dxf) {
+/// Reads a format that is looked into here, beside Assimp. Throws bad_alloc without room for it: memory must not decide
+/// what is read. Nothing is known of files in other formats: Assimp leaves out parts of them, or multiplies and
+/// subtracts places in single precision, where numbers cancel.
+ExactScene read_exactly(const SceneFile& file, const std::string& extension) {
+  const bool collada = extension == "dae", ac3d = is_ac3d(extension), fbx = extension == "fbx";
+  if (!collada && !ac3d && !fbx && extension != "dxf") {
     ExactScene unknown;
-    unknown.unfollowed.placed = 1;
+    unknown.unfollowed.foreign = 1;
     return unknown;
   }
   std::string text(file.size(), '\0');
   file.read_at(0, std::as_writable_bytes(std::span(text)));
-  return collada ? exact_collada(std::move(text)) : ac3d ? exact_ac3d(text) : exact_dxf(text);
+  if (collada) return exact_collada(std::move(text));
+  return ac3d ? exact_ac3d(text) : fbx ? exact_fbx(text) : exact_dxf(text);
 }
 
 std::string import(const SceneFilePtr& file, const std::string& extension, ScratchFile& scratch,
@@ -263,9 +258,9 @@ std::string import(const SceneFilePtr& file, const std::string& extension, Scrat
                                 [](char a, char b) { return a == (b >= 'A' && b <= 'Z' ? char(b + 32) : b); });
   const std::string name = named ? path : path + suffix;
   std::string parts;  // must outlive the importer
-  const std::optional<ExactScene> exact = read_exactly(*file, extension);
-  if (exact && exact->unread != nullptr)
-    fail(ErrorCode::bad_input, "{}: {}; export it as glTF (GLB)", file->name(), exact->unread);
+  ExactScene exact = read_exactly(*file, extension);
+  if (exact.unread != nullptr)
+    fail(ErrorCode::bad_input, "{}: {}; export it as glTF (GLB)", file->name(), exact.unread);
   Assimp::Importer importer;
   importer.SetIOHandler(new SceneFileSystem(file, name, parts, is_ac3d(extension)));
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);  // bones alone are no surface
@@ -273,13 +268,15 @@ std::string import(const SceneFilePtr& file, const std::string& extension, Scrat
   if (scene == nullptr) {
     const std::string_view why = importer.GetErrorString();
     // If Assimp calls a known XML malformed, its parser had no memory.
-    const bool known_xml = extension == "dae" && exact;
+    const bool known_xml = extension == "dae" && exact.is_known;
     if (why.find("bad_alloc") != why.npos || (known_xml && why.find("malformed XML") != why.npos))
       throw std::bad_alloc();  // Assimp has caught it
     fail(ErrorCode::bad_input, "{}: cannot be read: {}; repair it, or {}", file->name(), importer.GetErrorString(),
          remedy_for(file->name()));
   }
-  Summary summary = SceneUnloader(scratch, options, exact ? &*exact : nullptr).unload(*scene);
+  if (extension == "fbx" && scene->mRootNode != nullptr)
+    exact.unfollowed.transforms += models_that_inherit(*scene->mRootNode);
+  Summary summary = SceneUnloader(scratch, options, exact).unload(*scene);
   summary.parts = std::move(parts);
   return packed(summary);
 }

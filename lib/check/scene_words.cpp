@@ -19,11 +19,13 @@ std::string not_followed(const Unfollowed& u) {
   add(u.morphs, "mesh part", " with a morph target");
   add(u.transforms, "node",
       " whose transform programs read in different ways (lookat, rotate, rotations that are no turns, sheared "
-      "matrices, instances)");
+      "matrices, instances, ids, X_UP, InheritType)");
   add(u.vertices, "mesh part", " whose vertices programs read in different ways");
-  add(u.missing, "shape", " that is not read (in another file, or a solid)");
+  add(u.missing, "shape",
+      " left out (in another file or scene, a solid, a NURBS surface, a DXF face with a hidden edge)");
   add(u.lines, "line", " that programs read in different ways (where it ends, words that others pass over)");
   add(u.placed, "placement", " by the importer, in single precision");
+  add(u.foreign, "file", " of a format that only Assimp reads, which leaves out parts of it");
   add(u.culled, "mesh part", " beyond its min and max in the file, by which viewers cull");
   add(u.hidden, "mesh part", " that viewers may hide");
   add(u.variants, "document", " that shows more than one pose or scene (animations, no default scene)");

@@ -34,9 +34,9 @@ Json json_of(const std::optional<SampledDistance>& d) {
 }
 
 Json json_of(const Unfollowed& u) {
-  return {{"skins", u.skins},     {"morphs", u.morphs},    {"transforms", u.transforms}, {"vertices", u.vertices},
-          {"missing", u.missing}, {"lines", u.lines},      {"placed", u.placed},         {"culled", u.culled},
-          {"hidden", u.hidden},   {"variants", u.variants}};
+  return {{"skins", u.skins},     {"morphs", u.morphs}, {"transforms", u.transforms}, {"vertices", u.vertices},
+          {"missing", u.missing}, {"lines", u.lines},   {"placed", u.placed},         {"foreign", u.foreign},
+          {"culled", u.culled},   {"hidden", u.hidden}, {"variants", u.variants}};
 }
 
 Json scene_json(const CheckReport& r) {

@@ -64,14 +64,15 @@ struct Unfollowed {
   std::uint64_t vertices = 0;    ///< meshes whose vertices are read in different ways
   std::uint64_t missing = 0;     ///< instances of meshes that are not read, or are in another file
   std::uint64_t lines = 0;       ///< lines of a text that programs end elsewhere, or read more of
-  std::uint64_t placed = 0;      ///< files whose meshes the importer places, in single precision
+  std::uint64_t placed = 0;      ///< meshes that the importer places, in single precision
+  std::uint64_t foreign = 0;     ///< files of a format that only Assimp reads, which leaves out parts of it
   std::uint64_t culled = 0;      ///< meshes that leave the bounds in their file, by which viewers cull
   std::uint64_t hidden = 0;      ///< meshes that viewers may hide
   std::uint64_t variants = 0;    ///< documents that show other poses or scenes, too: animations, no default scene
 
   [[nodiscard]] bool any() const { return moves() || missing + culled + hidden + variants > 0; }
   /// Returns whether meshes that were read may lie elsewhere in other programs.
-  [[nodiscard]] bool moves() const { return skins + morphs + transforms + vertices + lines + placed > 0; }
+  [[nodiscard]] bool moves() const { return skins + morphs + transforms + vertices + lines + placed + foreign > 0; }
   /// Returns whether other programs may draw what was read elsewhere, or draw more.
   [[nodiscard]] bool draws_elsewhere() const { return moves() || missing > 0; }
   /// Returns what matters to a proxy around all meshes: it encloses those that are not drawn, too.
@@ -82,7 +83,7 @@ struct Unfollowed {
   }
   void add(const Unfollowed& u) {
     skins += u.skins, morphs += u.morphs, transforms += u.transforms, vertices += u.vertices, missing += u.missing;
-    lines += u.lines, placed += u.placed, culled += u.culled, hidden += u.hidden;
+    lines += u.lines, placed += u.placed, foreign += u.foreign, culled += u.culled, hidden += u.hidden;
     variants += u.variants;
   }
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <set>
 #include <sstream>
 
 #include "io/files/file.h"
@@ -24,23 +25,28 @@ std::string bytes_at(const InputFile& file, std::uint64_t offset, std::size_t n)
   return bytes;
 }
 
+/// Reads comments. Where lines tell a contract or an origin in different ways, the file tells none.
 MeshExtras from_comments(const std::string& head) {
   MeshExtras extras;
+  std::set<std::string> contracts;
+  std::set<Vec3d> origins;
   std::istringstream lines(head);
   for (std::string line; std::getline(lines, line);) {
     for (const std::string start : {"comment provenance: ", "# provenance: "}) {
       if (line.compare(0, start.size(), start) == 0) extras.provenance.push_back(line.substr(start.size()));
     }
     for (const std::string start : {"comment contract: ", "# contract: "}) {
-      if (line.compare(0, start.size(), start) == 0) extras.contract = line.substr(start.size());
+      if (line.compare(0, start.size(), start) == 0) contracts.insert(line.substr(start.size()));
     }
     for (const std::string start : {"comment origin: ", "# origin: "}) {
       Vec3d p;
       if (line.compare(0, start.size(), start) == 0 &&
           std::istringstream(line.substr(start.size())) >> p[0] >> p[1] >> p[2])
-        extras.origin = p;
+        origins.insert(p);
     }
   }
+  if (contracts.size() == 1) extras.contract = *contracts.begin();
+  if (origins.size() == 1) extras.origin = *origins.begin();
   extras.recorded = !extras.provenance.empty();
   return extras;
 }

@@ -28,5 +28,8 @@ sed 's/contract: encloses/contract: inside/' proxy.obj > liar.obj
 claims liar.obj room.obj
 sed 's/contract: encloses/contract: best of all/' proxy.obj > boast.obj
 claims boast.obj room.obj
+# A file of two claims makes none.
+sed 's/^# contract: encloses/&\n# contract: fit/' proxy.obj > both.obj
+claims both.obj room.obj
 claims proxy.ply
 try bpcheck --claimed --inside room.obj proxy.ply

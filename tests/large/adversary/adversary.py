@@ -300,7 +300,7 @@ def one_scene(tool, rng):
     done = tool("bpcheck", *{"around": [], "inside": ["--inside"], "convex": ["--convex"]}[question], scene_path, out)
     mesh = files.READERS[out.rsplit(".", 1)[1]](out)
     truth = judge(mesh, scene, question) if how != "occluder" else None
-    lossy = done.returncode == 5  # single precision, which bpvox tells: the file's own coordinates may stick out
+    lossy = done.returncode == 5  # single precision, or a format that only Assimp reads, which bpvox tells: the file's own coordinates may stick out
     bad = wrong(done.returncode, truth) or ("wrong made" if done.returncode == 1 or (truth is False and not lossy) else "")
     return {**row, "truth": truth, "exit": done.returncode, "faces": len(mesh), "wrong": bad, "said": done.stderr.strip()[-200:]}
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
-#include <stdexcept>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -19,8 +19,8 @@ namespace bp {
 namespace {
 
 std::vector<double> transform_numbers(const ColladaXml& element, std::size_t n) {
-  std::vector<double> numbers = numbers_in(collada_text(element));
-  if (numbers.size() < n) throw ColladaUnfit();
+  std::vector<double> numbers = collada_numbers(element);
+  if (numbers.size() != n) throw ColladaUnfit();
   return numbers;
 }
 
@@ -100,6 +100,7 @@ std::optional<Affine> transform_of(const ColladaXml& element) {
   Affine a;
   if (is_element(element, "matrix")) {
     const std::vector<double> m = transform_numbers(element, 16);
+    if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] != 1) throw ColladaUnfit();
     for (std::size_t i = 0; i < 3; ++i) {
       for (std::size_t j = 0; j < 4; ++j) a.m[i][j] = m[4 * i + j];
     }
@@ -164,8 +165,10 @@ class NodeTree {
     for (const ColladaXml instance : node.children("instance_node")) {
       const char* const url = instance.attribute("url").value();
       const auto found = nodes_of_.find(collada_target(url));
-      if (found != nodes_of_.end()) out.children.push_back(of(found->second, depth + 1));
-      if (url[0] != '#') ++unfollowed_.missing;  // a node of another file
+      if (found != nodes_of_.end())
+        out.children.push_back(of(found->second, depth + 1));
+      else
+        ++unfollowed_.missing;  // perhaps a node of another file
     }
     return out;
   }
@@ -195,7 +198,7 @@ class NodeTree {
   void note_shapes(const ColladaXml& node) {
     for (const ColladaXml instance : node.children("instance_geometry")) {
       const auto found = geometries_.find(collada_target(instance.attribute("url").value()));
-      if (found != geometries_.end() && (found->second.child("convex_mesh") || found->second.child("brep")))
+      if (found == geometries_.end() || found->second.child("convex_mesh") || found->second.child("brep"))
         ++unfollowed_.missing;
     }
     for (const ColladaXml instance : node.children("instance_controller")) {
@@ -214,7 +217,7 @@ class NodeTree {
   /// Returns whether all vertices of a skin are without a joint. Programs differ on where such vertices stay. A skin of
   /// these alone has no bones for Assimp.
   static bool has_no_joints(const ColladaXml& skin) {
-    const std::vector<double> joints = numbers_in(collada_text(skin.child("vertex_weights").child("vcount")));
+    const std::vector<double> joints = collada_numbers(skin.child("vertex_weights").child("vcount"));
     return std::all_of(joints.begin(), joints.end(), [](double n) { return !(n > 0); });
   }
 
@@ -224,23 +227,54 @@ class NodeTree {
   bool sheared_ = false;
 };
 
-/// Returns the transform after that of the visual scene: its unit in metres, and the axis that is up.
+/// Returns the transform after that of the visual scene: its unit in metres, and the axis that is up. Programs turn
+/// X_UP to different sides.
 Affine to_metres(const ColladaXml& asset) {
   Affine a;
-  const double metre =
-      asset.child("unit").attribute("meter") ? numbers_in(asset.child("unit").attribute("meter").value()).at(0) : 1;
-  for (std::size_t i = 0; i < 3; ++i) a.m[i][i] = metre;
+  const pugi::xml_attribute meter = asset.child("unit").attribute("meter");
+  const std::optional<std::vector<double>> unit = only_numbers_in(meter ? meter.value() : "1");
+  if (!unit || unit->size() != 1 || !(unit->front() > 0)) throw ColladaUnfit();
+  for (std::size_t i = 0; i < 3; ++i) a.m[i][i] = unit->front();
   Affine turn;
   const std::string_view up = collada_text(asset.child("up_axis"));
-  if (up == "X_UP") turn.m = {{{0, -1, 0, 0}, {1, 0, 0, 0}, {0, 0, 1, 0}}};
-  if (up == "Z_UP") turn.m = {{{1, 0, 0, 0}, {0, 0, 1, 0}, {0, -1, 0, 0}}};
+  if (up == "Z_UP")
+    turn.m = {{{1, 0, 0, 0}, {0, 0, 1, 0}, {0, -1, 0, 0}}};
+  else if (up != "Y_UP" && asset.child("up_axis"))
+    throw ColladaUnfit();
   return a * turn;
 }
 
+/// Looks at all ids and targets of a document.
+struct IdWalker final : pugi::xml_tree_walker {
+  bool for_each(ColladaXml& element) override {
+    const std::string kind = element.name(), id = element.attribute("id").value();
+    const std::string name = element.attribute("name").value();
+    if (!id.empty() && !ids.insert(kind + "#" + id).second) ++doubts;
+    if (name != id) names.insert(kind + "#" + name);
+    if (kind == "instance_node" || kind == "instance_geometry")
+      targets.push_back(kind.substr(kInstance.size()) + element.attribute("url").value());
+    if ((kind == "unit" || kind == "up_axis") && is_element(element.parent(), "asset") &&
+        (!is_element(element.parent().parent(), "COLLADA") || !ids.insert(kind).second))
+      ++doubts;  // it holds for a part of the document, or another one does
+    return true;
+  }
+  static constexpr std::string_view kInstance = "instance_";
+  std::set<std::string> ids, names;
+  std::vector<std::string> targets;  ///< kind and URL: "node#n"
+  std::uint64_t doubts = 0;
+};
+
 }  // namespace
 
+std::uint64_t doubtful_ids(const ColladaXml& document) {
+  IdWalker all;
+  ColladaXml(document).traverse(all);
+  for (const std::string& target : all.targets) all.doubts += all.names.contains(target) ? 1 : 0;
+  return all.doubts;
+}
+
 void read_collada_nodes(const ColladaXml& document, ExactScene& scene) {
-  scene.knows_nodes = true;
+  scene.is_known = true;
   for (const ColladaXml library : document.children("library_controllers")) {
     if (library.find_child([](const ColladaXml& controller) { return !controller.child("morph").empty(); }))
       scene.unread = "a mesh has morph targets (<morph>), which are not read from COLLADA";
@@ -248,7 +282,10 @@ void read_collada_nodes(const ColladaXml& document, ExactScene& scene) {
   try {
     const ColladaXml instance = document.child("scene").child("instance_visual_scene");
     const std::string shown = collada_target(instance.attribute("url").value());
+    std::ptrdiff_t scenes = 0;
     for (const ColladaXml library : document.children("library_visual_scenes")) {
+      const auto all = library.children("visual_scene");
+      scenes += std::distance(all.begin(), all.end());
       const ColladaXml visual = library.find_child_by_attribute("visual_scene", "id", shown.c_str());
       if (!visual) continue;
       NodeTree tree(document, scene.unfollowed);
@@ -256,10 +293,9 @@ void read_collada_nodes(const ColladaXml& document, ExactScene& scene) {
       if (tree.sheared()) scene.unread = "a node has <skew>, which programs read in different ways or leave out";
       scene.root->transform = to_metres(document.child("asset"));
     }
+    if (scenes > 1) ++scene.unfollowed.missing;
   } catch (const ColladaUnfit&) {
     scene.root = {};  // Assimp's nodes are taken
-  } catch (const std::out_of_range&) {
-    scene.root = {};
   }
 }
 

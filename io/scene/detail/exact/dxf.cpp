@@ -5,7 +5,8 @@
 #include "io/scene/detail/exact/exact_scene.h"
 
 // DXF (AutoCAD 2012 DXF Reference). Assimp reads faces and polyface meshes; it moves what INSERT places in single
-// precision, and drops its turn. Here, only what it does not follow is counted.
+// precision, and drops its turn. It drops faces of polyface meshes with a corner's number below 0, which means that the
+// edge from there is invisible. Here, only what it does not follow is counted.
 
 namespace bp {
 
@@ -61,7 +62,9 @@ class Entities {
     const bool is_thick = code == "39" && number_of(value) != 0;
     const bool is_turned =
         ((code == "210" || code == "220") && number_of(value) != 0) || (code == "230" && number_of(value) != 1);
-    unfollowed_.missing += is_grid || is_thick ? 1 : 0;
+    const bool is_corner = entity_ == "VERTEX" && code.size() == 2 && code >= "71" && code <= "74";
+    const bool is_dropped = is_corner && value.find_first_not_of("0123456789") != value.npos;
+    unfollowed_.missing += is_grid || is_thick || is_dropped ? 1 : 0;
     unfollowed_.transforms += is_turned ? 1 : 0;
   }
 

@@ -64,21 +64,23 @@ bool is_rounded(const ExactNode& exact, const aiNode& node) {
   return near;
 }
 
-std::vector<double> numbers_in(std::string_view text) {
+std::optional<std::vector<double>> only_numbers_in(std::string_view text) {
   std::vector<double> numbers;
   const char *at = text.data(), *const end = at + text.size();
   const auto is_blank = [](char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; };
   for (;;) {
     while (at != end && is_blank(*at)) ++at;
-    if (at != end && *at == '+') ++at;
+    if (at == end) return numbers;
+    if (*at == '+') ++at;
     double value = 0;
     const auto [next, fault] = std::from_chars(at, end, value);
     if (fault == std::errc::result_out_of_range && next != at)
       value = 0;  // tiny, or too large: then nothing fits
     else if (fault != std::errc())
-      return numbers;
+      return {};
     numbers.push_back(value);
     at = next;
+    if (at != end && !is_blank(*at)) return {};
   }
 }
 

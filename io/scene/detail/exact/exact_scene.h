@@ -34,8 +34,8 @@ struct ExactNode {
 struct ExactScene {
   std::vector<ExactMesh> meshes;
   std::optional<ExactNode> root;  ///< none: the nodes are not known
-  /// All nodes of the format are understood: a node of Assimp's that differs is read in two ways.
-  bool knows_nodes = false;
+  /// The whole file is understood: a mesh or a node of Assimp's that differs is read in two ways.
+  bool is_known = false;
   Unfollowed unfollowed;
   const char* unread = nullptr;  ///< why Assimp must not read the file
 };
@@ -46,14 +46,19 @@ struct ExactScene {
 /// Returns whether Assimp's node has this transform, apart from rounding.
 [[nodiscard]] bool is_rounded(const ExactNode& exact, const aiNode& node);
 
-/// Read a text; nothing if it is not understood. Linear in time and memory.
-[[nodiscard]] std::optional<ExactScene> exact_collada(std::string text);
-[[nodiscard]] std::optional<ExactScene> exact_ac3d(const std::string& text);
+/// Read a text. Parts that they do not understand are counted in `unfollowed`. Linear in time and memory.
+[[nodiscard]] ExactScene exact_collada(std::string text);
+[[nodiscard]] ExactScene exact_ac3d(const std::string& text);
 
-/// Reads only what Assimp does not follow in a DXF.
+/// Read only what Assimp does not follow in a DXF, or in the bytes of an FBX.
 [[nodiscard]] ExactScene exact_dxf(std::string_view text);
+[[nodiscard]] ExactScene exact_fbx(std::string_view bytes);
 
-/// Returns the numbers of a text with blanks between them; ends before a word that is no number.
-[[nodiscard]] std::vector<double> numbers_in(std::string_view text);
+/// Returns the number of FBX models that may stand elsewhere. A model below one that turns or scales inherits as its
+/// InheritType says. Assimp knows type 1 (RSrs) only.
+[[nodiscard]] std::uint64_t models_that_inherit(const aiNode& root);
+
+/// Returns the numbers of a text with blanks between them. Nothing if the text holds anything else.
+[[nodiscard]] std::optional<std::vector<double>> only_numbers_in(std::string_view text);
 
 }  // namespace bp

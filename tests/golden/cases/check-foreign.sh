@@ -1,0 +1,60 @@
+# Files of formats that Assimp reads, and that other programs read in another way: nothing is proven of them. Each line of the table: the
+# answer that is right, the file of tests/data/bugs/readings_collada or readings_foreign, and whether it is the scene or the proxy.
+bugs=$BP_ROOT/tests/data/bugs/readings
+write_cube cube.obj 1
+awk '/^v/ { print "v", $2 * 9 - 4, $3 * 9 - 4, $4 * 9 - 4; next } { print }' cube.obj > around.obj
+awk '/^v/ { print "v", $2 * 0.1 + 0.4, $3 * 0.1 + 0.4, $4 * 0.1 + 0.4; next } { print }' cube.obj > small.obj
+while read -r right file role; do
+  cp "${bugs}_collada/$file" . 2> /dev/null || cp "${bugs}_foreign/$file" .
+  if [ "$role" = proxy ]; then set -- small.obj "$file"; else set -- "$file" around.obj; fi
+  answer "$right" "$role $file" "$@"
+done << 'TABLE'
+proven plain.dae scene
+proven plain.dae proxy
+undecided comment_in_corners.dae scene
+undecided cdata_in_corners.dae scene
+undecided instruction_in_corners.dae scene
+undecided target_is_name.dae scene
+undecided geometry_twice.dae scene
+undecided geometry_twice.dae proxy
+undecided offset.dae scene
+undecided offset.dae proxy
+undecided nameless.dae scene
+undecided turned_axes.dae scene
+undecided x_up.dae scene
+undecided blank_up.dae scene
+undecided two_scenes.dae scene
+undecided two_scenes.dae proxy
+undecided projective.dae scene
+undecided asset_of_scene.dae scene
+undecided no_target.dae scene
+proven plain.ac scene
+proven plain.ac proxy
+undecided turned.ac scene
+undecided turned_and_moved.ac scene
+undecided kid_of_moved.ac scene
+undecided group_with_surfaces.ac scene
+undecided material_missing.ac scene
+undecided more_kids.ac scene
+undecided more_surfaces.ac scene
+undecided more_vertices.ac scene
+undecided text_as_line.ac scene
+undecided name_of_lines.ac scene
+undecided subdivided.ac proxy
+undecided unknown_surface.ac scene
+undecided moved_twice.ac scene
+undecided hidden_edge.dxf scene
+proven plain.fbx scene
+undecided inherit_0.fbx scene
+refuted inherit_1.fbx scene
+undecided inherit_2.fbx scene
+undecided inherit_unsaid.fbx scene
+undecided nurbs.fbx scene
+undecided beams.3mf scene
+undecided beams.3mf proxy
+undecided other_part.3mf scene
+undecided patch.x scene
+TABLE
+
+# All tools read such a file as before, and bpinfo tells that it is one.
+bpinfo beams.3mf | grep -E "triangles|unread"
