@@ -237,8 +237,8 @@ void SceneUnloader::follow_bones(const aiScene& scene, const BonePlaces& places)
 /// what is read. Nothing is known of files in other formats: Assimp leaves out parts of them, or multiplies and
 /// subtracts places in single precision, where numbers cancel.
 ExactScene read_exactly(const SceneFile& file, const std::string& extension) {
-  const bool collada = extension == "dae", ac3d = is_ac3d(extension), fbx = extension == "fbx";
-  if (!collada && !ac3d && !fbx && extension != "dxf") {
+  const bool collada = extension == "dae", ac3d = is_ac3d(extension);
+  if (!collada && !ac3d && extension != "dxf") {
     ExactScene unknown;
     unknown.unfollowed.foreign = 1;
     return unknown;
@@ -246,7 +246,7 @@ ExactScene read_exactly(const SceneFile& file, const std::string& extension) {
   std::string text(file.size(), '\0');
   file.read_at(0, std::as_writable_bytes(std::span(text)));
   if (collada) return exact_collada(std::move(text));
-  return ac3d ? exact_ac3d(text) : fbx ? exact_fbx(text) : exact_dxf(text);
+  return ac3d ? exact_ac3d(text) : exact_dxf(text);
 }
 
 std::string import(const SceneFilePtr& file, const std::string& extension, ScratchFile& scratch,
@@ -274,8 +274,6 @@ std::string import(const SceneFilePtr& file, const std::string& extension, Scrat
     fail(ErrorCode::bad_input, "{}: cannot be read: {}; repair it, or {}", file->name(), importer.GetErrorString(),
          remedy_for(file->name()));
   }
-  if (extension == "fbx" && scene->mRootNode != nullptr)
-    exact.unfollowed.transforms += models_that_inherit(*scene->mRootNode);
   Summary summary = SceneUnloader(scratch, options, exact).unload(*scene);
   summary.parts = std::move(parts);
   return packed(summary);

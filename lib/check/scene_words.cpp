@@ -19,7 +19,7 @@ std::string not_followed(const Unfollowed& u) {
   add(u.morphs, "mesh part", " with a morph target");
   add(u.transforms, "node",
       " whose transform programs read in different ways (lookat, rotate, rotations that are no turns, sheared "
-      "matrices, instances, ids, X_UP, InheritType)");
+      "matrices, instances, ids, X_UP)");
   add(u.vertices, "mesh part", " whose vertices programs read in different ways");
   add(u.missing, "shape",
       " left out (in another file or scene, a solid, a NURBS surface, a DXF face with a hidden edge)");

@@ -104,6 +104,11 @@ class Inputs(unittest.TestCase):
         self.assertTrue(same(bp.proxy(unused, t, **QUICK), self.wanted))
         self.refused(bp.InputError, "no triangle|area", bp.proxy, np.zeros((3, 3)), np.array([[0, 1, 2]]))
 
+    def test_words(self):
+        for up in ("x", "-x", "y", "-y", "z", "-z"):
+            with self.subTest(up=up):
+                self.assertEqual(len(bp.proxy(self.vertices, self.triangles, faces=12, resolution=16, up=up).triangles) % 2, 0)
+
     def test_options_that_make_no_sense(self):
         v, t = self.vertices, self.triangles
         for how, words in ((dict(faces=0), "no number of triangles"), (dict(faces=[100, 100]), "fewer than the one before"),

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <set>
+
 #include "io/tiles/tileset_level.h"
 #include "lib/core/error.h"
 #include "tools/check/hints.h"
@@ -31,10 +33,18 @@ std::optional<Contract> told_contract(const std::string& file) {
 }
 
 std::optional<Contract> told_contract(const Tileset& tileset, const std::string& file) {
-  const auto contents = tileset_level(tileset, file, 0).contents;
-  const std::optional<Contract> claim = contents.empty() ? std::nullopt : told_contract(contents.front().path);
-  if (claim == Contract::leaf) return Contract::tile;  // only some contents of a tileset are leaves
-  return claim == Contract::tile || claim == Contract::fit ? claim : std::nullopt;
+  std::optional<Contract> claim;
+  std::set<std::string> asked;  // a branch that ends early has its tile in several levels
+  const std::size_t levels = tileset_level(tileset, file, 0).levels;
+  for (std::size_t i = 0; i < levels; ++i) {
+    for (const PlacedContent& content : tileset_level(tileset, file, i).contents) {
+      if (!asked.insert(content.path).second) continue;
+      const std::optional<Contract> told = told_contract(content.path);
+      if ((told != Contract::tile && told != Contract::fit) || (claim && claim != told)) return {};
+      claim = told;
+    }
+  }
+  return claim;
 }
 
 CheckRun asking_for(Contract contract, CheckRun run) {

@@ -13,7 +13,8 @@ namespace bp {
 /// Returns the contract that the file names. Empty: it names none, or one that this version does not know.
 [[nodiscard]] std::optional<Contract> told_contract(const std::string& file);
 
-/// Returns the contract that the contents of a tileset name: that of tiles, that of fits, or none.
+/// Returns the contract that all contents of a tileset but its leaves name: that of tiles or that of fits. Empty: they
+/// name another one, or differ. Reads the head of each.
 [[nodiscard]] std::optional<Contract> told_contract(const Tileset& tileset, const std::string& file);
 
 /// Returns the command line with the question that proves the claim. If the claim says nothing about the scene, the

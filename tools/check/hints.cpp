@@ -162,8 +162,11 @@ std::string rounding_hint(const std::string& scene, const std::string& proxy,
           file);
     const std::string format = scene_format_of(file);
     if (format == "obj" || format == "ply" || format == "off" || format == "stl")
-      return fmt::format("{}: end each line with LF, without a backslash, and with no more words than the format has",
-                         file);
+      return fmt::format(
+          "{}: write it anew, each vertex and each face on a line of its own that ends with LF, with the words that "
+          "the "
+          "format has and nothing behind them",
+          file);
     return fmt::format("write {} as glTF, whose nodes, skins and morph targets are followed", file);
   }
   for (const CheckReport& r : verdicts) {

@@ -30,6 +30,7 @@ undecided goes_on_material.obj proxy
 undecided goes_on_vertex.obj proxy
 undecided goes_on_vertex.obj scene
 undecided bent_high.obj proxy
+undecided f_word.obj scene
 undecided lone_cr.obj scene
 undecided lone_cr.ply scene
 undecided lone_cr_data.ply scene

@@ -33,3 +33,21 @@ sed 's/^# contract: encloses/&\n# contract: fit/' proxy.obj > both.obj
 claims both.obj room.obj
 claims proxy.ply
 try bpcheck --claimed --inside room.obj proxy.ply
+# A tileset claims what all its contents claim: fits among tiles cannot turn the question into an easier one.
+write_ball ball.obj 3
+bplod ball.obj --profile 3dtiles --faces 100,20 --resolution 16 -q -o tiles > /dev/null
+claims tiles/tileset.json ball.obj
+for level in 0 1; do
+  cp -r tiles liars$level
+  python3 - liars$level/ball_LOD$level.glb << 'P'
+import json, struct, sys
+data = open(sys.argv[1], "rb").read()
+size = struct.unpack("<I", data[12:16])[0]
+text = data[20:20 + size].replace(b'"contract":"tile"', b'"contract":"fit"').rstrip()
+assert len(text) < size, "no claim was replaced"
+open(sys.argv[1], "wb").write(data[:20] + text.ljust(size) + data[20 + size:])
+P
+  claims liars$level/tileset.json ball.obj
+done
+bplod ball.obj --profile 3dtiles --mode fit --faces 100,20 --resolution 16 -q -o fits > /dev/null
+claims fits/tileset.json ball.obj

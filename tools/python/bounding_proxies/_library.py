@@ -360,7 +360,9 @@ def size(value, name):
 
 def choice(value, names, name):
     """Returns the number of a word."""
-    word = value.replace("-", "_") if isinstance(value, str) else value  # as the tools write words
+    word = value
+    if isinstance(value, str) and value not in names:
+        word = value.replace("-", "_")  # as the tools write words
     if word not in names:
         raise ArgumentError(f"{name}: {value!r} is none of {', '.join(map(str, names))}")
     return names.index(word)

@@ -18,15 +18,16 @@ namespace bp {
   return std::find(kKeywords.begin(), kKeywords.end(), keyword) != kKeywords.end();
 }
 
-/// Returns whether a keyword is "v" or "f" and, without a blank between them, something other than a letter, or begins
-/// beyond ASCII. Some programs find a blank there, or read a number without one.
+/// Returns whether a keyword begins beyond ASCII, or is "v" and something other than a letter, or "f" and anything but
+/// an "o". Some programs find a blank there, read a number without one, or take each line with an "f" for a face.
 [[nodiscard]] inline bool is_glued(std::string_view keyword) {
   const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
   if (!keyword.empty() && static_cast<unsigned char>(keyword[0]) >= 0x80) return true;
-  return keyword.size() > 1 && (keyword[0] == 'v' || keyword[0] == 'f') && !is_letter(keyword[1]);
+  if (keyword.size() < 2) return false;
+  return (keyword[0] == 'v' && !is_letter(keyword[1])) || (keyword[0] == 'f' && keyword != "fo");
 }
 
-/// Lines "v", "vt" and "vn", of which a face names one each.
+/// Numbers of lines "v", "vt" and "vn": a corner of a face names one of each.
 struct ObjLines {
   std::uint64_t vertices = 0, places = 0, normals = 0;
 };

@@ -8,7 +8,7 @@
 
 // AC3D (Inivis, "The AC3D file format"): lines of words. The corners of an object are those of its surfaces, sorted by
 // material, with its `loc` added; `loc` of a group moves its kids. Assimp passes over lines that it does not expect,
-// and takes lines of a text for more. So a file is understood only if each line is one that belongs where it is.
+// and takes lines of a text for its own. So a file is understood only if each line is one that belongs where it is.
 
 namespace bp {
 
@@ -50,6 +50,7 @@ class Ac3dText {
   }
   /// Returns whether the file ends before the last kid, as tracks of TORCS do. It is not known which group has fewer.
   [[nodiscard]] bool is_short() const { return is_short_; }
+  [[nodiscard]] std::uint64_t hidden() const { return hidden_; }  ///< objects that AC3D itself does not show
   [[nodiscard]] std::uint64_t materials() const { return std::max<std::uint64_t>(materials_, 1); }
 
  private:
@@ -106,7 +107,7 @@ class Ac3dText {
 
   std::string_view text_, line_;
   std::size_t at_ = 0, end_ = 0;  // of the next line, and where this one ends
-  std::uint64_t materials_ = 0;
+  std::uint64_t materials_ = 0, hidden_ = 0;
   bool is_short_ = false;
 };
 
@@ -158,6 +159,7 @@ void Ac3dText::pass_over_text() {
 void Ac3dText::read_line() {
   constexpr std::array<std::string_view, 9> kLooks{"name",   "texture", "texrep", "texoff", "crease",
                                                    "hidden", "locked",  "folded", "url"};
+  hidden_ += word() == "hidden" ? 1 : 0;
   const bool ends = std::count(line_.begin(), line_.end(), '"') % 2 == 0;  // a name may go on in the next line
   if (word() == "data")
     pass_over_text();
@@ -192,8 +194,9 @@ Ac3dObject Ac3dText::object(int depth) {
       const std::vector<double> p = numbers(3);
       object.loc = {p[0], p[1], p[2]};
     } else if (what == "rot") {
-      object.is_turned = numbers(9) != object.rot;
-      object.rot = numbers(9);
+      const std::vector<double> rot = numbers(9);
+      object.is_turned = rot != object.rot;
+      object.rot = rot;
     } else if (what == "subdiv") {
       if (only_integer() > 0) throw NotUnderstood();  // Assimp computes vertices
     } else if (what == "numvert") {
@@ -306,6 +309,7 @@ ExactScene exact_ac3d(const std::string& text) {
     const Ac3dObject world = reader.world();
     ExactScene scene;
     scene.is_known = true;
+    scene.unfollowed.hidden = reader.hidden();
     scene.root = Ac3dMeshes(scene, reader).add(world);
     return scene;
   } catch (const NotUnderstood&) {  // it is not known how Assimp reads it

@@ -244,18 +244,21 @@ Affine to_metres(const ColladaXml& asset) {
   return a * turn;
 }
 
-/// Looks at all ids and targets of a document.
+/// Looks at the targets of a document, and at the ids of what surfaces and their places are made of.
 struct IdWalker final : pugi::xml_tree_walker {
   bool for_each(ColladaXml& element) override {
     const std::string kind = element.name(), id = element.attribute("id").value();
     const std::string name = element.attribute("name").value();
-    if (!id.empty() && !ids.insert(kind + "#" + id).second) ++doubts;
+    constexpr std::array<std::string_view, 7> kPlaced{"node",   "geometry", "controller", "visual_scene",
+                                                      "source", "vertices", "float_array"};
+    const bool is_placed = std::find(kPlaced.begin(), kPlaced.end(), kind) != kPlaced.end();
+    if (is_placed && !id.empty() && !ids.insert(kind + "#" + id).second) ++doubts;
     if (name != id) names.insert(kind + "#" + name);
     if (kind == "instance_node" || kind == "instance_geometry")
       targets.push_back(kind.substr(kInstance.size()) + element.attribute("url").value());
     if ((kind == "unit" || kind == "up_axis") && is_element(element.parent(), "asset") &&
         (!is_element(element.parent().parent(), "COLLADA") || !ids.insert(kind).second))
-      ++doubts;  // it holds for a part of the document, or another one does
+      ++doubts;  // a unit of a part of the document, or a second one
     return true;
   }
   static constexpr std::string_view kInstance = "instance_";

@@ -13,10 +13,12 @@ namespace bp {
 namespace {
 
 /// Entities that Assimp reads, and those that are points, lines or letters.
-constexpr std::array<std::string_view, 24> kRead{
-    "3DFACE",  "POLYLINE",  "VERTEX",    "SEQEND", "LWPOLYLINE", "LINE",     "POINT",   "CIRCLE",
-    "ARC",     "ELLIPSE",   "SPLINE",    "TEXT",   "MTEXT",      "ATTDEF",   "ATTRIB",  "LEADER",
-    "MLEADER", "DIMENSION", "TOLERANCE", "XLINE",  "RAY",        "VIEWPORT", "SECTION", "ENDSEC"};
+constexpr std::array<std::string_view, 28> kRead{
+    "3DFACE",    "POLYLINE", "VERTEX",  "SEQEND",    "LWPOLYLINE",    "LINE",
+    "POINT",     "CIRCLE",   "ARC",     "ELLIPSE",   "SPLINE",        "TEXT",
+    "MTEXT",     "ATTDEF",   "ATTRIB",  "LEADER",    "MLEADER",       "MULTILEADER",
+    "MLINE",     "XLINE",    "RAY",     "DIMENSION", "ARC_DIMENSION", "LARGE_RADIAL_DIMENSION",
+    "TOLERANCE", "VIEWPORT", "SECTION", "ENDSEC"};
 
 std::string_view trimmed_line(std::string_view& text) {
   constexpr std::string_view kSpace = " \t\r";
@@ -38,11 +40,14 @@ class Entities {
   void take(std::string_view code, std::string_view value) {
     if (code == "0") {
       begins_section_ = value == "SECTION";
+      is_layer_ = !inside_ && value == "LAYER";
       if (inside_) begin(value);
     } else if (code == "2" && begins_section_) {
       inside_ = value == "ENTITIES";
     } else if (inside_) {
       look_at(code, value);
+    } else if (is_layer_) {
+      look_at_layer(code, value);
     }
   }
   [[nodiscard]] const Unfollowed& unfollowed() const { return unfollowed_; }
@@ -66,9 +71,18 @@ class Entities {
     const bool is_dropped = is_corner && value.find_first_not_of("0123456789") != value.npos;
     unfollowed_.missing += is_grid || is_thick || is_dropped ? 1 : 0;
     unfollowed_.transforms += is_turned ? 1 : 0;
+    const bool is_invisible = code == "60" && number_of(value) != 0,
+               is_on_paper = code == "67" && number_of(value) == 1;
+    unfollowed_.hidden += is_invisible || is_on_paper ? 1 : 0;
+  }
+  /// Counts a layer that is off (its colour is below 0) or frozen: Assimp reads what lies on it.
+  void look_at_layer(std::string_view code, std::string_view value) {
+    constexpr int kFrozen = 1;
+    const bool is_off = code == "62" && value.starts_with('-');
+    unfollowed_.hidden += is_off || (code == "70" && (int(number_of(value)) & kFrozen) != 0) ? 1 : 0;
   }
 
-  bool begins_section_ = false, inside_ = false;
+  bool begins_section_ = false, inside_ = false, is_layer_ = false;
   std::string_view entity_;
   Unfollowed unfollowed_;
 };

@@ -46,17 +46,12 @@ struct ExactScene {
 /// Returns whether Assimp's node has this transform, apart from rounding.
 [[nodiscard]] bool is_rounded(const ExactNode& exact, const aiNode& node);
 
-/// Read a text. Parts that they do not understand are counted in `unfollowed`. Linear in time and memory.
+/// These read a text. Parts that they do not understand are counted in `unfollowed`. Linear in time and memory.
 [[nodiscard]] ExactScene exact_collada(std::string text);
 [[nodiscard]] ExactScene exact_ac3d(const std::string& text);
 
-/// Read only what Assimp does not follow in a DXF, or in the bytes of an FBX.
+/// Counts what Assimp does not follow in a DXF, and gives no lists.
 [[nodiscard]] ExactScene exact_dxf(std::string_view text);
-[[nodiscard]] ExactScene exact_fbx(std::string_view bytes);
-
-/// Returns the number of FBX models that may stand elsewhere. A model below one that turns or scales inherits as its
-/// InheritType says. Assimp knows type 1 (RSrs) only.
-[[nodiscard]] std::uint64_t models_that_inherit(const aiNode& root);
 
 /// Returns the numbers of a text with blanks between them. Nothing if the text holds anything else.
 [[nodiscard]] std::optional<std::vector<double>> only_numbers_in(std::string_view text);
