@@ -46,9 +46,9 @@ struct LevelDefaults {
   bool by_voxels = false;  ///< the budget is derived from the voxels, and has fewer faces than the scene has triangles
 };
 /// Completes the request for a scene of `triangles`. Shares become faces. If nothing is asked for, the finest level
-/// gets one face for `triangles_per_face` triangles. It gets at least 200, or in a scene of fewer triangles one face for
-/// each of them, and at least `least_faces`.
-/// There are at most 4 levels, each with a quarter of the faces before, down to kLeastFaces.
+/// gets one face for `triangles_per_face` triangles. It gets at least 200, or in a scene of fewer triangles one face
+/// for each of them, and at least `least_faces`. There are at most 4 levels, each with a quarter of the faces before,
+/// down to kLeastFaces.
 [[nodiscard]] LevelRequest with_defaults(LevelRequest request, std::uint64_t triangles, const LevelDefaults& defaults);
 
 /// Returns the target of level `i`. Level `since` is the first one that is one mesh: 0, or in a tileset the first level
