@@ -21,7 +21,9 @@ double reach_of(const Bounds3d& bounds) {
 /// hold. Dilations reach at most 2^12 voxels, because scales are 16-bit numbers of 1/16 voxel. Twice that is left as a
 /// margin.
 int lattice_bits(const Bounds3d& bounds, double voxel) {
-  return int(std::ceil(std::log2((reach_of(bounds) / voxel + 8192) * kLatticePerVoxel + 1))) + 1;
+  constexpr double kLargest = std::numeric_limits<double>::max();
+  const double largest = (reach_of(bounds) / voxel + 8192) * kLatticePerVoxel + 1;
+  return int(std::ceil(std::log2(std::min(largest, kLargest)))) + 1;
 }
 
 /// Returns the least power of two that a voxel must be a multiple of, so that float32 holds every lattice point within

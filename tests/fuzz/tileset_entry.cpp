@@ -163,7 +163,7 @@ class Maker {
     if (c_.once_in(40)) leaf["children"].push_back(tile("r.gltf", box({1, 1, 1, 15, 15, 15}), cell, wrong(0)));
     if (c_.once_in(40)) {
       damage_.any = true;
-      for (const Triangle& t : content) damage_.hole = damage_.hole || area(t) > 0.1;
+      for (const Triangle& t : content) damage_.hole = damage_.hole || is_wide(t);
       leaf.erase("content");
     }
     if (c_.once_in(40)) {
@@ -191,7 +191,7 @@ class Maker {
     Triangle& t = content[c_.below(std::uint32_t(content.size()))];
     switch (c_.below(6)) {
       case 0:
-        damage_.hole = damage_.hole || area(t) > 0.1;
+        damage_.hole = damage_.hole || is_wide(t);
         t = content.back();
         content.pop_back();
         break;
@@ -208,10 +208,12 @@ class Maker {
         t[c_.below(3)][c_.below(3)] += c_.of({1e-7, 1e-6, 3e-6, 1e-5, 1e-3, 1.0, -1.0});
     }
   }
-  static double area(const Triangle& t) {
+  /// Returns whether a hole of this shape is seen. A corner at infinity is a damage of its own.
+  static bool is_wide(const Triangle& t) {
     Point u, v;
     for (std::size_t i = 0; i < 3; ++i) u[i] = t[1][i] - t[0][i], v[i] = t[2][i] - t[0][i];
-    return std::hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]) / 2;
+    const double area = std::hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]) / 2;
+    return area > 0.1 && std::isfinite(area);
   }
 
   Choices& c_;
