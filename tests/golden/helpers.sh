@@ -111,3 +111,15 @@ answer() {
   [ "$got" = "$right" ] || echo "WRONG, is to be $right:"
   echo "$name: $got; $(if [ $status = 3 ]; then cat note; else tail -1 verdict; fi)"
 }
+
+# answers SCENE FOLDER... < TABLE: an answer() for each line of a table: the right one, a file in one of these folders of tests/data/bugs, and
+# whether it is the scene, in a large box around.obj, or the proxy, around SCENE. cube.obj must be there.
+answers() {
+  local inner=$1 right file role folder
+  shift
+  awk '/^v/ { print "v", $2 * 9 - 4, $3 * 9 - 4, $4 * 9 - 4; next } { print }' cube.obj > around.obj
+  while read -r right file role; do
+    for folder; do cp "$BP_ROOT/tests/data/bugs/$folder/$file" . 2> /dev/null && break; done
+    if [ "$role" = proxy ]; then answer "$right" "$role $file" "$inner" "$file"; else answer "$right" "$role $file" "$file" around.obj; fi
+  done
+}

@@ -1,13 +1,7 @@
 # Lines of text files that some programs read in another way, since they are not of the form that nearly all files have. Each line of the
 # table: the answer that is right, the file of tests/data/bugs/readings_lines, and whether it is the scene or the proxy.
-bugs=$BP_ROOT/tests/data/bugs/readings_lines
 write_cube cube.obj 1
-awk '/^v/ { print "v", $2 * 9 - 4, $3 * 9 - 4, $4 * 9 - 4; next } { print }' cube.obj > around.obj
-while read -r right file role; do
-  cp "$bugs/$file" .
-  if [ "$role" = proxy ]; then set -- cube.obj "$file"; else set -- "$file" around.obj; fi
-  answer "$right" "$role $file" "$@"
-done << 'TABLE'
+answers cube.obj readings_lines << 'TABLE'
 proven plain.obj scene
 undecided weight.obj scene
 undecided numbers_of_vertex.obj scene

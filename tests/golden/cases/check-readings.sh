@@ -2,12 +2,7 @@
 # the answer that is right, the file of tests/data/bugs/readings or readings_text, and whether it is the scene or the proxy. A cube lies in each of the boxes.
 bugs=$BP_ROOT/tests/data/bugs/readings
 write_cube cube.obj 1
-awk '/^v/ { print "v", $2 * 9 - 4, $3 * 9 - 4, $4 * 9 - 4; next } { print }' cube.obj > around.obj
-while read -r right file role; do
-  cp "$bugs/$file" . 2> /dev/null || cp "${bugs}_text/$file" .
-  if [ "$role" = proxy ]; then set -- cube.obj "$file"; else set -- "$file" around.obj; fi
-  answer "$right" "$role $file" "$@"
-done << 'TABLE'
+answers cube.obj readings readings_text << 'TABLE'
 proven box_around.gltf proxy
 undecided bounds_elsewhere.gltf proxy
 undecided bounds_missing.gltf proxy

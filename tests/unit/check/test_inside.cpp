@@ -102,6 +102,7 @@ TEST_CASE("a triangle of no area closes T-junctions, and is kept out of the prox
   const CheckReport within = inside_of(cube(1), join(thread, cube(2)));
   REQUIRE(within.swallowed.count == 1);
   CHECK(within.swallowed.examples[0].index == 0);
+  CHECK(inside_of(cube(3), join(thread, cube(2))).swallowed.count == 13);
   thread.vertices[0] = {-1, 0, 0};  // on the proxy's surface
   CHECK(inside_of(cube(1), join(thread, cube(2))).touching.count == 1);
   thread.vertices = {{-1.5, 0, 0}, {-1.25, 0, 0}, {-1.125, 0, 0}};
