@@ -20,17 +20,21 @@ exports.open = async (context, link, troubles) => {
   return page;
 };
 
-exports.state = (page) => page.evaluate(() => fetch('/api/state').then((r) => r.json()));
-
-exports.until = async (page, done, what) => {
-  for (let i = 0; i < 1200; ++i, await served.sleep(50)) { const s = await exports.state(page); if (done(s)) return s; }
-  throw new Error(`waited in vain: ${what}`);
+exports.picture = async (page, folder, name) => {
+  await served.drawn(page);
+  await page.screenshot({ path: path.join(folder, `${name}.png`) });
 };
 
-exports.picture = (page, folder, name) => page.screenshot({ path: path.join(folder, `${name}.png`) });
+/// Moves the pointer there. Returns the point of the surface that the page tells.
+exports.pointAt = async (page, x, y) => {
+  await page.mouse.move(x, y);
+  await served.drawn(page, 1);
+  return (await page.textContent('#point')).split(/\s+/).map(Number);
+};
 
-/// Returns shares of the pixels in a box of the page: of those that differ from the one at its first corner, and of red ones.
+/// Returns shares of the pixels in a box of the page, once they are drawn: of those that differ from the one at its first corner, and of red ones.
 exports.colors = async (page, x, y, width, height) => {
+  await served.drawn(page);
   const png = (await page.screenshot({ clip: { x, y, width, height } })).toString('base64');
   return page.evaluate(async (data) => {
     const bytes = Uint8Array.from(atob(data), (c) => c.charCodeAt(0));

@@ -1,7 +1,7 @@
 // Layers that are cut: closed ones are filled, the innermost is seen, and points of sections are picked.   node caps.cjs FOLDER
 // FOLDER gets scenes and pictures. Exit status 1 if something is wrong.
 const fs = require('fs'), path = require('path');
-const { Checks, end, launch, open, picture, serve, sleep } = require('./browser.cjs');
+const { Checks, drawn, end, launch, open, picture, pointAt, serve } = require('./browser.cjs');
 const [folder] = process.argv.slice(2);
 const checks = new Checks(), check = (...args) => checks.check(...args);
 
@@ -21,7 +21,7 @@ async function main() {
   const page = await open(await browser.newContext({ viewport: { width: 1280, height: 720 } }), link, troubles);
   /// The mean colour in a square around a point of the scene, and its darkest pixel over its brightest: sections are hatched.
   const at = async (...point) => {
-    await sleep(250);
+    await drawn(page);
     const [x, y] = await page.evaluate((p) => window.bpview.pixel(p), point);
     const png = (await page.screenshot({ clip: { x: x - 7, y: y - 7, width: 15, height: 15 } })).toString('base64');
     return page.evaluate(async (data) => {
@@ -36,10 +36,7 @@ async function main() {
   };
   const picked = async (...point) => {
     const [x, y] = await page.evaluate((p) => window.bpview.pixel(p), point);
-    await page.mouse.move(x - 2, y);
-    await page.mouse.move(x, y);
-    await sleep(300);
-    return (await page.textContent('#point')).split(/\s+/).map(Number);
+    return pointAt(page, x, y);
   };
   const near = (p, q) => p.length === 3 && p.every((value, i) => Math.abs(value - q[i]) < 0.05);
   const wall = [1.5, 5, 5], cavity = [5, 5, 5], beside = [-1, 5, 5];
@@ -85,6 +82,7 @@ async function main() {
   await page.locator('#view').focus();
   for (const key of ['1', '2']) await page.keyboard.press(key);
   await shown(1).check();
+  await page.waitForFunction(() => window.bpview.files() === 2);
   await rows.nth(1).locator('input[type=range]').fill('100');
   p = await at(...wall);
   check('an open file is not filled', p.red && !p.hatched, p);

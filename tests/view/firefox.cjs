@@ -2,7 +2,7 @@
 // FOLDER holds the scene, and gets rules, proxy and a picture. FIREFOX: the browser, else firefox-esr. Exit status 1 if something is wrong.
 const fs = require('fs'), path = require('path');
 const puppeteer = require('puppeteer-core');
-const { Checks, end, serve, sleep } = require('./served.cjs');
+const { Checks, drawn, end, serve, sleep, until: waitUntil } = require('./served.cjs');
 const [folder, scene] = process.argv.slice(2);
 const checks = new Checks(), check = (...args) => checks.check(...args);
 
@@ -18,11 +18,7 @@ async function main() {
   await page.setViewport({ width: 1280, height: 720 });
   await page.goto(link);
   await page.waitForFunction(() => window.bpview?.ready && window.bpview.generation > 0);
-  const state = () => page.evaluate(() => fetch('/api/state').then((r) => r.json()));
-  const until = async (done, what) => {
-    for (let i = 0; i < 1200; ++i, await sleep(50)) { const s = await state(); if (done(s)) return s; }
-    throw new Error(`waited in vain: ${what}`);
-  };
+  const until = (done, what) => waitUntil(page, done, what);
   check('the token leaves the address', !page.url().includes('#'), page.url());
   let s = await until((q) => q.proxy.step === 'ready' && q.proxy.current, 'the first proxy');
   check('the first proxy is proven', s.proxy.verdict.answer === 'proven', s.proxy);
@@ -31,7 +27,7 @@ async function main() {
   await page.keyboard.press('b');
   await page.mouse.move(x, y - 30);
   await page.mouse.down();
-  for (const step of [0, 30, 60]) { await page.mouse.move(x, y + step, { steps: 4 }); await sleep(40); }
+  for (const step of [0, 30, 60]) { await page.mouse.move(x, y + step, { steps: 4 }); await drawn(page, 1); }
   await page.mouse.up();
   s = await until((q) => q.design.rules.length === 1 && q.closing.shown === q.design.revision, 'a stroke');
   check('a stroke has several points', Array.isArray(s.design.rules[0].at[0]), s.design.rules[0]);
@@ -54,7 +50,7 @@ async function main() {
     for (let i = 0; i < 200 && !fs.existsSync(path.join(folder, name)); ++i) await sleep(50);
     check('a file is saved', fs.existsSync(path.join(folder, name)), name);
   }
-  await sleep(300);
+  await drawn(page);
   await page.screenshot({ path: path.join(folder, 'firefox.png') });
   check('nothing went wrong on the page', troubles.length === 0, troubles);
   await browser.close();

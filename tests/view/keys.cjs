@@ -86,8 +86,7 @@ async function main() {
   await until(page, (q) => q.faces === 500, 'other faces');
   await tabTo('#live');
   await keys.press('Space');
-  await until(page, (q) => !q.live, 'no proxy after each stroke');
-  await page.waitForFunction(() => document.getElementById('mesh').textContent === 'Mesh');
+  await until(page, (q) => !q.live && !['meshing', 'checking'].includes(q.proxy.step), 'no proxy after each stroke');
   await press('#rules button');
   await until(page, (q) => q.design.rules.length === 0 && q.closing.shown === q.design.revision, 'the rule removed');
   await press('#mesh');

@@ -2,7 +2,7 @@
 // FOLDER holds the scene, and gets the suite's files and pictures. Exit status 1 if something is wrong.
 const fs = require('fs'), path = require('path');
 const { execFileSync } = require('child_process');
-const { Checks, colors, end, launch, open, picture, serve, sleep, state, until } = require('./browser.cjs');
+const { Checks, colors, drawn, end, launch, message, open, picture, pointAt, serve, state, until } = require('./browser.cjs');
 const [folder, scene] = process.argv.slice(2);
 const checks = new Checks(), check = (...args) => checks.check(...args);
 const shell = (line) => execFileSync('bash', ['-c', `set -eo pipefail; ${line}`], { cwd: folder, stdio: ['ignore', 'ignore', 'inherit'] });
@@ -27,14 +27,12 @@ async function files(page) {
   // Each file is shown alone: pixels tell.
   await page.locator('#view').focus();
   for (const key of ['2', '4']) await page.keyboard.press(key);
-  await sleep(300);
   const empty = await colors(page, 200, 80, 500, 560);
   check('nothing is shown', empty.other < 0.001, empty);
   for (let i = 0, loaded = 1; i < names.length; ++i) {
     const box = rows.nth(i).locator('input[type=checkbox]');
     await box.check();
     if (i > 0) await page.waitForFunction((n) => window.bpview.files() === n, ++loaded);
-    await sleep(200);
     const seen = await colors(page, 200, 80, 500, 560);
     check('a file is seen', seen.other > 0.1, names[i], seen.other);
     check('its faces are counted', /^[\d,]+$/.test(await rows.nth(i).locator('.count').textContent()), names[i]);
@@ -63,33 +61,25 @@ async function cutting(page) {
   const seen = () => colors(page, 200, 80, 500, 560);
   await page.locator('#view').focus();
   await page.keyboard.press('2');
-  await sleep(300);
   const whole = await seen();
   check('a whole closing shows no inside', whole.red < 0.001, whole);
   await page.keyboard.press('x');
-  await sleep(300);
   const half = await seen();
   check('a cut closing is smaller, and is filled', half.red < 0.001 && half.other < 0.9 * whole.other, whole, half);
   check('the plane tells its place', /^x = \S+; larger ones are left out$/.test(await page.textContent('#cut-place')), await page.textContent('#cut-place'));
-  await page.mouse.move(425, 320);  // within the body
-  await page.waitForFunction(() => document.getElementById('point').textContent !== '');
-  const place = Number((await page.textContent('#cut-place')).split(/[ ;]+/)[2]), point = (await page.textContent('#point')).split(/\s+/).map(Number);
+  const place = Number((await page.textContent('#cut-place')).split(/[ ;]+/)[2]), point = await pointAt(page, 425, 320);  // within the body
   check('a point that was cut away is not picked', point[0] <= place + 1e-3, point, place);
   await picture(page, folder, 'cut');
   await page.keyboard.press('k');
-  await sleep(300);
   const hollow = await seen();
   check('a hollow closing shows its inside', hollow.red > 0.02 && Math.abs(hollow.other - half.other) < 0.02, half, hollow);
   await page.keyboard.press('k');
   for (let i = 0; i < 60; ++i) await page.keyboard.press('.');
-  await sleep(300);
   check('a plane beyond everything leaves nothing', (await seen()).other < 0.002, await seen());
   await page.keyboard.press('\\');
-  await sleep(300);
   check('turned round it leaves everything', (await seen()).other > 0.98 * whole.other, await seen(), whole);
   for (let i = 0; i < 4; ++i) await page.keyboard.press('x');
   check('the last one is no cut', await page.getAttribute('[data-cut=off]', 'aria-pressed') === 'true');
-  await sleep(300);
   check('then all is there again', Math.abs((await seen()).other - whole.other) < 0.001);
   await page.keyboard.press('2');
 }
@@ -100,11 +90,9 @@ async function measuring(page) {
   await page.keyboard.press('4');
   await page.locator('#files input[type=range]').first().fill('100');
   await page.locator('#view').focus();
-  await sleep(300);
   const before = await page.evaluate(() => window.bpview.files());
   await page.keyboard.press('d');
   await page.waitForFunction((n) => window.bpview.files() > n && !document.getElementById('far').hidden, before);
-  await sleep(300);
   const s = await state(page), told = Number((await page.textContent('#far-high')).split(' ')[0]);
   const level = Number(await page.locator('#files select').first().inputValue()), bound = s.layers[0].verdict.levels[level].farthest;
   check('the legend agrees with bpcheck', told <= 1.001 * bound && told > 0.9 * bound, told, bound);
@@ -128,10 +116,7 @@ async function measuring(page) {
   await page.keyboard.press('r');
   const at = [];
   for (const [x, y] of [[410, 300], [420, 420]]) {
-    await page.mouse.move(x - 3, y);
-    await page.mouse.move(x, y);
-    await sleep(150);
-    at.push((await page.textContent('#point')).split(/\s+/).map(Number));
+    at.push(await pointAt(page, x, y));
     await page.mouse.down();
     await page.mouse.up();
   }
@@ -175,7 +160,6 @@ async function plotting(page) {
   await page.waitForFunction((n) => window.bpview.proxy === n, s.made[0].number);
   check('a point shows its proxy', await page.getAttribute('[data-layer=proxy]', 'aria-pressed') === 'true');
   check('its point is marked', (await dots.first().getAttribute('class')) === 'current');
-  await sleep(300);
   check('the proxy is seen', (await colors(page, 200, 80, 500, 560)).other > 0.1);
   await picture(page, folder, 'plot');
   const last = dots.nth(s.made.length + 1);  // the coarser level of the first file
@@ -203,8 +187,7 @@ async function main() {
   await page.reload();
   await page.waitForFunction(() => window.bpview?.ready && window.bpview.files() === 1);
   await page.locator('#files li').nth(names.indexOf('fit.ply')).locator('input[type=checkbox]').click();
-  await page.waitForSelector('#message:not([hidden])');
-  check('a damaged file is told', (await page.textContent('#message')).includes('fit.ply'), await page.textContent('#message'));
+  await message(page, 'fit.ply');
   check('nothing went wrong on the page', troubles.every((text) => text.includes('400')), troubles);
   await browser.close();
   await end(child);

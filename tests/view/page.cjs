@@ -2,7 +2,7 @@
 // FOLDER holds the scene, and gets rules, proxy and pictures. Exit status 1 if something is wrong.
 const fs = require('fs'), path = require('path');
 const { execFileSync } = require('child_process');
-const { Checks, end, launch, open: openPage, picture: takePicture, serve: start, sleep, state: stateOf, until: waitUntil } = require('./browser.cjs');
+const { Checks, drawn, end, launch, message, open: openPage, picture: takePicture, pointAt, serve: start, state: stateOf, until: waitUntil } = require('./browser.cjs');
 const [folder, scene, ...options] = process.argv.slice(2);
 const checks = new Checks(), check = (...args) => checks.check(...args);
 const serve = (...more) => start(folder, scene, ...options, ...more);
@@ -26,7 +26,7 @@ async function main() {
   const stroke = async (points) => {
     await page.mouse.move(...points[0]);
     await page.mouse.down();
-    for (const point of points.slice(1)) { await page.mouse.move(...point, { steps: 4 }); await sleep(40); }
+    for (const point of points.slice(1)) { await page.mouse.move(...point, { steps: 4 }); await drawn(page, 1); }
     await page.mouse.up();
   };
   const middle = async () => { const box = await page.locator('#canvas').boundingBox(); return [box.x + box.width * 0.44, box.y + box.height / 2]; };  // the body
@@ -65,20 +65,20 @@ async function main() {
   check('a coarser stroke has the scale that was asked for', s.design.rules[6].mode === 'increase' && s.design.rules[6].scale === '5%', s.design.rules[6]);
   const turned = await page.evaluate(() => window.bpview.frames());
   await stroke([[40, 600], [80, 560]]);  // beside the surface the view turns
-  check('beside the surface nothing is brushed', (await state()).design.rules.length === 7);
-  check('the view turned', (await page.evaluate(() => window.bpview.frames())) > turned);
+  await page.waitForFunction((n) => window.bpview.frames() > n, turned);
+  check('beside the surface nothing is brushed', (await until(() => true, 'no edit')).design.rules.length === 7);
   await page.keyboard.press('f');
 
   // Undo and redo by keys and buttons.
   await page.locator('#view').focus();
-  const full = await state();
+  const full = await until((q) => q.closing.shown === q.design.revision, 'the closing of all strokes');
   for (let i = 0; i < 3; ++i) await page.keyboard.press('Control+z');
   s = await until((q) => q.design.rules.length === 4, 'three undone');
   await page.keyboard.press('Control+Shift+Z');
   await page.click('#redo');
   await page.keyboard.press('Control+y');
   s = await until((q) => q.design.rules.length === 7 && q.closing.shown === q.design.revision, 'three redone');
-  s = await until((q) => q.closing.voxels === full.closing.voxels || q.closing.shown > full.closing.shown, 'the closing again');
+  check('redone strokes have their closing again', s.closing.voxels === full.closing.voxels, s.closing, full.closing);
   await page.locator('#rules button').last().click();  // the first rule
   s = await until((q) => q.design.rules.length === 6, 'a rule removed');
 
@@ -90,8 +90,7 @@ async function main() {
   check('the part has the scale of the brush', s.design.rules[6].node === name && s.design.rules[6].mode === 'decrease' && s.design.rules[6].scale === '5%', s.design.rules[6]);
   await page.fill('#part', 'no such part');
   await page.click('#part-coarser');
-  await page.waitForSelector('#message:not([hidden])');
-  check('a missing part is told', (await page.textContent('#message')).includes('no such part'), await page.textContent('#message'));
+  await message(page, 'no such part');
   await page.locator('#view').focus();
   await page.keyboard.press('Control+z');
   s = await until((q) => q.design.rules.length === 6 && q.closing.shown === q.design.revision, 'the rule by name undone');
@@ -117,10 +116,9 @@ async function main() {
   await page.keyboard.press('v');
 
   // Frames that turn the cubes: by key, by numbers and by the gizmo; undone and removed.
-  await page.mouse.move(x, y - 20);
-  await page.waitForFunction(() => document.getElementById('point').textContent !== '');
   const upright = (await until((q) => q.closing.shown === q.design.revision, 'the closing')).closing.voxels;
-  const place = (await page.textContent('#point')).split(/\s+/).map(Number);
+  await page.waitForFunction((n) => window.bpview.revision >= n, s.design.revision);  // the surface under the pointer
+  const place = await pointAt(page, x, y - 20);
   await page.keyboard.press('o');
   s = await until((q) => q.design.orientation?.length === 1, 'a frame');
   check('O places a frame under the pointer', s.design.orientation[0].at.every((q, i) => Math.abs(q - place[i]) < 0.02), s.design.orientation, place);
@@ -139,8 +137,7 @@ async function main() {
     await page.mouse.down();
     await page.mouse.move(gizmo[0] + dx * 1.6, gizmo[1] + dy * 1.6, { steps: 5 });
     await page.mouse.up();
-    await sleep(250);
-    s = await state();
+    s = await until(() => true, 'the answer to the drag');
     moved = JSON.stringify(s.design.orientation[0].at) !== JSON.stringify(JSON.parse(turnedBy)[0].at);
     if (moved) break;
   }
@@ -174,7 +171,6 @@ async function main() {
   check('keys show layers', await page.getAttribute('[data-layer=proxy]', 'aria-pressed') === 'true');
   await page.click('#live');
   await until((q) => !q.live && !['meshing', 'checking'].includes(q.proxy.step), 'the proxy at work');
-  await page.waitForFunction(() => document.getElementById('mesh').textContent === 'Mesh');
   await page.click('#mesh');
   s = await until(isReady, 'a proxy');
   check('the proxy is proven', s.proxy.verdict.answer === 'proven', s.proxy);
@@ -182,7 +178,6 @@ async function main() {
   await page.waitForFunction((n) => window.bpview.proxy === n, s.proxy.number);
   await picture('all');
   await page.keyboard.press('2');
-  await sleep(300);
   await picture('proxy');
 
   // What is saved is what the command line makes.
@@ -209,11 +204,9 @@ async function main() {
   // A stranger, and a server that is gone.
   const stranger = await (await browser.newContext()).newPage();
   await stranger.goto(page.url());
-  await stranger.waitForSelector('#message:not([hidden])');
-  check('without the link the page says so', (await stranger.textContent('#message')).includes('link'));
+  await message(stranger, 'link');
   await end(child);
-  await page.waitForSelector('#message:not([hidden])');
-  check('the page says that the server is gone', (await page.textContent('#message')).includes('does not answer'));
+  await message(page, 'does not answer');
 
   // Dark, from the saved rules.
   ({ child, link } = await serve('--rules', 'rules.json'));
@@ -221,8 +214,8 @@ async function main() {
   await page.goto(link);
   await page.waitForFunction(() => window.bpview?.ready && window.bpview.generation > 0);
   check('a design goes on from its rules', (await state()).design.rules.length === 8);
-  await until(isReady, 'a proxy of the saved rules');
-  await sleep(500);
+  s = await until(isReady, 'a proxy of the saved rules');
+  await page.waitForFunction((n) => window.bpview.proxy === n, s.proxy.number);
   await picture('dark');
   await browser.close();
   await end(child);

@@ -20,6 +20,32 @@ exports.serve = (folder, ...args) => {
   });
 };
 
+exports.state = (page) => page.evaluate(() => fetch('/api/state').then((r) => r.json()));
+
+/// Waits until the page has heard of its own edits, and its state is as `done` says. Returns the state.
+exports.until = async (page, done, what) => {
+  for (let i = 0; i < 1200; ++i, await exports.sleep(50)) {
+    const s = await page.evaluate(() => (window.bpview.settled() ? window.bpview.state() : null));
+    if (s && done(s)) return s;
+  }
+  throw new Error(`waited in vain: ${what}`);
+};
+
+/// Waits until the page shows a message with these words: one from before may still be there.
+exports.message = async (page, words) => {
+  for (let i = 0, shown = ''; ; ++i, await exports.sleep(50)) {
+    shown = await page.evaluate(() => { const box = document.getElementById('message'); return box.hidden ? '' : box.textContent; });
+    if (shown.includes(words)) return;
+    if (i === 1200) throw new Error(`waited in vain for a message with “${words}”; shown is “${shown}”`);
+  }
+};
+
+/// Waits for frames. The page looks under the pointer in the first one after an event, and draws what is found there in the second one.
+exports.drawn = (page, frames = 2) => page.evaluate((all) => new Promise((done) => {
+  const next = (n) => (n === 0 ? done() : requestAnimationFrame(() => next(n - 1)));
+  next(all);
+}), frames);
+
 exports.end = (child) => {
   child.kill('SIGINT');
   return new Promise((done) => child.on('exit', done));

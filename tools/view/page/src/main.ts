@@ -19,7 +19,7 @@ const byId = <T extends HTMLElement>(id: string): T => document.getElementById(i
 let state: State;
 const shown: Record<Layer, boolean> = { scene: false, closing: true, proxy: false };
 /// State that the tests wait for and read.
-const told = { generation: 0, proxy: 0, revision: 0, ready: false, files: () => files.told.loaded, frames: () => view.frames, frame: () => frames.place(), pixel: (p: Vec3) => view.pixelOf(view.fromScene(p)) };
+const told = { generation: 0, proxy: 0, revision: 0, ready: false, state: () => state, settled: () => isSettled(), files: () => files.told.loaded, frames: () => view.frames, frame: () => frames.place(), pixel: (p: Vec3) => view.pixelOf(view.fromScene(p)) };
 (window as any).bpview = told;
 
 function makeView(): View {
@@ -35,6 +35,7 @@ let queue: Promise<unknown> = Promise.resolve();
 let onTheWay = 0, answered = 0;  // requests without an answer; the design's revision after the last one that has one
 /// Returns whether the server has done it.
 function send(path: string, body: unknown = {}): Promise<boolean> {
+  sendWaiting();
   ++onTheWay;
   const sent = queue.then(() => post(path, body)).then((revision) => { answered = Math.max(answered, revision); return true; })
     .catch((error) => { complain(error); return false; }).finally(() => { --onTheWay; settle(); });
@@ -57,7 +58,12 @@ function sendLast(body: unknown): void {
   const idle = waiting === null;
   waiting = () => { void send('/api/edit', body); };
   if (!idle) return;
-  void queue.then(() => setTimeout(() => { const next = waiting!; waiting = null; next(); }, 30));
+  void queue.then(() => setTimeout(sendWaiting, 30));
+}
+function sendWaiting(): void {
+  const next = waiting;
+  waiting = null;
+  next?.();
 }
 
 const facts = () => state.scene;
