@@ -25,6 +25,33 @@ exports.picture = async (page, folder, name) => {
   await page.screenshot({ path: path.join(folder, `${name}.png`) });
 };
 
+/// Returns how many pixels in a box of the page `act` changes.
+exports.changed = async (page, clip, act) => {
+  const pictures = [];
+  for (const step of [() => {}, act]) {
+    await step();
+    await served.drawn(page);
+    pictures.push((await page.screenshot({ clip })).toString('base64'));
+  }
+  return page.evaluate(async (both) => {
+    const [a, b] = await Promise.all(both.map(async (data) => {
+      const bitmap = await createImageBitmap(new Blob([Uint8Array.from(atob(data), (c) => c.charCodeAt(0))], { type: 'image/png' }));
+      const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d');
+      context.drawImage(bitmap, 0, 0);
+      return context.getImageData(0, 0, bitmap.width, bitmap.height).data;
+    }));
+    let count = 0;
+    for (let i = 0; i < a.length; i += 4) count += Math.abs(a[i] - b[i]) + Math.abs(a[i + 1] - b[i + 1]) + Math.abs(a[i + 2] - b[i + 2]) > 12;
+    return count;
+  }, pictures);
+};
+
+/// Returns whether an element can be seen whole, without scrolling.
+exports.inView = (page, selector) => page.evaluate((what) => {
+  const element = document.querySelector(what), box = element.getBoundingClientRect(), middle = box.left + box.width / 2;
+  return box.height > 0 && [[middle, box.top + 1], [middle, box.bottom - 1]].every(([x, y]) => element.contains(document.elementFromPoint(x, y)));
+}, selector);
+
 /// Moves the pointer there. Returns the point of the surface that the page tells.
 exports.pointAt = async (page, x, y) => {
   await page.mouse.move(x, y);

@@ -2,7 +2,7 @@
 // FOLDER holds the scene, and gets the suite's files and pictures. Exit status 1 if something is wrong.
 const fs = require('fs'), path = require('path');
 const { execFileSync } = require('child_process');
-const { Checks, colors, drawn, end, launch, message, open, picture, pointAt, serve, state, until } = require('./browser.cjs');
+const { changed, Checks, colors, end, inView, launch, message, open, picture, pointAt, serve, state, until } = require('./browser.cjs');
 const [folder, scene] = process.argv.slice(2);
 const checks = new Checks(), check = (...args) => checks.check(...args);
 const shell = (line) => execFileSync('bash', ['-c', `set -eo pipefail; ${line}`], { cwd: folder, stdio: ['ignore', 'ignore', 'inherit'] });
@@ -170,6 +170,7 @@ async function plotting(page) {
   check('and hides the proxy', await page.getAttribute('[data-layer=proxy]', 'aria-pressed') === 'false');
   await page.click('#prove-all');
   s = await until(page, (q) => q.layers.every((layer) => layer.step === 'done' || layer.kind === 'voxels'), 'all answers');
+  check('the answers are counted in view', (await page.textContent('#proofs')) === `${s.layers.length - 1} of ${s.layers.length - 1} proven` && await inView(page, '#proofs'), await page.textContent('#proofs'));
   check('all files are proven', s.layers.every((layer) => layer.kind === 'voxels' || layer.verdict.answer === 'proven'), s.layers);
 }
 

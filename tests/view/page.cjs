@@ -2,7 +2,7 @@
 // FOLDER holds the scene, and gets rules, proxy and pictures. Exit status 1 if something is wrong.
 const fs = require('fs'), path = require('path');
 const { execFileSync } = require('child_process');
-const { Checks, drawn, end, launch, message, open: openPage, picture: takePicture, pointAt, serve: start, state: stateOf, until: waitUntil } = require('./browser.cjs');
+const { changed, Checks, drawn, end, inView, launch, message, open: openPage, picture: takePicture, pointAt, serve: start, state: stateOf, until: waitUntil } = require('./browser.cjs');
 const [folder, scene, ...options] = process.argv.slice(2);
 const checks = new Checks(), check = (...args) => checks.check(...args);
 const serve = (...more) => start(folder, scene, ...options, ...more);
@@ -35,6 +35,10 @@ async function main() {
   let s = await until(isReady, 'the first proxy');
   check('the first proxy is proven', s.proxy.verdict.answer === 'proven', s.proxy);
   await page.waitForFunction(() => document.getElementById('badge').textContent === 'proven');
+  for (const half of ['look', 'design']) {
+    await page.click(`[data-half=${half}]`);
+    check('the verdict is in view', await inView(page, '#proof'), half);
+  }
   await picture('closing');
 
   // Brushes, with the latency from the last event of the pointer to the surface on the screen.

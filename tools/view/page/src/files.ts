@@ -9,6 +9,7 @@ const kColors = ['#d98c5f', '#7fa7d9', '#b98bd0', '#d3b85a', '#6fbfb0', '#d77a95
 interface Row {
   item: HTMLLIElement; shown: HTMLInputElement; color: HTMLInputElement; opacity: HTMLInputElement; level: HTMLSelectElement;
   count: HTMLElement; badge: HTMLElement; prove: HTMLButtonElement; loaded: string | null;
+  asked: boolean;  // a person waits for the answer of bpcheck
   inner: boolean;  // the file claims to lie inside the scene
 }
 
@@ -43,7 +44,7 @@ export class Files {
   private rows: Row[] = [];
   private distances = false;
   readonly told = { loaded: 0 };
-  constructor(private list: HTMLElement, private view: View, private prove: (i: number) => void, private changed: () => void) {}
+  constructor(private list: HTMLElement, private proofs: HTMLElement, private view: View, private prove: (i: number) => void, private changed: () => void) {}
 
   tell(layers: LayerState[]): void {
     if (this.rows.length === 0 && layers.length > 0) {
@@ -59,8 +60,20 @@ export class Files {
       row.badge.hidden = text === '';
       row.prove.hidden = !isProvable(layer);
       row.item.title = `${layer.name}\n${factsOf(layer)}`;
+      const done = row.asked && (layer.step === 'done' || layer.step === 'failed');
+      row.asked = !done && row.asked;
       row.item.querySelector('.why')!.textContent = layer.step === 'done' && layer.verdict?.answer !== 'proven' ? layer.verdict?.why ?? '' : layer.step === 'failed' ? layer.notes : '';
+      if (done) row.item.scrollIntoView({ block: 'nearest' });
     });
+    this.tellProofs(layers);
+  }
+  /// Counts the answers beside the heading: rows may lie outside the list.
+  private tellProofs(layers: LayerState[]): void {
+    const all = layers.filter((layer) => layer.kind !== 'voxels'), answered = all.filter((layer) => layer.step === 'done' || layer.step === 'failed');
+    const proven = answered.filter((layer) => layer.verdict?.answer === 'proven').length, working = all.some((layer) => layer.step === 'waiting' || layer.step === 'checking');
+    this.proofs.hidden = answered.length === 0 && !working;
+    this.proofs.textContent = `${proven} of ${all.length} proven${working ? ' …' : ''}`;
+    this.proofs.className = `badge ${working ? 'work' : proven < answered.length ? 'refuted' : proven === all.length ? 'proven' : ''}`;
   }
 
   private row(layer: LayerState, i: number): Row {
@@ -69,7 +82,7 @@ export class Files {
       item: make('li'), shown: make('input', { type: 'checkbox' }), color: make('input', { type: 'color', value: kColors[i % kColors.length], title: 'Colour' }),
       opacity: make('input', { type: 'range', min: '5', max: '100', value: '40', step: '5', title: 'Opacity' }), level: make('select', { title: 'Level; 0 is the finest' }),
       count: make('span', { className: 'count' }), badge: make('span', { className: 'badge', hidden: true }),
-      prove: make('button', { textContent: 'Prove', title: `Asks bpcheck about ${layer.name}` }), loaded: null, inner: layer.contract === 'inside',
+      prove: make('button', { textContent: 'Prove', title: `Asks bpcheck about ${layer.name}` }), loaded: null, asked: false, inner: layer.contract === 'inside',
     };
     row.color.setAttribute('aria-label', `Colour of ${layer.name}`);
     row.opacity.setAttribute('aria-label', `Opacity of ${layer.name}`);
@@ -79,7 +92,7 @@ export class Files {
     row.shown.onchange = () => void this.update(i);
     row.level.onchange = () => { row.shown.checked = true; void this.update(i); };
     row.color.oninput = row.opacity.oninput = () => this.style(i);
-    row.prove.onclick = () => this.prove(i);
+    row.prove.onclick = () => { row.asked = true; this.prove(i); };
     if (i < 6) label.append(make('kbd', { textContent: String(i + 4) }));
     label.append(row.shown, make('span', { textContent: layer.name }));
     const what = layer.contract || (layer.kind === 'mesh' ? 'no claim' : layer.kind);

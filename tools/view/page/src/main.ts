@@ -80,7 +80,7 @@ const brush: Brush = new Brush(byId('canvas'), view, facts,
   (rule) => mirror.both(rule),
   (at: Vec3 | null) => { hovered = at; byId('point').textContent = at ? at.map((x) => show(x, 5)).join('  ') : ''; });
 
-const files = new Files(byId('files'), view, (i) => void send('/api/check', { file: i }), () => { showDistances(); showPlot(); });
+const files = new Files(byId('files'), byId('proofs'), view, (i) => void send('/api/check', { file: i }), () => { showDistances(); showPlot(); });
 const ruler = new Ruler(byId('canvas'), view, facts, byId('ruler-label'), byId('ruler'));
 
 let cut: Cut;
@@ -134,6 +134,7 @@ async function turnDistances(on: boolean): Promise<void> {
 function turnTo(half: string): void {
   for (const button of document.querySelectorAll<HTMLButtonElement>('[data-half]')) button.ariaSelected = String(button.dataset.half === half);
   for (const name of ['design', 'look']) byId(name).hidden = name !== half;
+  byId('save').hidden = half !== 'design';
 }
 
 function showLayers(): void {

@@ -74,8 +74,11 @@ function placeOf(rule: Rule): string {
   return Array.isArray(rule.at?.[0]) ? 'stroke' : 'dab';
 }
 
+let listed = '';  // the rules that are listed: the list is made anew only if they change, so that a button keeps the focus
 function showRules(rules: Rule[], remove: (i: number) => void): void {
-  const list = byId('rules');
+  const list = byId('rules'), text = JSON.stringify(rules);
+  if (text === listed) return;
+  listed = text;
   list.replaceChildren(...rules.map((rule, i) => {
     const item = document.createElement('li'), dot = document.createElement('i'), text = document.createElement('span'), button = document.createElement('button');
     dot.className = rule.mode ?? 'set';
@@ -125,7 +128,7 @@ function showProxy(state: State): void {
   }));
   byId('mesh').textContent = working ? 'Stop' : 'Mesh';
   byId<HTMLButtonElement>('save-proxy').disabled = !(p.step === 'ready' && p.current);
-  byId('save-proxy').textContent = p.saved && p.current ? 'Proxy saved' : 'Proxy';
+  byId('save-proxy').textContent = p.saved && p.current ? 'Proxy saved' : 'Save proxy';
   byId('save-proxy').title = `Writes ${state.out_file}`;
 }
 
@@ -142,7 +145,7 @@ export function showState(state: State, remove: (i: number) => void): void {
   showRules(state.design.rules, remove);
   showProxy(state);
   input('live').checked = state.live;
-  byId('save-rules').textContent = state.design.saved ? 'Rules saved' : 'Rules';
+  byId('save-rules').textContent = state.design.saved ? 'Rules saved' : 'Save rules';
   byId('save-rules').title = `Writes ${state.rules_file}`;
   byId('command').textContent = state.command;
   const behind = c.asked !== c.shown && !c.error;
