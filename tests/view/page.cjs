@@ -205,12 +205,18 @@ async function main() {
   check('a reload shows the frame', await page.inputValue('#frame-rx') === '30' && await page.isVisible('#frame-rx'), await page.inputValue('#frame-rx'));
   check('nothing went wrong on the page', troubles.every((text) => text.includes('400')), troubles);  // the part that is not there
 
-  // A stranger, and a server that is gone.
+  // A stranger, and a server that is gone: what was not saved can be downloaded.
   const stranger = await (await browser.newContext()).newPage();
   await stranger.goto(page.url());
   await message(stranger, 'link');
+  s = await until((q) => !q.design.saved, 'the design that was undone after it was saved');
+  const rules = await page.evaluate(() => fetch('/api/rules').then((r) => r.text()));
+  await page.waitForFunction((n) => window.bpview.kept() === n, s.design.revision);
   await end(child);
   await message(page, 'does not answer');
+  const [download] = await Promise.all([page.waitForEvent('download'), page.click('#kept')]);
+  check('the page has kept the rules', download.suggestedFilename() === 'rules.json' && fs.readFileSync(await download.path(), 'utf8') === rules, rules);
+  await picture('gone');
 
   // Dark, from the saved rules.
   ({ child, link } = await serve('--rules', 'rules.json'));

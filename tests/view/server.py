@@ -22,7 +22,7 @@ def who_gets_in(s):
     check("the page has its policy", page[1]["Content-Security-Policy"].startswith("default-src 'self';"))
     check("no type is guessed", page[1]["X-Content-Type-Options"] == "nosniff")
     check("no other site may read", page[1]["Access-Control-Allow-Origin"] is None)
-    for path in ("/api/state", "/api/parts", "/api/scene", "/api/surface", "/api/proxy", "/api/layer?file=0", "/api/events"):
+    for path in ("/api/state", "/api/parts", "/api/rules", "/api/scene", "/api/surface", "/api/proxy", "/api/layer?file=0", "/api/events"):
         check("a stranger reads nothing", status("GET", path) == 401, path)
         check("a wrong cookie is none", status("GET", path, headers={"Cookie": f"bpview_{s.port}=" + "0" * 32}) == 401, path)
     check("a stranger changes nothing", status("POST", "/api/edit", '{"op": "undo"}') == 401)

@@ -98,6 +98,7 @@ const char* const kNoPage = R"(<!doctype html><html lang="en"><meta charset="utf
 struct Server::State {
   State(Session& of, int wanted);
   Handled check(const Request& request, Response& response);
+  void add_geometry();
   void add_routes();
   void add_page();
   void listen(const Request& request, Response& response);
@@ -128,6 +129,7 @@ Server::State::State(Session& of, int wanted) : session(of), port(bound(http, wa
     refuse(response, 500, "unexpected failure");
   });
   add_page();
+  add_geometry();
   add_routes();
 }
 
@@ -183,13 +185,7 @@ httplib::Server::Handler Server::State::doing(const std::function<void(const std
   };
 }
 
-void Server::State::add_routes() {
-  http.Post("/session", [this](const Request& request, Response& response) {
-    const std::string cookie = access.cookie_for(request.body);
-    if (cookie.empty()) return refuse(response, 403, "the link is not valid; open the one that bpview printed");
-    response.set_header("Set-Cookie", cookie);
-    response.set_content("{}", "application/json");
-  });
+void Server::State::add_geometry() {
   const auto bytes = [this](const char* path, const auto& make) {
     http.Get(path, [make](const Request& request, Response& response) {
       answer(response, [&] { response.set_content(make(request), kBytes); });
@@ -207,10 +203,21 @@ void Server::State::add_routes() {
     const std::lock_guard one(meshes);
     return session.layer(number_in(request, "file"), number_in(request, "level"), number_in(request, "distances") == 1);
   });
-  http.Get("/api/state",
-           [this](const Request&, Response& response) { response.set_content(session.state(), "application/json"); });
-  http.Get("/api/parts",
-           [this](const Request&, Response& response) { response.set_content(session.parts(), "application/json"); });
+}
+
+void Server::State::add_routes() {
+  http.Post("/session", [this](const Request& request, Response& response) {
+    const std::string cookie = access.cookie_for(request.body);
+    if (cookie.empty()) return refuse(response, 403, "the link is not valid; open the one that bpview printed");
+    response.set_header("Set-Cookie", cookie);
+    response.set_content("{}", "application/json");
+  });
+  const auto json = [this](const char* path, const auto& make) {
+    http.Get(path, [make](const Request&, Response& response) { response.set_content(make(), "application/json"); });
+  };
+  json("/api/state", [this] { return session.state(); });
+  json("/api/parts", [this] { return session.parts(); });
+  json("/api/rules", [this] { return session.rules(); });
   http.Get("/api/events", [this](const Request& request, Response& response) { listen(request, response); });
   http.Post("/api/edit", [this](const Request& request, Response& response) {
     answer(response, [&] {

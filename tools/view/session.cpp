@@ -274,6 +274,11 @@ std::string Session::parts() {
   return names.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+std::string Session::rules() const {
+  const std::lock_guard lock(mutex_);
+  return design_->json();
+}
+
 /// Positions in between are as far apart as half a voxel at least: the closing knows nothing finer.
 std::string Session::bytes_of(ShownMesh mesh, bool distances) const {
   if (distances) distances_->add_to(mesh, header_.frame.voxel / 2);

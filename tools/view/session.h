@@ -27,6 +27,7 @@ class Session {
   [[nodiscard]] LiveSurface::Change surface(std::uint64_t after) const { return closing_->surface().since(after); }
   /// Returns the names of the scene's parts as a JSON list, for rules by name: the first kMostNames.
   [[nodiscard]] std::string parts();
+  [[nodiscard]] std::string rules() const;  ///< the file that save() writes: a page keeps it for the case that we end
   static constexpr std::size_t kMostNames = 1000;
   /// Returns the proxy with a number as ShownMesh::bytes(), with distances from the scene if they are asked for. Number
   /// 0: the last one, or nothing if there is none. Throws bad_argument if the proxy is not kept, out_of_resource if it

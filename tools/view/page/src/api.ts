@@ -61,6 +61,11 @@ export async function parts(): Promise<string[]> {
   return (await ask('/api/parts')).json();
 }
 
+/// The file of rules that the server would save.
+export async function rules(): Promise<string> {
+  return (await ask('/api/rules')).text();
+}
+
 export async function state(): Promise<State> {
   return (await ask('/api/state')).json();
 }

@@ -9,6 +9,7 @@ import { View, type Layer } from './view';
 import { Cut } from './cut';
 import { Files, isProvable } from './files';
 import { Frames } from './frames';
+import { Kept } from './kept';
 import { Mirror } from './mirror';
 import { readMesh, readSurface } from './wire';
 
@@ -19,7 +20,7 @@ const byId = <T extends HTMLElement>(id: string): T => document.getElementById(i
 let state: State;
 const shown: Record<Layer, boolean> = { scene: false, closing: true, proxy: false };
 /// State that the tests wait for and read.
-const told = { generation: 0, proxy: 0, revision: 0, ready: false, state: () => state, settled: () => isSettled(), files: () => files.told.loaded, frames: () => view.frames, frame: () => frames.place(), pixel: (p: Vec3) => view.pixelOf(view.fromScene(p)) };
+const told = { generation: 0, proxy: 0, revision: 0, ready: false, state: () => state, settled: () => isSettled(), kept: () => kept.revision, files: () => files.told.loaded, frames: () => view.frames, frame: () => frames.place(), pixel: (p: Vec3) => view.pixelOf(view.fromScene(p)) };
 (window as any).bpview = told;
 
 function makeView(): View {
@@ -82,6 +83,8 @@ const brush: Brush = new Brush(byId('canvas'), view, facts,
 
 const files = new Files(byId('files'), byId('proofs'), view, (i) => void send('/api/check', { file: i }), () => { showDistances(); showPlot(); });
 const ruler = new Ruler(byId('canvas'), view, facts, byId('ruler-label'), byId('ruler'));
+
+const kept = new Kept(byId('kept'));
 
 let cut: Cut;
 let mirror: Mirror;
@@ -263,6 +266,7 @@ async function follow(): Promise<void> {
       }
     }
     told.revision = state.closing.shown;
+    void kept.follow(() => state);
   } catch (error) {
     complain(error);
   }
@@ -296,7 +300,7 @@ async function begin(): Promise<void> {
   turnTo(state.layers.length > 0 ? 'look' : 'design');
   showLayers();
   tell(state);
-  listen(tell, (message) => complain(message, true), withdraw);
+  listen(tell, (message) => { kept.offer(state); complain(message, true); }, () => { kept.withdraw(); withdraw(); });
   if (state.scene.shown) view.setScene(readMesh(await bytes('/api/scene')));
   else {
     const button = byId('layers').querySelector<HTMLButtonElement>('[data-layer=scene]')!;

@@ -159,7 +159,7 @@ export function showState(state: State, remove: (i: number) => void): void {
 
 let standing = '', timer = 0;  // a message that stays; the timer of one that goes
 function showMessage(text: string): void {
-  byId('message').textContent = text;
+  byId('message-text').textContent = text;
   byId('message').hidden = text === '';
 }
 /// Shows a message for some seconds, or until it is withdrawn.
