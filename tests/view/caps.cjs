@@ -1,4 +1,4 @@
-// Layers that are cut: closed ones are filled, the innermost is seen, and points of sections are picked.   node caps.cjs FOLDER
+// Layers that are cut: closed ones are filled, the innermost is seen, and points of sections are picked; and their opacity.   node caps.cjs FOLDER
 // FOLDER gets scenes and pictures. Exit status 1 if something is wrong.
 const fs = require('fs'), path = require('path');
 const { Checks, drawn, end, launch, open, picture, pointAt, serve } = require('./browser.cjs');
@@ -86,6 +86,26 @@ async function main() {
   await rows.nth(1).locator('input[type=range]').fill('100');
   p = await at(...wall);
   check('an open file is not filled', p.red && !p.hatched, p);
+  await shown(1).uncheck();
+
+  // Opacity is one thing for all layers: a layer that is alone is opaque, and beside others it shows what lies inside.
+  await page.click('[data-cut=off]');
+  await page.locator('#view').focus();
+  const front = [5, 5, 10], bluer = [], opacity = (layer, value) => page.locator(`[data-opacity=${layer}]`).fill(String(value));
+  await page.keyboard.press('2');
+  await opacity('closing', 5);
+  const alone = await at(...front);
+  await opacity('closing', 100);
+  p = await at(...front);
+  check('a layer that is alone is opaque', p.r === alone.r && p.b === alone.b, p, alone);
+  await page.keyboard.press('1');
+  for (const value of [100, 50, 5]) {
+    await opacity('closing', value);
+    p = await at(...front);
+    bluer.push(p.b - p.r);
+  }
+  check('beside the scene its opacity counts', bluer[0] < bluer[1] - 3 && bluer[1] < bluer[2] - 3, bluer);
+  check('the slider of a hidden layer is off', await page.isDisabled('[data-opacity=proxy]'));
   check('nothing went wrong on the page', troubles.length === 0, troubles);
   await browser.close();
   await end(child);

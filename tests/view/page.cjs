@@ -181,8 +181,17 @@ async function main() {
   await page.waitForFunction(() => document.getElementById('badge').textContent === 'proven');
   await page.waitForFunction((n) => window.bpview.proxy === n, s.proxy.number);
   await picture('all');
+  // An opaque proxy hides the scene, from near and from far, but for some pixels of its outline.
   await page.keyboard.press('2');
+  await page.locator('[data-opacity=proxy]').fill('100');
+  await page.locator('#view').focus();
   await picture('proxy');
+  for (const [key, times] of [['f', 1], ['-', 10], ['+', 16]]) {
+    for (let i = 0; i < times; ++i) await page.keyboard.press(key);
+    const through = await changed(page, { x: 0, y: 70, width: 640, height: 570 }, () => page.keyboard.press('1'));
+    check('the scene does not show through', through < 200, key, through);
+    await page.keyboard.press('1');
+  }
 
   // What is saved is what the command line makes.
   await page.click('#save-rules');

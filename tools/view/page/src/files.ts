@@ -80,7 +80,7 @@ export class Files {
     const label = make('label', { className: 'name' }), head = make('div', { className: 'line' }), foot = make('div', { className: 'line' });
     const row: Row = {
       item: make('li'), shown: make('input', { type: 'checkbox' }), color: make('input', { type: 'color', value: kColors[i % kColors.length], title: 'Colour' }),
-      opacity: make('input', { type: 'range', min: '5', max: '100', value: '40', step: '5', title: 'Opacity' }), level: make('select', { title: 'Level; 0 is the finest' }),
+      opacity: make('input', { type: 'range', min: '5', max: '100', value: '40', step: '5', title: 'Opacity beside other layers' }), level: make('select', { title: 'Level; 0 is the finest' }),
       count: make('span', { className: 'count' }), badge: make('span', { className: 'badge', hidden: true }),
       prove: make('button', { textContent: 'Prove', title: `Asks bpcheck about ${layer.name}` }), loaded: null, asked: false, inner: layer.contract === 'inside',
     };
@@ -127,7 +127,7 @@ export class Files {
 
   private style(i: number): void {
     const row = this.rows[i];
-    this.view.styleFile(i, row.shown.checked, row.color.value, Number(row.opacity.value) / 100);
+    this.view.style(i, row.shown.checked, Number(row.opacity.value) / 100, row.color.value);
   }
 
   /// Fetches the level that is wanted, once it is shown. An answer that comes late is dropped.

@@ -141,7 +141,11 @@ function turnTo(half: string): void {
 }
 
 function showLayers(): void {
-  view.show(shown);
+  for (const slider of document.querySelectorAll<HTMLInputElement>('[data-opacity]')) {
+    const layer = slider.dataset.opacity as Layer;
+    view.style(layer, shown[layer], Number(slider.value) / 100);
+    slider.disabled = !shown[layer];
+  }
   showDistances();
   showPlot();
   for (const button of document.querySelectorAll<HTMLButtonElement>('[data-layer]'))
@@ -182,6 +186,7 @@ const isBusy = () => state.proxy.step === 'meshing' || state.proxy.step === 'che
 const edit = (op: string) => void send('/api/edit', { op });
 
 for (const button of document.querySelectorAll<HTMLButtonElement>('[data-layer]')) button.onclick = () => toggle(button.dataset.layer as Layer);
+for (const slider of document.querySelectorAll<HTMLInputElement>('[data-opacity]')) slider.oninput = showLayers;
 for (const button of document.querySelectorAll<HTMLButtonElement>('[data-tool]')) button.onclick = () => choose(button.dataset.tool as Tool);
 for (const button of document.querySelectorAll<HTMLButtonElement>('[data-half]')) button.onclick = () => turnTo(button.dataset.half!);
 byId('undo').onclick = () => edit('undo');

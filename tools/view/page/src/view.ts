@@ -3,13 +3,16 @@ import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import type { State, Vec3 } from './api';
 import { Caps, withOnly, type Solid } from './caps';
-import { makeMatcap, shared, surfaceMaterial } from './looks';
+import { makeMatcap, shared } from './looks';
 import { Picker } from './picker';
-import { ShownMesh } from './shown';
+import { ShownPieces } from './pieces';
+import { ShownLayer, ShownMesh } from './shown';
 import type { Mesh, Surface } from './wire';
 
 export type Layer = 'scene' | 'closing' | 'proxy';
-const kBrick = 64, kPerVoxel = 256, kOrigin = 8;  // lib/live/surface_piece.h
+/// One of the three, or the number of a file.
+export type AnyLayer = Layer | number;
+const kNearest = 0.001;  // least distance from the camera that is drawn, in diagonals of the scene
 
 export class View {
   readonly camera = new THREE.PerspectiveCamera(35, 1, 1, 10);
@@ -18,21 +21,18 @@ export class View {
   private scene = new THREE.Scene();
   private stroke = new THREE.Line(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: '#ffffff', depthTest: false, transparent: true }));
   private matcap = makeMatcap();
-  private closingLook = surfaceMaterial(this.matcap, '#d8d4cc', 'scale');
-  // The scene lies farther back than what encloses it closely, to within the digits of the depth buffer.
-  private mesh = new ShownMesh(this.matcap, '#c9d1dc', { side: THREE.DoubleSide, polygonOffsetFactor: 2, polygonOffsetUnits: 8 });
+  private closing = new ShownPieces(this.matcap);
+  private mesh = new ShownMesh(this.matcap, '#c9d1dc', { side: THREE.DoubleSide });
   private proxy = new ShownMesh(this.matcap, '#9fd0b4');
   private files: ShownMesh[] = [];
   private inner = new Set<ShownMesh>();  // files that lie inside the scene
   private caps = new Caps(this.matcap);
   private plane: THREE.Plane | null = null;
   private filled = true;
-  private layers: Record<Layer, THREE.Group> = { scene: this.mesh.group, closing: new THREE.Group(), proxy: this.proxy.group };
+  private layers: Record<Layer, ShownLayer> = { scene: this.mesh, closing: this.closing, proxy: this.proxy };
   private dark = matchMedia('(prefers-color-scheme: dark)');
   private ruler = new THREE.Line(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: '#d21f5b', depthTest: false, transparent: true }));
   private ends = new THREE.Points(this.ruler.geometry, new THREE.PointsMaterial({ color: '#d21f5b', size: 9, sizeAttenuation: false, depthTest: false, transparent: true }));
-  private pieces = new Map<string, THREE.Mesh>();
-  private drawnVoxel = 0;  // edge of the voxels of the pieces
   private base = 0;
   private picker: Picker;
   private size = 1;
@@ -51,7 +51,11 @@ export class View {
     this.stroke.renderOrder = 2;
     this.stroke.frustumCulled = this.ruler.frustumCulled = this.ends.frustumCulled = false;
     this.ruler.renderOrder = this.ends.renderOrder = 3;
-    this.scene.add(this.layers.scene, this.layers.closing, this.layers.proxy, this.stroke, this.ruler, this.ends);
+    for (const name of ['scene', 'closing', 'proxy'] as const) {
+      this.layers[name].nest(name);
+      this.scene.add(this.layers[name].group);
+    }
+    this.scene.add(this.stroke, this.ruler, this.ends);
     this.dark.addEventListener('change', () => this.dress());
     this.dress();
     new ResizeObserver(() => this.resize()).observe(canvas);
@@ -65,7 +69,7 @@ export class View {
   /// Takes the colours that suit a light or a dark page.
   private dress(): void {
     this.scene.background = new THREE.Color(this.dark.matches ? '#1b1f25' : '#e4e8ee');
-    for (const { edges } of [this.proxy, ...this.files]) edges.material.color.set(this.dark.matches ? '#0c2b1c' : '#123c28');
+    for (const { edges: [edges] } of [this.proxy, ...this.files]) edges.material.color.set(this.dark.matches ? '#0c2b1c' : '#123c28');
     this.draw();
   }
 
@@ -94,9 +98,6 @@ export class View {
     const distance = (half.length() * 0.92) / Math.sin(Math.min(angle, Math.atan(Math.tan(angle) * this.camera.aspect)));
     this.controls.target.set(0, 0, 0);
     this.camera.position.copy(from.setLength(distance));
-    this.camera.near = this.size / 500;
-    this.camera.far = this.size * 12;
-    this.camera.updateProjectionMatrix();
     this.controls.minDistance = this.size / 100;
     this.controls.maxDistance = this.size * 8;
     this.controls.update();
@@ -105,45 +106,18 @@ export class View {
 
   setScene(mesh: Mesh): void {
     this.mesh.set(mesh);
-    this.draw();
+    this.restyle();
   }
 
-  private removePiece(key: string): void {
-    const old = this.pieces.get(key);
-    if (!old) return;
-    old.geometry.dispose();
-    this.layers.closing.remove(old);
-    this.pieces.delete(key);
-  }
-
-  setSurface({ whole, voxel, origin, pieces }: Surface): void {
-    const { middle } = this.facts;
-    if (whole) [...this.pieces.keys()].forEach((key) => this.removePiece(key));
-    this.drawnVoxel = voxel;
+  setSurface(surface: Surface): void {
+    this.closing.set(surface, this.facts.middle);
     this.setBase(this.base);
-    for (const piece of pieces) {
-      this.removePiece(piece.key);
-      if (piece.vertices === 0) continue;
-      const geometry = new THREE.BufferGeometry();
-      const words = new THREE.InterleavedBuffer(new Uint16Array(piece.bytes), 6), small = new THREE.InterleavedBuffer(new Int8Array(piece.bytes), 12);
-      geometry.setAttribute('position', new THREE.InterleavedBufferAttribute(words, 3, 0));
-      geometry.setAttribute('aValue', new THREE.InterleavedBufferAttribute(words, 1, 3));
-      geometry.setAttribute('normal', new THREE.InterleavedBufferAttribute(small, 3, 8, true));
-      geometry.setIndex(new THREE.BufferAttribute(piece.corners, 1));
-      const middleOf = (kOrigin + kBrick / 2) * kPerVoxel;
-      geometry.boundingSphere = new THREE.Sphere(new THREE.Vector3(middleOf, middleOf, middleOf), kBrick * kPerVoxel);
-      const mesh = new THREE.Mesh(geometry, this.closingLook);
-      mesh.scale.setScalar(voxel / kPerVoxel);
-      mesh.position.fromArray(piece.brick.map((b, i) => origin[i] - middle[i] + (b * kBrick - kOrigin) * voxel));
-      this.layers.closing.add(mesh);
-      this.pieces.set(piece.key, mesh);
-    }
-    this.draw();
+    this.restyle();
   }
 
   setProxy(mesh: Mesh | null): void {
     this.proxy.set(mesh);
-    this.draw();
+    this.restyle();
   }
 
   /// Colours the proxy and the files by their distance from the scene, where the server told it; false: not.
@@ -181,21 +155,35 @@ export class View {
   /// `inner`: the file lies inside the scene.
   setFile(i: number, mesh: Mesh, inner: boolean): void {
     while (this.files.length <= i) {
-      const file = new ShownMesh(this.matcap, '#ffffff', { side: this.closingLook.side });
+      const file = new ShownMesh(this.matcap, '#ffffff', { side: this.closing.looks[0].side });
       this.files.push(file);
+      file.nest('outer');
       this.scene.add(file.group);
       file.group.visible = false;
     }
     this.files[i].set(mesh);
-    if (inner) this.inner.add(this.files[i]);
+    if (inner) {
+      this.inner.add(this.files[i]);
+      this.files[i].nest('inner');
+    }
     this.dress();
+    this.restyle();
   }
-  styleFile(i: number, visible: boolean, color: string, opacity: number): void {
-    const file = this.files[i];
-    if (!file) return;
-    file.group.visible = visible;
-    file.looks[0].color.set(color);
-    file.setOpacity(opacity);
+  /// `opacity` counts beside other layers.
+  style(which: AnyLayer, visible: boolean, opacity: number, color?: string): void {
+    const layer = typeof which === 'number' ? this.files[which] : this.layers[which];
+    if (!layer) return;  // a file that was not shown yet
+    layer.group.visible = visible;
+    layer.wanted = opacity;
+    if (color) layer.looks[0].color.set(color);
+    this.restyle();
+  }
+  private all(): ShownLayer[] { return [this.mesh, this.closing, this.proxy, ...this.files]; }
+  private seen(): ShownLayer[] { return this.all().filter((layer) => layer.group.visible && !layer.empty); }
+  /// A layer that is shown alone is opaque: there is nothing that it could hide.
+  private restyle(): void {
+    const seen = this.seen();
+    for (const layer of this.all()) layer.setOpacity(seen.length === 1 && seen[0] === layer ? 1 : layer.wanted);
     this.draw();
   }
 
@@ -209,22 +197,16 @@ export class View {
     this.plane = plane;
     this.filled = filled;
     const side = plane ? THREE.DoubleSide : THREE.FrontSide;
-    for (const look of [this.closingLook, ...[this.proxy, ...this.files].flatMap((shown) => shown.looks)]) {
+    for (const look of [this.closing, this.proxy, ...this.files].flatMap((shown: ShownLayer) => shown.looks)) {
       if (look.side !== side) look.needsUpdate = true;
       look.side = side;
     }
     this.draw();
   }
 
-  show(shown: Record<Layer, boolean>): void {
-    for (const layer of Object.keys(shown) as Layer[]) this.layers[layer].visible = shown[layer];
-    this.proxy.setOpacity(shown.proxy && (shown.scene || shown.closing) ? 0.28 : 1);
-    this.draw();
-  }
-
   setBase(world: number): void {
     this.base = world;
-    shared.uBase.value = (world / (this.drawnVoxel || this.facts.voxel)) * 16 || 1;
+    shared.uBase.value = (world / (this.closing.voxel || this.facts.voxel)) * 16 || 1;
     this.draw();
   }
 
@@ -248,11 +230,13 @@ export class View {
     this.draw();
   }
 
-  /// Returns the visible point there, relative to the middle. Transparent meshes are ignored.
+  /// Returns the visible point there, relative to the middle. Transparent layers are ignored, unless all are transparent.
   pick(x: number, y: number): THREE.Vector3 | null {
-    const hidden: THREE.Object3D[] = [this.stroke, this.ruler, this.ends, ...this.tools];
-    for (const shown of [this.proxy, ...this.files]) hidden.push(shown.transparent ? shown.group : shown.edges);
-    const fill = (depths: THREE.Material) => this.caps.draw(this.renderer, this.scene, this.camera, this.size, this.solids().filter((solid) => solid.opacity === 1), depths);
+    const hidden: THREE.Object3D[] = [this.stroke, this.ruler, this.ends, ...this.tools], seen = this.seen();
+    const least = Math.min(1, Math.max(...seen.map((layer) => layer.opacity)));
+    for (const layer of seen) hidden.push(...(layer.opacity < least ? [layer.group] : layer.edges));
+    this.focus();
+    const fill = (depths: THREE.Material) => this.caps.draw(this.renderer, this.scene, this.camera, this.size, this.solids().filter((solid) => solid.opacity >= least), depths);
     return this.picker.pick(this.camera, x, y, this.canvas.clientWidth, this.canvas.clientHeight, hidden, this.plane && this.filled ? fill : () => {});
   }
 
@@ -283,15 +267,24 @@ export class View {
 
   /// The visible layers that are closed, from the outermost to the innermost.
   private solids(): Solid[] {
-    const closing: Solid = { group: this.layers.closing, lines: [], color: this.closingLook.color, opacity: 1 };
-    const of = (shown: ShownMesh): Solid[] => (shown.group.visible && shown.closed ? [shown.solid] : []);
+    const of = (shown: ShownLayer): Solid[] => (shown.group.visible && shown.closed ? [shown.solid] : []);
     const [inner, outer] = [true, false].map((inside) => this.files.filter((file) => this.inner.has(file) === inside).flatMap(of));
-    return [...outer, ...of(this.proxy), ...(this.layers.closing.visible ? [closing] : []), ...of(this.mesh), ...inner];
+    return [...outer, ...of(this.proxy), ...of(this.closing), ...of(this.mesh), ...inner];
+  }
+
+  /// Lets the camera see just what is drawn: the depth buffer tells 2^24 distances apart, most of them close to the nearest.
+  private focus(): void {
+    const { camera } = this, distance = camera.position.length();
+    const reach = 1.01 * Math.max(0.75 * this.size, ...this.seen().map((layer) => layer.radius), ...this.tools.map((tool) => tool.position.length() + 0.2 * this.size));
+    camera.far = distance + reach;
+    camera.near = Math.max(distance - reach, kNearest * this.size);
+    camera.updateProjectionMatrix();
   }
 
   /// With a cut, what marks places is drawn last, and whole.
   private render(): void {
     const { renderer, scene, camera } = this;
+    this.focus();
     if (!this.plane) return renderer.render(scene, camera);
     const marks = [this.stroke, this.ruler, this.ends, ...this.tools], background = scene.background;
     withOnly(scene, scene.children.filter((child) => !marks.includes(child)), () => renderer.render(scene, camera));
