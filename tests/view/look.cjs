@@ -110,6 +110,12 @@ async function measuring(page) {
   await page.keyboard.press('d');
   await page.waitForFunction(() => document.getElementById('far').hidden);
 
+  for (const look of ['flat', 'smooth', 'edges']) {
+    check('faces look otherwise', (await changed(page, { x: 200, y: 80, width: 500, height: 560 }, () => page.keyboard.press('g'))) > 500, look);
+    check('the button tells it', await page.getAttribute(`[data-faces=${look}]`, 'aria-pressed') === 'true', look);
+    await picture(page, folder, look);
+  }
+
   await page.keyboard.press('4');
   await page.keyboard.press('2');
   await page.keyboard.press('f');

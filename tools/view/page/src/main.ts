@@ -9,6 +9,7 @@ import { View, type Layer } from './view';
 import { Cut } from './cut';
 import { Files, isProvable } from './files';
 import { Frames } from './frames';
+import { kFaces, type Faces } from './shown';
 import { Kept } from './kept';
 import { Mirror } from './mirror';
 import { readMesh, readSurface } from './wire';
@@ -133,6 +134,13 @@ async function turnDistances(on: boolean): Promise<void> {
   showDistances();
 }
 
+let look: Faces = 'edges';
+function lookAs(next: Faces): void {
+  look = next;
+  view.setFaces(look);
+  for (const button of document.querySelectorAll<HTMLButtonElement>('[data-faces]')) button.ariaPressed = String(button.dataset.faces === look);
+}
+
 /// The panel has two halves: what a person designs, and what he looks at.
 function turnTo(half: string): void {
   for (const button of document.querySelectorAll<HTMLButtonElement>('[data-half]')) button.ariaSelected = String(button.dataset.half === half);
@@ -188,6 +196,7 @@ const edit = (op: string) => void send('/api/edit', { op });
 for (const button of document.querySelectorAll<HTMLButtonElement>('[data-layer]')) button.onclick = () => toggle(button.dataset.layer as Layer);
 for (const slider of document.querySelectorAll<HTMLInputElement>('[data-opacity]')) slider.oninput = showLayers;
 for (const button of document.querySelectorAll<HTMLButtonElement>('[data-tool]')) button.onclick = () => choose(button.dataset.tool as Tool);
+for (const button of document.querySelectorAll<HTMLButtonElement>('[data-faces]')) button.onclick = () => lookAs(button.dataset.faces as Faces);
 for (const button of document.querySelectorAll<HTMLButtonElement>('[data-half]')) button.onclick = () => turnTo(button.dataset.half!);
 byId('undo').onclick = () => edit('undo');
 byId('redo').onclick = () => edit('redo');
@@ -242,7 +251,7 @@ addEventListener('keydown', (event) => {
     1: () => toggle('scene'), 2: () => toggle('closing'), 3: () => toggle('proxy'), f: () => view.frame(), '[': () => size(-40), ']': () => size(40),
     '+': () => view.zoom(0.9), '=': () => view.zoom(0.9), '-': () => view.zoom(1 / 0.9),
     v: () => choose('turn'), escape: () => choose('turn'), b: () => choose('decrease'), c: () => choose('increase'), e: () => choose('erase'),
-    m: () => byId('mesh').click(), r: () => choose('ruler'), y: () => mirror.next(), o: addFrame, d: () => void turnDistances(!distances), l: () => turnTo(byId('look').hidden ? 'look' : 'design'),
+    m: () => byId('mesh').click(), r: () => choose('ruler'), y: () => mirror.next(), o: addFrame, d: () => void turnDistances(!distances), g: () => lookAs(kFaces[(kFaces.indexOf(look) + 1) % kFaces.length]), l: () => turnTo(byId('look').hidden ? 'look' : 'design'),
     x: () => cut.next(), ',': () => cut.move(-10), '.': () => cut.move(10), '<': () => cut.move(-1), '>': () => cut.move(1), '\\': () => cut.flip(), k: () => cut.toggleFill(),
   };
   if (key >= '4' && key <= '9') files.toggle(Number(key) - 4);
@@ -302,6 +311,7 @@ async function begin(): Promise<void> {
   byId('cubes').hidden = state.element !== 'cube';
   files.tell(state.layers);  // the plot needs its rows
   choose('turn');
+  lookAs(look);
   turnTo(state.layers.length > 0 ? 'look' : 'design');
   showLayers();
   tell(state);

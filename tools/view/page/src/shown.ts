@@ -48,6 +48,10 @@ export abstract class ShownLayer {
   }
 }
 
+/// How the faces of proxy and files look.
+export const kFaces = ['edges', 'flat', 'smooth'] as const;
+export type Faces = (typeof kFaces)[number];
+
 const kBefore = 0.998;  // edges are drawn at this share of their distance from the camera, and so before their surface
 function edgeMaterial(): THREE.LineBasicMaterial {
   const material = new THREE.LineBasicMaterial({ transparent: true, opacity: 0.75 });
@@ -64,6 +68,7 @@ export class ShownMesh extends ShownLayer {
   farthest = 0;  // distance from the scene, scene units; 0: not known
   private surface: THREE.Mesh | null = null;
   private colored = false;
+  private faces: Faces = 'edges';
   private mesh: Mesh | null = null;
   private bounds: boolean | null = null;  // whether the mesh is closed; null: not known yet
 
@@ -91,21 +96,30 @@ export class ShownMesh extends ShownLayer {
     this.bounds = null;
     if (!mesh) return;
     for (let i = 0, p = mesh.positions; i < p.length; i += 3) this.radius = Math.max(this.radius, Math.hypot(p[i], p[i + 1], p[i + 2]));
-    const geometry = geometryOf(mesh), flat = mesh.normals === null;
-    for (const look of this.looks) {
-      if (look.flatShading !== flat) look.needsUpdate = true;
-      look.flatShading = flat;
-    }
+    const geometry = geometryOf(mesh);
     if (mesh.distances) {
       geometry.setAttribute('aValue', new THREE.BufferAttribute(mesh.distances, 1));
       for (const d of mesh.distances) this.farthest = Math.max(this.farthest, d);
     }
     this.surface = new THREE.Mesh(geometry);
     this.colorByDistance(this.colored);
+    this.setFaces(this.faces);
     this.group.add(this.surface);
     if (mesh.edges) {
       edges.geometry.setAttribute('position', geometry.getAttribute('position'));
       edges.geometry.setIndex(new THREE.BufferAttribute(mesh.edges, 1));
+    }
+  }
+
+  /// A mesh that comes with normals is always smooth.
+  setFaces(faces: Faces): void {
+    this.faces = faces;
+    this.edges[0].visible = faces === 'edges';
+    const flat = this.mesh?.normals === null && faces !== 'smooth';
+    if (!flat && this.surface && !this.surface.geometry.hasAttribute('normal')) this.surface.geometry.computeVertexNormals();
+    for (const look of this.looks) {
+      if (look.flatShading !== flat) look.needsUpdate = true;
+      look.flatShading = flat;
     }
   }
 

@@ -6,7 +6,7 @@ import { Caps, withOnly, type Solid } from './caps';
 import { makeMatcap, shared } from './looks';
 import { Picker } from './picker';
 import { ShownPieces } from './pieces';
-import { ShownLayer, ShownMesh } from './shown';
+import { ShownLayer, ShownMesh, type Faces } from './shown';
 import type { Mesh, Surface } from './wire';
 
 export type Layer = 'scene' | 'closing' | 'proxy';
@@ -27,6 +27,7 @@ export class View {
   private files: ShownMesh[] = [];
   private inner = new Set<ShownMesh>();  // files that lie inside the scene
   private caps = new Caps(this.matcap);
+  private faces: Faces = 'edges';
   private plane: THREE.Plane | null = null;
   private filled = true;
   private layers: Record<Layer, ShownLayer> = { scene: this.mesh, closing: this.closing, proxy: this.proxy };
@@ -131,6 +132,12 @@ export class View {
     return farthest;
   }
 
+  setFaces(faces: Faces): void {
+    this.faces = faces;
+    for (const shown of [this.proxy, ...this.files]) shown.setFaces(faces);
+    this.draw();
+  }
+
   /// Turns the view around its target by angles, moves it by shares of its distance, or goes nearer by a factor.
   turn(right: number, up: number): void {
     const offset = this.camera.position.clone().sub(this.controls.target), axis = this.camera.up;
@@ -158,6 +165,7 @@ export class View {
       const file = new ShownMesh(this.matcap, '#ffffff', { side: this.closing.looks[0].side });
       this.files.push(file);
       file.nest('outer');
+      file.setFaces(this.faces);
       this.scene.add(file.group);
       file.group.visible = false;
     }
