@@ -36,13 +36,13 @@ class Person {
     await this.page.waitForFunction((g) => window.bpview.generation === g, s.closing.generation);
     await sleep(500);
     fs.mkdirSync(path.dirname(path.join(folder, name)), { recursive: true });
-    await this.page.screenshot({ path: path.join(folder, `${name}.png`) });
+    await this.page.screenshot({ path: path.join(folder, `${name}.png`), scale: 'css' });
   }
 }
 
 async function with_page(browser, size, options, act) {
   const { child, link } = await serve(folder, ...options);
-  const troubles = [], context = await browser.newContext({ viewport: size });
+  const troubles = [], context = await browser.newContext({ viewport: size, deviceScaleFactor: 2 });  // pictures are smooth though the page does not smooth edges here
   const page = await open(context, link, troubles);
   await act(new Person(page));
   await context.close();
