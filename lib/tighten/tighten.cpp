@@ -9,6 +9,7 @@
 #include "lib/exact/predicates.h"
 #include "lib/mesh/shells.h"
 #include "lib/tighten/detail/step_planner.h"
+#include "lib/tighten/detail/thin_faces.h"
 #include "lib/tighten/joint_fit.h"
 
 namespace bp {
@@ -38,6 +39,7 @@ class Tightener {
     const bool gains = sweep_while_it_gains(params_.sweeps, [this] { move_together(); });
     if (!gains && params_.stops_early) return;
     sweep_while_it_gains(params_.final_sweeps, [this] { move_each(); });
+    if (params_.most_of_flip > 0) counts_.flips += flip_thin_faces(editor_, params_.most_of_flip);
   }
 
  private:

@@ -15,6 +15,8 @@ struct TightenParams : ShapeLimits {
   /// The volume for that share, lattice units cubed; 0: that of the mesh, which must be whole.
   double volume = 0;
   std::uint64_t faces_per_region = kFacesPerRegion;  ///< as in SimplifyParams
+  /// The most that a flip of a thin face's edge may add at the end, lattice units cubed; 0: none is flipped then.
+  double most_of_flip = 0;
 };
 
 struct TightenCounts {

@@ -151,6 +151,7 @@ void tighten_regions(LatticeMesh& proxy, const Enclosed& enclosed, const Tighten
   LatticeMesh tight = proxy;
   TightenParams first = params, second = params;
   first.final_sweeps = std::min(params.final_sweeps, 1);  // for the vertices that are locked in the second turn
+  first.most_of_flip = 0;
   second.sweeps = 1;
   counts = counts_before(proxy);
   tighten_turn(tight, enclosed, first, 0, counts);
