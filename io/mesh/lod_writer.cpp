@@ -97,6 +97,57 @@ std::string color_bytes(const ShadedMesh& mesh, const std::vector<std::uint32_t>
   return bytes;
 }
 
+void check_mesh(const NamedMesh& named) {
+  if (named.mesh->triangles.empty()) fail(ErrorCode::bad_argument, "{}: the mesh has no triangle", named.name);
+}
+
+template <class Number>
+std::size_t add_positions(GlbData& data, const Positions<Number>& p, std::size_t stride, int type, std::size_t count) {
+  return data.add_attributes(
+      p.bytes, stride, {{"componentType", type}, {"count", count}, {"type", "VEC3"}, {"min", p.min}, {"max", p.max}});
+}
+
+std::size_t add_tile_positions(GlbData& data, const LatticeMesh& mesh, const std::vector<std::uint32_t>& order,
+                               const TilePlace& place) {
+  if (!data.is_compressed() || place.reach() > kShortInteger) {
+    const auto at = [&](LatticeCoord v) { return place.at<float>(v); };
+    return add_positions(data, Positions<float>(mesh, order, 12, at), 12, kGltfFloat, order.size());
+  }
+  data.quantize();
+  const auto at = [&](LatticeCoord v) { return place.at<std::int16_t>(v); };
+  return add_positions(data, Positions<std::int16_t>(mesh, order, 8, at), 8, kGltfShort, order.size());
+}
+
+/// Returns the texture coordinates of the copies in `order`. If `compressed`: 16-bit integers for [0, 1], a
+/// 16th of a texel.
+std::string uv_bytes(const ShadedMesh& mesh, const std::vector<std::uint32_t>& order, bool compressed) {
+  std::string bytes;
+  if (mesh.uv.empty()) return bytes;
+  for (const std::uint32_t i : order) {
+    for (const float x : mesh.uv[i]) {
+      const auto integer = std::uint16_t(std::clamp(x, 0.0F, 1.0F) * 65535 + 0.5F);
+      compressed ? bytes.append(reinterpret_cast<const char*>(&integer), sizeof integer)
+                 : bytes.append(reinterpret_cast<const char*>(&x), sizeof x);
+    }
+  }
+  return bytes;
+}
+
+/// Returns what is subtracted from the triangles of a leaf in addition to the origin: 0 unless they lie far from it.
+Vec3d offset_of(const SceneLeaf& leaf, const Vec3d& origin) {
+  constexpr double kSizes = 8;  // so far from the origin float32 still has steps of a 2,000,000th of the scene
+  const Vec3d low = leaf.bounds.min - origin, high = leaf.bounds.max - origin;
+  double farthest = 0;
+  for (std::size_t i = 0; i < 3; ++i) farthest = std::max({farthest, std::abs(low[i]), std::abs(high[i])});
+  if (farthest <= kSizes * leaf.bounds.longest_side()) return {};
+  int exponent = 0;
+  (void)std::frexp(leaf.bounds.longest_side(), &exponent);
+  const double step = std::ldexp(1.0, exponent);  // a point of few bits
+  Vec3d offset;
+  for (std::size_t i = 0; i < 3; ++i) offset[i] = std::nearbyint((low[i] + high[i]) / 2 / step) * step;
+  return offset;
+}
+
 class GlbBuilder {
  public:
   enum class Data { plain, compressed };
@@ -111,7 +162,7 @@ class GlbBuilder {
     const LatticeMesh& mesh = *named.mesh;
     const GltfPlace place(mesh, origin_, offset, file_);
     add_mesh(named, [&](const auto& order) {
-      return add_positions(Positions<float>(mesh, order, 12, place), 12, kGltfFloat, order.size());
+      return add_positions(data_, Positions<float>(mesh, order, 12, place), 12, kGltfFloat, order.size());
     });
     Json node = node_of(named);
     place.place(node);
@@ -129,7 +180,7 @@ class GlbBuilder {
            "{}: a level reaches {} voxels from its origin, and glTF's 32-bit floats hold 2^18 of them exactly", file_,
            place.reach() / kLatticePerVoxel);
     }
-    add_mesh(named, [&](const auto& order) { return add_tile_positions(mesh, order, place); });
+    add_mesh(named, [&](const auto& order) { return add_tile_positions(data_, mesh, order, place); });
     const double step = mesh.frame.voxel / kLatticePerVoxel;
     json()["nodes"].push_back(node_of(named));
     json()["nodes"].back()["scale"] = Json::array({step, step, step});
@@ -141,7 +192,7 @@ class GlbBuilder {
   /// Adds triangles of the scene, less the origin and, far from it, a point near them, which is the node's translation.
   std::size_t add_scene(const NamedMesh& named, const LeafLooks& looks, UpAxis up) {
     const SceneLeaf& leaf = *named.scene;
-    const Vec3d offset = offset_of(leaf);
+    const Vec3d offset = offset_of(leaf, origin_);
     const auto place = [&](const std::array<std::int32_t, 3>& at) {
       GlbLeaves::Position p;
       for (std::size_t i = 0; i < 3; ++i) p[i] = float(leaf.origin[i] + leaf.unit * at[i] - origin_[i] - offset[i]);
@@ -176,10 +227,6 @@ class GlbBuilder {
     return data_.document(std::move(asset), roots);
   }
 
-  static void check_mesh(const NamedMesh& named) {
-    if (named.mesh->triangles.empty()) fail(ErrorCode::bad_argument, "{}: the mesh has no triangle", named.name);
-  }
-
   /// Adds a mesh. add_positions(order): adds the accessor of the vertices in this order, and returns its number.
   template <class AddPositions>
   void add_mesh(const NamedMesh& named, const AddPositions& add_positions) {
@@ -189,7 +236,8 @@ class GlbBuilder {
     if (mesh.texture && mesh.texture->normal.is_there()) tangents = tangents_of(mesh, drawn);
     std::vector<std::uint32_t> order = optimize_order(drawn.triangles, drawn.vertex.size());
     const std::vector<std::array<float, 3>> normals = normals_of(drawn, order, mesh.frame.up);
-    const std::string uv = uv_bytes(drawn, order), colors = mesh.colors.empty() ? "" : color_bytes(drawn, order);
+    const std::string uv = uv_bytes(drawn, order, data_.is_compressed()),
+                      colors = mesh.colors.empty() ? "" : color_bytes(drawn, order);
     if (!tangents.empty()) tangents = in_order(tangents, order, mesh.frame.up);
     for (std::uint32_t& i : order) i = drawn.vertex[i];
     Json attributes{{"POSITION", add_positions(order)}, {"NORMAL", data_.add_normals(normals)}};
@@ -201,41 +249,9 @@ class GlbBuilder {
     json()["meshes"].push_back({{"name", named.name}, {"primitives", Json::array({primitive})}});
   }
 
-  template <class Number>
-  std::size_t add_positions(const Positions<Number>& p, std::size_t stride, int type, std::size_t count) {
-    return data_.add_attributes(
-        p.bytes, stride, {{"componentType", type}, {"count", count}, {"type", "VEC3"}, {"min", p.min}, {"max", p.max}});
-  }
-
-  std::size_t add_tile_positions(const LatticeMesh& mesh, const std::vector<std::uint32_t>& order,
-                                 const TilePlace& place) {
-    if (!data_.is_compressed() || place.reach() > kShortInteger) {
-      const auto at = [&](LatticeCoord v) { return place.at<float>(v); };
-      return add_positions(Positions<float>(mesh, order, 12, at), 12, kGltfFloat, order.size());
-    }
-    data_.quantize();
-    const auto at = [&](LatticeCoord v) { return place.at<std::int16_t>(v); };
-    return add_positions(Positions<std::int16_t>(mesh, order, 8, at), 8, kGltfShort, order.size());
-  }
-
   std::size_t add_colors(const std::string& bytes) {
     return data_.add_attributes(
         bytes, 4, {{"componentType", kGltfUint8}, {"normalized", true}, {"count", bytes.size() / 4}, {"type", "VEC4"}});
-  }
-
-  /// Returns the texture coordinates of the copies in `order`. If the mesh is compressed: 16-bit integers for [0, 1], a
-  /// 16th of a texel.
-  [[nodiscard]] std::string uv_bytes(const ShadedMesh& mesh, const std::vector<std::uint32_t>& order) const {
-    std::string bytes;
-    if (mesh.uv.empty()) return bytes;
-    for (const std::uint32_t i : order) {
-      for (const float x : mesh.uv[i]) {
-        const auto integer = std::uint16_t(std::clamp(x, 0.0F, 1.0F) * 65535 + 0.5F);
-        data_.is_compressed() ? bytes.append(reinterpret_cast<const char*>(&integer), sizeof integer)
-                              : bytes.append(reinterpret_cast<const char*>(&x), sizeof x);
-      }
-    }
-    return bytes;
   }
 
   std::size_t add_uv(const std::string& bytes, std::size_t count) {
@@ -265,20 +281,6 @@ class GlbBuilder {
   std::optional<std::size_t> add_texture(const std::string& image, const std::string& type) {
     if (image.empty()) return {};
     return looks_.add_texture(looks_.add_image(image, type), {TextureWrap::clamp, TextureWrap::clamp});
-  }
-
-  [[nodiscard]] Vec3d offset_of(const SceneLeaf& leaf) const {
-    constexpr double kSizes = 8;  // so far from the origin float32 still has steps of a 2,000,000th of the scene
-    const Vec3d low = leaf.bounds.min - origin_, high = leaf.bounds.max - origin_;
-    double farthest = 0;
-    for (std::size_t i = 0; i < 3; ++i) farthest = std::max({farthest, std::abs(low[i]), std::abs(high[i])});
-    if (farthest <= kSizes * leaf.bounds.longest_side()) return {};
-    int exponent = 0;
-    (void)std::frexp(leaf.bounds.longest_side(), &exponent);
-    const double step = std::ldexp(1.0, exponent);  // a point of few bits
-    Vec3d offset;
-    for (std::size_t i = 0; i < 3; ++i) offset[i] = std::nearbyint((low[i] + high[i]) / 2 / step) * step;
-    return offset;
   }
 
   Json node_of(const NamedMesh& named) { return {{"name", named.name}, {"mesh", json()["meshes"].size() - 1}}; }

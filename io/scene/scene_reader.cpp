@@ -78,6 +78,79 @@ IndexedMesh mesh_of(const std::string& name, RawSource& raw, const SceneOptions&
   return mesh;
 }
 
+std::size_t batches_in(std::uint64_t memory_bytes) {
+  constexpr std::uint64_t kBatchBytes = RawSource::kBatch * (sizeof(TriangleD) + 16);
+  const auto wanted = std::uint64_t(thread_count() > 1 ? 2 * thread_count() : 1);
+  return std::size_t(std::clamp<std::uint64_t>(memory_bytes / 2 / kBatchBytes, 1, wanted));
+}
+
+/// Returns whether no coordinate is zero, tiny, huge or NaN: then nothing must be normalized or checked.
+bool is_plain(const TriangleD& t) {
+  bool plain = true;
+  for (const Vec3d& p : t) {
+    for (const double c : p) plain &= std::abs(c) >= 1e-90 && std::abs(c) <= 1e90;
+  }
+  return plain;
+}
+
+/// Moves a batch. Returns its largest coordinate before.
+double move(const SceneMap& map, const std::optional<UpAxis>& up, RawBatch& batch) {
+  double largest = 0;
+  for (const TriangleD& t : batch.triangles) {
+    for (const Vec3d& p : t) {
+      for (const double c : p) largest = std::isfinite(c) ? std::max(largest, std::abs(c)) : largest;
+    }
+  }
+  map.move(batch.triangles, up);
+  for (TriangleTexture& texture : batch.textures) {
+    for (PackedNormal& n : texture.normals) n = n == 0 ? n : pack_normal(map.normal(unpack_normal(n), up));
+  }
+  return largest;
+}
+
+/// Returns what a bound on the coordinates of the file, which are at most `largest`, means for those after the map.
+/// They are smaller, so a share of them would be too little.
+Rounding mapped(const SceneMap& map, const Rounding& of_file, double largest) {
+  if (!of_file.any()) return of_file;
+  const double bound = map.stretch() * of_file.of(largest);
+  return {0, bound, bound};
+}
+
+/// Drops the triangles that are not good, and returns the counts of all.
+SceneCounts keep_good(RawBatch& batch, bool keep_degenerate, bool keep_extremes) {
+  std::vector<TriangleD>& triangles = batch.triangles;
+  if (batch.colored) batch.colors.resize(triangles.size());
+  if (batch.textured) batch.textures.resize(triangles.size());
+  if (!batch.inner_edges.empty()) batch.inner_edges.resize(triangles.size());
+  SceneCounts counts;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    TriangleD& t = triangles[i];
+    const bool plain = is_plain(t);
+    if (!plain) keep_extremes ? drop_signs_of_zeros(t) : normalize(t);
+    if (!plain && !is_finite(t)) {
+      ++counts.non_finite;
+      continue;
+    }
+    // Beyond the domain of the predicates, whether there is area cannot be decided; a caller that keeps extremes can
+    // handle these.
+    const bool degenerate = (plain || in_predicate_domain(t)) && is_degenerate(t);
+    if (degenerate) ++counts.degenerate;
+    if (degenerate && !keep_degenerate) continue;
+    if (degenerate) ++counts.kept_degenerate;
+    if (batch.colored) batch.colors[kept] = batch.colors[i];
+    if (batch.textured) batch.textures[kept] = batch.textures[i];
+    if (!batch.inner_edges.empty()) batch.inner_edges[kept] = batch.inner_edges[i];
+    if (kept != i) triangles[kept] = t;
+    ++kept;
+  }
+  triangles.resize(kept);
+  if (batch.colored) batch.colors.resize(kept);
+  if (batch.textured) batch.textures.resize(kept);
+  counts.triangles = kept;
+  return counts;
+}
+
 /// Drops and counts triangles without area or with coordinates that are not finite. Batches are decoded and sifted in
 /// parallel, some ahead of the caller.
 class FilteredScene final : public TriangleSource {
@@ -138,12 +211,6 @@ class FilteredScene final : public TriangleSource {
     double largest = 0;  // coordinate before the map
   };
 
-  static std::size_t batches_in(std::uint64_t memory_bytes) {
-    constexpr std::uint64_t kBatchBytes = RawSource::kBatch * (sizeof(TriangleD) + 16);
-    const auto wanted = std::uint64_t(thread_count() > 1 ? 2 * thread_count() : 1);
-    return std::size_t(std::clamp<std::uint64_t>(memory_bytes / 2 / kBatchBytes, 1, wanted));
-  }
-
   /// Sets batch_ to the next one with triangles; at the end returns false and sets an empty one.
   bool read_batch(bool colored, bool textured = false) {
     batch_ = &end_;
@@ -163,7 +230,7 @@ class FilteredScene final : public TriangleSource {
     counts_.posed = raw_->posed();
     counts_.differing = raw_->differing();
     counts_.unfollowed = raw_->unfollowed();
-    counts_.rounding = map_ ? mapped(raw_->rounding()) : raw_->rounding();
+    counts_.rounding = map_ ? mapped(*map_, raw_->rounding(), largest_) : raw_->rounding();
     const SceneCounts& c = counts_;  // at the end; somebody who names a file of points wants them enclosed
     if (!some_parts_ && batch_->triangles.empty() && c.triangles + c.degenerate + c.non_finite + c.bad_faces == 0 &&
         raw_->points() + raw_->lines() > 0)
@@ -183,81 +250,15 @@ class FilteredScene final : public TriangleSource {
       if (!raw_->next(batch)) break;
       ++ready_;
     }
+    const std::optional<UpAxis> up = raw_->up();
     parallel_for(std::int64_t(ready_), [&](std::int64_t i) {
       Batch& batch = batches_[std::size_t(i)];
       raw_->complete(batch.raw);
-      if (map_) batch.largest = move(batch.raw);
-      batch.counts = keep_good(batch.raw);
+      if (map_) batch.largest = move(*map_, up, batch.raw);
+      batch.counts = keep_good(batch.raw, keep_degenerate_, keep_extremes_);
     });
     for (std::size_t i = 0; i < ready_; ++i) bad_faces_ += batches_[i].raw.bad_faces;
     return ready_ > 0;
-  }
-
-  /// Returns whether no coordinate is zero, tiny, huge or NaN: then nothing must be normalized or checked.
-  static bool is_plain(const TriangleD& t) {
-    bool plain = true;
-    for (const Vec3d& p : t) {
-      for (const double c : p) plain &= std::abs(c) >= 1e-90 && std::abs(c) <= 1e90;
-    }
-    return plain;
-  }
-
-  /// Moves a batch. Returns its largest coordinate before.
-  [[nodiscard]] double move(RawBatch& batch) const {
-    double largest = 0;
-    for (const TriangleD& t : batch.triangles) {
-      for (const Vec3d& p : t) {
-        for (const double c : p) largest = std::isfinite(c) ? std::max(largest, std::abs(c)) : largest;
-      }
-    }
-    const std::optional<UpAxis> up = raw_->up();
-    map_->move(batch.triangles, up);
-    for (TriangleTexture& texture : batch.textures) {
-      for (PackedNormal& n : texture.normals) n = n == 0 ? n : pack_normal(map_->normal(unpack_normal(n), up));
-    }
-    return largest;
-  }
-
-  /// Returns what a bound on the coordinates of the file means for those after the map. They are smaller, so a share of
-  /// them would be too little.
-  [[nodiscard]] Rounding mapped(const Rounding& of_file) const {
-    if (!of_file.any()) return of_file;
-    const double bound = map_->stretch() * of_file.of(largest_);
-    return {0, bound, bound};
-  }
-
-  [[nodiscard]] SceneCounts keep_good(RawBatch& batch) const {
-    std::vector<TriangleD>& triangles = batch.triangles;
-    if (batch.colored) batch.colors.resize(triangles.size());
-    if (batch.textured) batch.textures.resize(triangles.size());
-    if (!batch.inner_edges.empty()) batch.inner_edges.resize(triangles.size());
-    SceneCounts counts;
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < triangles.size(); ++i) {
-      TriangleD& t = triangles[i];
-      const bool plain = is_plain(t);
-      if (!plain) keep_extremes_ ? drop_signs_of_zeros(t) : normalize(t);
-      if (!plain && !is_finite(t)) {
-        ++counts.non_finite;
-        continue;
-      }
-      // Beyond the domain of the predicates, whether there is area cannot be decided; a caller that keeps extremes can
-      // handle these.
-      const bool degenerate = (plain || in_predicate_domain(t)) && is_degenerate(t);
-      if (degenerate) ++counts.degenerate;
-      if (degenerate && !keep_degenerate_) continue;
-      if (degenerate) ++counts.kept_degenerate;
-      if (batch.colored) batch.colors[kept] = batch.colors[i];
-      if (batch.textured) batch.textures[kept] = batch.textures[i];
-      if (!batch.inner_edges.empty()) batch.inner_edges[kept] = batch.inner_edges[i];
-      if (kept != i) triangles[kept] = t;
-      ++kept;
-    }
-    triangles.resize(kept);
-    if (batch.colored) batch.colors.resize(kept);
-    if (batch.textured) batch.textures.resize(kept);
-    counts.triangles = kept;
-    return counts;
   }
 
   std::string name_;

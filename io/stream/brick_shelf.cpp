@@ -169,6 +169,47 @@ void unpack(std::span<const std::byte> packed, BrickBits& out) {
   detail::from_planes(planes.data(), out);
 }
 
+/// Keeps a compressed brick, whose memory the caller has taken.
+void keep_packed(std::span<const std::byte> packed, Entry& entry) {
+  entry.place = Place::packed;
+  entry.size = std::uint32_t(packed.size());
+  entry.data.reset(new std::byte[packed.size()]);
+  std::memcpy(entry.data.get(), packed.data(), packed.size());
+}
+
+void spill(ShelfPool::State& pool, std::span<const std::byte> packed, Entry& entry) {
+  entry.size = std::uint32_t(packed.size());
+  entry.data.reset(new std::byte[entry.page_count() * sizeof(std::uint32_t)]);
+  pool.pages.write(packed, entry.pages());
+  entry.place = Place::spilled;
+  pool.take(entry.memory());
+}
+
+void load(const ShelfPool::State& pool, const Entry& entry, BrickBits& out) {
+  switch (entry.place) {
+    case Place::none:
+      out.fill(~std::uint64_t(0));
+      return;
+    case Place::raw:
+      std::memcpy(out.data(), entry.data.get(), detail::kBrickBytes);
+      return;
+    case Place::packed:
+      return unpack({entry.data.get(), entry.size}, out);
+    case Place::spilled:
+      break;
+  }
+  thread_local std::vector<std::byte> packed;
+  packed.resize(entry.size);
+  pool.pages.read(entry.pages(), packed);
+  unpack(packed, out);
+}
+
+void release(ShelfPool::State& pool, const Entry& entry) {
+  if (entry.place == Place::spilled) pool.pages.release(entry.pages());
+  pool.give_back(entry.memory());
+  pool.give_back_entry();
+}
+
 /// A share of the bricks, with its own lock. Several threads may read at once.
 class Shard {
  public:
@@ -254,22 +295,6 @@ class Shard {
     }
   }
 
-  /// Keeps a compressed brick, whose memory the caller has taken.
-  static void keep_packed(std::span<const std::byte> packed, Entry& entry) {
-    entry.place = Place::packed;
-    entry.size = std::uint32_t(packed.size());
-    entry.data.reset(new std::byte[packed.size()]);
-    std::memcpy(entry.data.get(), packed.data(), packed.size());
-  }
-
-  static void spill(ShelfPool::State& pool, std::span<const std::byte> packed, Entry& entry) {
-    entry.size = std::uint32_t(packed.size());
-    entry.data.reset(new std::byte[entry.page_count() * sizeof(std::uint32_t)]);
-    pool.pages.write(packed, entry.pages());
-    entry.place = Place::spilled;
-    pool.take(entry.memory());
-  }
-
   /// Notes a raw brick. raw_ may name bricks that are gone, or name a brick twice; it is made anew before it grows
   /// beyond twice the bricks.
   void remember_raw(BrickCoord coord) {
@@ -281,31 +306,6 @@ class Shard {
     }
     raw_.push_back(coord);
     ++raw_count_;
-  }
-
-  static void load(const ShelfPool::State& pool, const Entry& entry, BrickBits& out) {
-    switch (entry.place) {
-      case Place::none:
-        out.fill(~std::uint64_t(0));
-        return;
-      case Place::raw:
-        std::memcpy(out.data(), entry.data.get(), detail::kBrickBytes);
-        return;
-      case Place::packed:
-        return unpack({entry.data.get(), entry.size}, out);
-      case Place::spilled:
-        break;
-    }
-    thread_local std::vector<std::byte> packed;
-    packed.resize(entry.size);
-    pool.pages.read(entry.pages(), packed);
-    unpack(packed, out);
-  }
-
-  static void release(ShelfPool::State& pool, const Entry& entry) {
-    if (entry.place == Place::spilled) pool.pages.release(entry.pages());
-    pool.give_back(entry.memory());
-    pool.give_back_entry();
   }
 
   void erase(ShelfPool::State& pool, BrickCoord coord) {

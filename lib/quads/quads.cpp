@@ -39,14 +39,86 @@ struct Candidate {
   double room;                     // volume that moving its corners outwards would add, roughly; mostly 0
 };
 
+double star_area(const HalfEdgeMesh& mesh, VertexId v) {
+  double sum = 0;
+  mesh.for_each_outgoing(v, [&](HalfEdgeId h) {
+    sum +=
+        length(to_double(normal_of(mesh.position(v), mesh.position(mesh.to(h)), mesh.position(mesh.opposite(h))))) / 2;
+  });
+  return sum;
+}
+
+/// Returns the volume that lifting both ends of one diagonal up to the other one adds.
+double room_between(const HalfEdgeMesh& mesh, HalfEdgeId h) {
+  const VertexId a = mesh.opposite(h), b = mesh.opposite(mesh.twin(h));
+  const LatticeCoord &u = mesh.position(mesh.from(h)), &w = mesh.position(mesh.to(h));
+  const Vec3d n = cross(to_double(w - u), to_double(mesh.position(b) - mesh.position(a)));
+  const double depth = std::abs(dot(n, to_double(mesh.position(a) - u))) / length(n);
+  return depth * (star_area(mesh, a) + star_area(mesh, b)) / 3;
+}
+
+/// Adds the candidate of an edge, unless its triangles must not be joined.
+void add_candidate(const HalfEdgeMesh& mesh, HalfEdgeId h, Guard& guard, QuadKeeps keeps, const Enclosed* enclosed,
+                   std::vector<Candidate>& candidates) {
+  const HalfEdgeId t = mesh.twin(h);
+  const VertexId u = mesh.from(h), w = mesh.to(h), a = mesh.opposite(h), b = mesh.opposite(t);
+  const Tetrahedron p = {mesh.position(u), mesh.position(w), mesh.position(a), mesh.position(b)};
+  const double quality = quad_quality({p[0], p[3], p[1], p[2]});
+  if (quality < kLeastQuadQuality || !mesh.can_flip(h)) return;
+  const std::array<NewFace, 2> across = {NewFace{{b, a, u}, {p[3], p[2], p[0]}},
+                                         NewFace{{a, b, w}, {p[2], p[3], p[1]}}};
+  const std::array<FaceId, 2> faces = {HalfEdgeMesh::face(h), HalfEdgeMesh::face(t)};
+  double room = 0;
+  if (keeps != QuadKeeps::nothing && orient3d(p[0], p[1], p[2], p[3]) < 0) {
+    const std::array<Tetrahedron, 1> between = {p};
+    const bool allowed = enclosed != nullptr && enclosed->allows(across, between);
+    if (!allowed && keeps == QuadKeeps::enclosed) return;
+    if (!allowed) room = room_between(mesh, h);
+  }
+  if (!guard.faces_are_free(across, faces)) return;
+  candidates.push_back({{std::min(faces[0], faces[1]), std::max(faces[0], faces[1])},
+                        quality + kCountWeight,
+                        {across[0].ids, across[1].ids},
+                        room});
+}
+
+std::vector<Candidate> find_candidates(const LatticeMesh& lattice, QuadKeeps keeps, const Enclosed* enclosed) {
+  const HalfEdgeMesh mesh(lattice);
+  const FaceTree tree(mesh);
+  Guard guard(mesh, tree);
+  std::vector<Candidate> candidates;
+  for (HalfEdgeId h = 0; h < 3 * mesh.face_capacity(); ++h) {
+    if (mesh.edge(h) == h) add_candidate(mesh, h, guard, keeps, enclosed, candidates);
+  }
+  return candidates;
+}
+
+/// Lowers the weight of each pair that needs room, by its room over the mean room of such pairs.
+void charge_room(std::vector<Candidate>& candidates) {
+  double sum = 0;
+  int n = 0;
+  for (const Candidate& c : candidates) {
+    sum += c.room;
+    n += c.room > 0;
+  }
+  for (Candidate& c : candidates) c.weight -= c.room > 0 ? kRoomWeight * c.room / (sum / n) : 0;
+}
+
+/// Chooses among candidates.
 class Pairing {
  public:
-  Pairing(const LatticeMesh& mesh, QuadKeeps keeps, const Enclosed* enclosed)
-      : lattice_(mesh), mesh_(mesh), keeps_(keeps), enclosed_(enclosed), edges_(mesh.triangles.size()) {}
+  Pairing(const LatticeMesh& mesh, std::vector<Candidate> candidates)
+      : lattice_(mesh),
+        candidates_(std::move(candidates)),
+        edges_(mesh.triangles.size()),
+        match_(mesh.triangles.size(), kNone) {
+    for (std::uint32_t c = 0; c < candidates_.size(); ++c) {
+      for (const std::uint32_t f : candidates_[c].faces) edges_[f].push_back(c);
+    }
+  }
 
   std::vector<std::array<std::uint32_t, 2>> run() {
-    find_candidates();
-    charge_room();
+    charge_room(candidates_);
     match();
     improve();
     return pairs_without_conflicts();
@@ -55,8 +127,6 @@ class Pairing {
   /// Chooses among the pairs `wanted` only.
   std::vector<std::array<std::uint32_t, 2>> run(std::vector<std::array<std::uint32_t, 2>> wanted) {
     std::sort(wanted.begin(), wanted.end());
-    find_candidates();
-    match_.assign(lattice_.triangles.size(), kNone);
     for (std::uint32_t c = 0; c < candidates_.size(); ++c) {
       if (std::binary_search(wanted.begin(), wanted.end(), candidates_[c].faces)) set(c, true);
     }
@@ -72,68 +142,6 @@ class Pairing {
     }
     std::sort(pairs.begin(), pairs.end());
     return pairs;
-  }
-
-  void find_candidates() {
-    const FaceTree tree(mesh_);
-    Guard guard(mesh_, tree);
-    for (HalfEdgeId h = 0; h < 3 * mesh_.face_capacity(); ++h) {
-      if (mesh_.edge(h) == h) add_candidate(h, guard);
-    }
-  }
-
-  void add_candidate(HalfEdgeId h, Guard& guard) {
-    const HalfEdgeId t = mesh_.twin(h);
-    const VertexId u = mesh_.from(h), w = mesh_.to(h), a = mesh_.opposite(h), b = mesh_.opposite(t);
-    const Tetrahedron p = {mesh_.position(u), mesh_.position(w), mesh_.position(a), mesh_.position(b)};
-    const double quality = quad_quality({p[0], p[3], p[1], p[2]});
-    if (quality < kLeastQuadQuality || !mesh_.can_flip(h)) return;
-    const std::array<NewFace, 2> across = {NewFace{{b, a, u}, {p[3], p[2], p[0]}},
-                                           NewFace{{a, b, w}, {p[2], p[3], p[1]}}};
-    const std::array<FaceId, 2> faces = {HalfEdgeMesh::face(h), HalfEdgeMesh::face(t)};
-    double room = 0;
-    if (keeps_ != QuadKeeps::nothing && orient3d(p[0], p[1], p[2], p[3]) < 0) {
-      const std::array<Tetrahedron, 1> between = {p};
-      const bool allowed = enclosed_ != nullptr && enclosed_->allows(across, between);
-      if (!allowed && keeps_ == QuadKeeps::enclosed) return;
-      if (!allowed) room = room_between(h);
-    }
-    if (!guard.faces_are_free(across, faces)) return;
-    const auto id = std::uint32_t(candidates_.size());
-    candidates_.push_back({{std::min(faces[0], faces[1]), std::max(faces[0], faces[1])},
-                           quality + kCountWeight,
-                           {across[0].ids, across[1].ids},
-                           room});
-    for (const FaceId f : faces) edges_[f].push_back(id);
-  }
-
-  /// Returns the volume that lifting both ends of one diagonal up to the other one adds.
-  [[nodiscard]] double room_between(HalfEdgeId h) const {
-    const VertexId a = mesh_.opposite(h), b = mesh_.opposite(mesh_.twin(h));
-    const LatticeCoord &u = mesh_.position(mesh_.from(h)), &w = mesh_.position(mesh_.to(h));
-    const Vec3d n = cross(to_double(w - u), to_double(mesh_.position(b) - mesh_.position(a)));
-    const double depth = std::abs(dot(n, to_double(mesh_.position(a) - u))) / length(n);
-    return depth * (star_area(a) + star_area(b)) / 3;
-  }
-  [[nodiscard]] double star_area(VertexId v) const {
-    double sum = 0;
-    mesh_.for_each_outgoing(v, [&](HalfEdgeId h) {
-      sum += length(to_double(
-                 normal_of(mesh_.position(v), mesh_.position(mesh_.to(h)), mesh_.position(mesh_.opposite(h))))) /
-             2;
-    });
-    return sum;
-  }
-
-  /// Lowers the weight of each pair that needs room, by its room over the mean room of such pairs.
-  void charge_room() {
-    double sum = 0;
-    int n = 0;
-    for (const Candidate& c : candidates_) {
-      sum += c.room;
-      n += c.room > 0;
-    }
-    for (Candidate& c : candidates_) c.weight -= c.room > 0 ? kRoomWeight * c.room / (sum / n) : 0;
   }
 
   /// Returns the candidates, best first.
@@ -154,7 +162,6 @@ class Pairing {
   }
 
   void match() {
-    match_.assign(lattice_.triangles.size(), kNone);
     for (const std::uint32_t c : by_weight()) {
       if (candidates_[c].weight <= 0) return;
       if (match_[candidates_[c].faces[0]] == kNone && match_[candidates_[c].faces[1]] == kNone) set(c, true);
@@ -226,9 +233,6 @@ class Pairing {
   }
 
   const LatticeMesh& lattice_;
-  const HalfEdgeMesh mesh_;
-  const QuadKeeps keeps_;
-  const Enclosed* enclosed_;
   std::vector<Candidate> candidates_;
   std::vector<std::vector<std::uint32_t>> edges_;  // per face: its candidates
   std::vector<std::uint32_t> match_;               // per face: its candidate, or kNone
@@ -266,13 +270,13 @@ double quad_quality(const std::array<LatticeCoord, 4>& p) {
 
 std::vector<std::array<std::uint32_t, 2>> pair_triangles(const LatticeMesh& mesh, QuadKeeps keeps,
                                                          const Enclosed* enclosed) {
-  return Pairing(mesh, keeps, enclosed).run();
+  return Pairing(mesh, find_candidates(mesh, keeps, enclosed)).run();
 }
 
 std::vector<std::array<std::uint32_t, 2>> safe_pairs(const LatticeMesh& mesh,
                                                      const std::vector<std::array<std::uint32_t, 2>>& pairs,
                                                      QuadKeeps keeps, const Enclosed* enclosed) {
-  return Pairing(mesh, keeps, enclosed).run(pairs);
+  return Pairing(mesh, find_candidates(mesh, keeps, enclosed)).run(pairs);
 }
 
 Quad quad_of(const Triangle& a, const Triangle& b) {

@@ -49,6 +49,25 @@ struct Node {
   }
 };
 
+/// Foresees what is to come from the flat faces: few cells grow beyond kLargeCell, and rounds leave some times the
+/// faces that are wanted.
+SurfaceWork foreseen_work(std::uint64_t flat, const BulkEnd& end) {
+  const std::uint64_t left = std::max(kMarginOfFew * end.faces, kFew);
+  const bool has_rounds = end.cost > 0 && flat > kMargin * end.faces;
+  return {kWorkPerFace * (end.cost > 0 ? std::min(flat, left) : flat),
+          has_rounds ? kWorkPerFace * std::min(flat, kLargeCell) : 0, flat};
+}
+
+/// Returns the box of a cell. `origin`: the lowest brick; `edge`: of the cell, lattice units.
+LatticeBox cell_box(BrickCoord origin, BrickCoord coord, std::int64_t edge) {
+  LatticeBox box;
+  for (int i = 0; i < 3; ++i) {
+    box.min[i] = origin[i] * kBrickLattice + coord[i] * edge;
+    box.max[i] = box.min[i] + edge;
+  }
+  return box;
+}
+
 class SurfaceTree {
  public:
   SurfaceTree(const SurfaceSource& surface, const SimplifyParams& params, const BulkEnd& end)
@@ -73,7 +92,8 @@ class SurfaceTree {
       node.parts.push_back(store_.put(std::move(piece)));
     });
     std::erase_if(nodes_, [](const Node& node) { return node.parts.empty(); });
-    foresee();
+    work_ = foreseen_work(this->faces(), end_);
+    if (params_.memory.count) params_.memory.count(work_);
     return faces;
   }
 
@@ -145,16 +165,6 @@ class SurfaceTree {
   }
 
  private:
-  /// Foresees what is to come from the flat faces: few cells grow beyond kLargeCell, and rounds leave some times the
-  /// faces that are wanted.
-  void foresee() {
-    const std::uint64_t flat = faces(), left = std::max(kMarginOfFew * end_.faces, kFew);
-    const bool has_rounds = end_.cost > 0 && flat > kMargin * end_.faces;
-    work_ = {kWorkPerFace * (end_.cost > 0 ? std::min(flat, left) : flat),
-             has_rounds ? kWorkPerFace * std::min(flat, kLargeCell) : 0, flat};
-    if (params_.memory.count) params_.memory.count(work_);
-  }
-
   /// Throws if `left` bytes do not suffice for so many triangles at once.
   void check_work(std::uint64_t faces, std::uint64_t left) const {
     const std::uint64_t needed = faces * kWorkPerFace;
@@ -187,22 +197,13 @@ class SurfaceTree {
     params_.limits->add_part(part);
   }
 
-  [[nodiscard]] LatticeBox cell_box(BrickCoord coord) const {
-    LatticeBox box;
-    for (int i = 0; i < 3; ++i) {
-      box.min[i] = origin_[i] * kBrickLattice + coord[i] * edge_;
-      box.max[i] = box.min[i] + edge_;
-    }
-    return box;
-  }
-
   /// Returns the piece of a node, and empties the node.
   [[nodiscard]] Piece welded(Node& node) {
     std::vector<Piece> pieces;
     for (WaitingPiece& part : node.parts) pieces.push_back(store_.take(std::move(part)));
     node.parts.clear();
     Piece piece = pieces.size() == 1 ? std::move(pieces.front()) : weld(pieces);
-    piece.cell = cell_box(node.coord);
+    piece.cell = cell_box(origin_, node.coord, edge_);
     return piece;
   }
 

@@ -14,6 +14,7 @@
 #include "lib/closing/detail/ball_transform.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <limits>
 #include <type_traits>
@@ -30,16 +31,60 @@ constexpr std::int32_t kSmallBound = 1 << 14;              // largest w for 16-b
 
 /// The seeds of one row around a word: the word itself and the words to either side within reach.
 struct SeedWords {
+  explicit SeedWords(std::int32_t radius) : side((radius + 63) / 64) {
+    words.resize(std::size_t(2 * side + 1));
+    if (side == 0) return;
+    const std::int32_t outer = radius - 64 * (side - 1);  // bits of the outermost words, 1 .. 64
+    left_mask = ~std::uint64_t(0) << (64 - outer);
+    right_mask = ~std::uint64_t(0) >> (64 - outer);
+  }
+  /// Goes to the row of words around the column that begins at x0, in a slice.
+  void move_to(const ColumnBits& seeds, std::int32_t x0, std::int32_t z) {
+    for (std::int32_t k = -side; k <= side; ++k) {
+      const std::int32_t column = floor_div(x0 - seeds.box().min.x, 64) + k;
+      words[std::size_t(k + side)] = column >= 0 && column < seeds.columns() ? seeds.slice(column, z) : nullptr;
+    }
+    y0 = seeds.box().min.y;
+  }
+
+  std::int32_t side;                        ///< words to either side
   std::vector<const std::uint64_t*> words;  ///< slices of the columns -side .. side; null if there is no such column
-  std::int32_t side = 0;
-  std::int32_t y0 = 0;                          ///< row of the first word of a slice
-  std::uint64_t left_mask = 0, right_mask = 0;  ///< bits within reach of the outermost words
+  std::int32_t y0 = 0;                      ///< row of the first word of a slice
+  std::uint64_t left_mask = ~std::uint64_t(0), right_mask = ~std::uint64_t(0);  ///< bits in reach of the outer words
   [[nodiscard]] std::uint64_t bits(std::int32_t k, std::int32_t y) const {
     const std::uint64_t* w = words[std::size_t(k + side)];
     if (w == nullptr) return 0;
     return w[y - y0] & (k == -side ? left_mask : k == side ? right_mask : ~std::uint64_t(0));
   }
+  static constexpr std::int32_t kNone = std::numeric_limits<std::int32_t>::min();
+  /// Returns the nearest seeds of row y to the left and to the right of the middle word; kNone: there is none.
+  [[nodiscard]] std::array<std::int32_t, 2> nearest(std::int32_t y) const {
+    std::int32_t left = kNone, right = kNone;
+    for (std::int32_t k = 1; k <= side && left == kNone; ++k) {
+      if (const std::uint64_t word = bits(-k, y)) left = -64 * k + 63 - std::countl_zero(word);
+    }
+    for (std::int32_t k = 1; k <= side && right == kNone; ++k) {
+      if (const std::uint64_t word = bits(k, y)) right = 64 * k + std::countr_zero(word);
+    }
+    return {left, right};
+  }
 };
+
+/// Sets the marks of the rows [y0, y0 + count) in which a word of the column holds a target. `marks`: for kBlockRows
+/// rows of each slice of the targets. Returns whether there is any.
+bool mark_targets(const ColumnBits& targets, std::int32_t column, std::int32_t y0, std::int32_t count,
+                  std::uint16_t mark, std::uint16_t* marks) {
+  bool any = false;
+  for (std::int32_t z = targets.box().min.z; z < targets.box().max.z; ++z, marks += kBlockRows) {
+    const std::uint64_t* words = targets.slice(column, z) + (y0 - targets.box().min.y);
+    for (std::int32_t i = 0; i < count; ++i) {
+      if (words[i] == 0) continue;
+      marks[i] = mark;
+      any = true;
+    }
+  }
+  return any;
+}
 
 template <class T>
 T* room(std::vector<std::byte>& memory, std::size_t count) {
@@ -68,10 +113,8 @@ struct BallTransform::Columns {
   SeedWords words;
   T top = 0;
 
-  static constexpr bool kKeepsMinima = std::is_same_v<T, Value>;
-
   Columns(BallTransform& owner, const ColumnBits& q, const BallRule& r, ColumnBits& p)
-      : scratch(owner), seeds(q), rule(r), targets(p), radius(ball_reach(r.bound)) {
+      : scratch(owner), seeds(q), rule(r), targets(p), radius(ball_reach(r.bound)), words(radius) {
     const VoxelBox &t = targets.box(), &s = seeds.box();
     z0 = std::min(t.min.z, std::max(s.min.z, t.min.z - radius));
     slices = std::max(t.max.z, std::min(s.max.z, t.max.z + radius)) - z0;
@@ -85,15 +128,6 @@ struct BallTransform::Columns {
     need = scratch.need_.data();
     scratch.present_.resize(std::size_t(slices));
     make_squares();
-    words.side = (radius + 63) / 64;
-    words.words.resize(std::size_t(2 * words.side + 1));
-    const std::int32_t outer = radius - 64 * (words.side - 1);  // bits of the outermost words, 1 .. 64
-    if (words.side > 0) {
-      words.left_mask = ~std::uint64_t(0) << (64 - outer);
-      words.right_mask = ~std::uint64_t(0) >> (64 - outer);
-    } else {
-      words.left_mask = words.right_mask = ~std::uint64_t(0);
-    }
     top = T(std::bit_floor(unsigned(radius)));
   }
 
@@ -116,26 +150,14 @@ struct BallTransform::Columns {
 
   /// Works on rows [y0, y0 + count) of one column.
   void run_block(std::int32_t column, std::int32_t y0, std::int32_t count) {
-    if (!find_needs(column, y0, count)) return;
+    std::fill_n(need, std::size_t(slices) * kBlockRows, std::uint16_t(0));
+    if (!mark_targets(targets, column, y0, count, std::uint16_t(radius + 1),
+                      need + std::size_t(targets.box().min.z - z0) * kBlockRows))
+      return;
+    spread(need, slices);
     const std::int32_t x0 = targets.box().min.x + 64 * column;
     for (std::int32_t i = 0; i < slices; ++i) run_slice(x0, y0, i);
     for (std::int32_t i = 0; i < count; ++i) decide_row(column, x0, y0, i);
-  }
-
-  /// Fills `need`. Returns false if the block holds no target.
-  bool find_needs(std::int32_t column, std::int32_t y0, std::int32_t count) {
-    std::fill_n(need, std::size_t(slices) * kBlockRows, std::uint16_t(0));
-    std::uint64_t any = 0;
-    for (std::int32_t z = targets.box().min.z; z < targets.box().max.z; ++z) {
-      const std::uint64_t* words_ = targets.slice(column, z) + (y0 - targets.box().min.y);
-      std::uint16_t* to = need + std::size_t(z - z0) * kBlockRows;
-      for (std::int32_t i = 0; i < count; ++i) {
-        to[i] = words_[i] != 0 ? std::uint16_t(radius + 1) : std::uint16_t(0);
-        any |= words_[i];
-      }
-    }
-    if (any != 0) spread(need, slices);
-    return any != 0;
   }
 
   /// Runs the x and y passes of slice z0 + i: fills the field where it is needed.
@@ -162,12 +184,7 @@ struct BallTransform::Columns {
     if (z < box.min.z || z >= box.max.z) return 0;
     begin = std::max(begin, box.min.y);
     end = std::min(end, box.max.y);
-    for (std::int32_t k = -words.side; k <= words.side; ++k) {
-      const std::int32_t column = floor_div(x0 - box.min.x, 64) + k;
-      words.words[std::size_t(k + words.side)] =
-          column >= 0 && column < seeds.columns() ? seeds.slice(column, z) : nullptr;
-    }
-    words.y0 = box.min.y;
+    words.move_to(seeds, x0, z);
     std::int32_t found = 0;
     for (std::int32_t y = begin; y < end; ++y) {
       std::uint64_t any = 0;
@@ -194,17 +211,8 @@ struct BallTransform::Columns {
 
   /// x pass of a row whose seeds all have the same bound.
   void x_pass_of_one(std::int32_t y, std::int32_t bound, T* row) {
-    constexpr std::int32_t kNone = std::numeric_limits<std::int32_t>::min();
-    std::int32_t left = kNone, right = kNone;
-    for (std::int32_t k = 1; k <= words.side && left == kNone; ++k) {
-      const std::uint64_t bits = words.bits(-k, y);
-      if (bits != 0) left = -64 * k + 63 - std::countl_zero(bits);
-    }
-    for (std::int32_t k = 1; k <= words.side && right == kNone; ++k) {
-      const std::uint64_t bits = words.bits(k, y);
-      if (bits != 0) right = 64 * k + std::countr_zero(bits);
-    }
-    nearest(words.bits(0, y), left, right, kNone, T(bound), squares, row);
+    const auto [left, right] = words.nearest(y);
+    nearest(words.bits(0, y), left, right, SeedWords::kNone, T(bound), squares, row);
   }
 
   /// z pass of row y0 + i: clears the targets that no seed reaches.
@@ -217,7 +225,7 @@ struct BallTransform::Columns {
                      std::size_t(box.max.y - box.min.y),
                      box.min.z - z0,
                      box.max.z - box.min.z};
-    if constexpr (kKeepsMinima) {
+    if constexpr (std::is_same_v<T, Value>) {
       compare_line(line, x0, y0 + i);
     } else {
       z_sweep(line);

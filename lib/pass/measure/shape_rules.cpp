@@ -76,6 +76,41 @@ Reaches reaches_of(const ShapeRule& rule, const ScaleField& before, const GridFr
   return r;
 }
 
+/// Returns the tiles with a voxel that lies within `reach_vox` of a solid brick.
+std::vector<TileCoord> tiles_in_reach(const BrickShelf& solid, const TileGrid& grid, std::int32_t reach_vox) {
+  std::set<TileCoord> tiles;
+  for (const BrickCoord brick : solid.coords()) {
+    const VoxelBox reach = intersect(voxels_of(brick).grown(reach_vox), grid.voxels);
+    for_each(grid.tiles_of(reach), [&](TileCoord t) { tiles.insert(t); });
+  }
+  return {tiles.begin(), tiles.end()};
+}
+
+/// Returns whether the part of a cell in a tile holds a voxel. `step`: edge of the cells, voxels.
+bool any_in_cell(VoxelCoord cell, std::int32_t step, const BitBox& voxels, const VoxelBox& tile) {
+  const VoxelCoord first = cell * step;
+  const VoxelBox box = intersect(VoxelBox{first, {first.x + step, first.y + step, first.z + step}}, tile);
+  for (std::int32_t z = box.min.z; z < box.max.z; ++z) {
+    for (std::int32_t y = box.min.y; y < box.max.y; ++y) {
+      const std::uint64_t* row = voxels.row(y, z);
+      for (std::int32_t x = box.min.x; x < box.max.x; x += 8) {  // a byte of a row lies in one cell
+        const std::int32_t at = x - voxels.box().min.x;
+        if ((row[at >> 6] >> (at & 63) & 0xff) != 0) return true;
+      }
+    }
+  }
+  return false;
+}
+
+VoxelBox cells_of(const VoxelBox& voxels, std::int32_t step) {
+  VoxelBox cells;
+  for (int axis = 0; axis < 3; ++axis) {
+    cells.min[axis] = floor_div(voxels.min[axis], step);
+    cells.max[axis] = ceil_div(voxels.max[axis], step);
+  }
+  return cells;
+}
+
 class ShapeMeasurer {
  public:
   ShapeMeasurer(const StreamHeader& header, const BrickShelf& solid, const ShapeRule& rule, const Reaches& reaches,
@@ -90,7 +125,7 @@ class ShapeMeasurer {
   std::vector<ScaleRule> operator()() {
     lay_cells();
     const int at_work = lay_tiles();
-    const std::vector<TileCoord> tiles = tiles_in_reach();
+    const std::vector<TileCoord> tiles = tiles_in_reach(solid_, tiles_, reaches_.farthest());
     std::size_t next = 0, done = 0;
     options_.context.report("measuring", "tiles", 0, tiles.size());
     pipeline<TileCoord>(
@@ -110,7 +145,7 @@ class ShapeMeasurer {
   void lay_cells() {
     const std::size_t levels = std::max<std::size_t>(reaches_.levels.size(), 1);
     while (double(space_.volume()) / std::pow(step_, 3) * double(levels) > kMostCells) step_ *= 2;
-    cells_.assign(levels, BitBox(cells_of(space_)));
+    cells_.assign(levels, BitBox(cells_of(space_, step_)));
   }
   /// Returns the bytes of all levels, and of few_boxes_of() for one level.
   [[nodiscard]] double cell_bytes() const {
@@ -147,15 +182,6 @@ class ShapeMeasurer {
     return (side(0) + 64) * side(1) * side(2);
   }
 
-  [[nodiscard]] std::vector<TileCoord> tiles_in_reach() const {
-    std::set<TileCoord> tiles;
-    for (const BrickCoord brick : solid_.coords()) {
-      const VoxelBox reach = intersect(voxels_of(brick).grown(reaches_.farthest()), tiles_.voxels);
-      for_each(tiles_.tiles_of(reach), [&](TileCoord t) { tiles.insert(t); });
-    }
-    return {tiles.begin(), tiles.end()};
-  }
-
   void measure(const VoxelBox& tile) {
     BitBox solid(intersect(tile.grown(reaches_.halo()), space_));
     load_voxels(solid_, solid);
@@ -171,35 +197,11 @@ class ShapeMeasurer {
   /// Marks the cells of the voxels in the tile.
   void mark(std::size_t level, const BitBox& voxels, const VoxelBox& tile) {
     std::vector<VoxelCoord> cells;
-    for_each(cells_of(tile), [&](VoxelCoord c) {
-      if (any_in_cell(c, voxels, tile)) cells.push_back(c);
+    for_each(cells_of(tile, step_), [&](VoxelCoord c) {
+      if (any_in_cell(c, step_, voxels, tile)) cells.push_back(c);
     });
     const std::lock_guard lock(mutex_);
     for (const VoxelCoord& c : cells) cells_[level].set(c);
-  }
-
-  [[nodiscard]] bool any_in_cell(VoxelCoord cell, const BitBox& voxels, const VoxelBox& tile) const {
-    const VoxelCoord first = cell * step_;
-    const VoxelBox box = intersect(VoxelBox{first, {first.x + step_, first.y + step_, first.z + step_}}, tile);
-    for (std::int32_t z = box.min.z; z < box.max.z; ++z) {
-      for (std::int32_t y = box.min.y; y < box.max.y; ++y) {
-        const std::uint64_t* row = voxels.row(y, z);
-        for (std::int32_t x = box.min.x; x < box.max.x; x += 8) {  // a byte of a row lies in one cell
-          const std::int32_t at = x - voxels.box().min.x;
-          if ((row[at >> 6] >> (at & 63) & 0xff) != 0) return true;
-        }
-      }
-    }
-    return false;
-  }
-
-  [[nodiscard]] VoxelBox cells_of(const VoxelBox& voxels) const {
-    VoxelBox cells;
-    for (int axis = 0; axis < 3; ++axis) {
-      cells.min[axis] = floor_div(voxels.min[axis], step_);
-      cells.max[axis] = ceil_div(voxels.max[axis], step_);
-    }
-    return cells;
   }
 
   [[nodiscard]] std::vector<ScaleRule> rules() const {

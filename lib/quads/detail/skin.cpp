@@ -4,6 +4,7 @@
 
 #include "lib/core/parallel.h"
 #include "lib/mesh/lattice_geometry.h"
+#include "lib/quads/detail/vertex_normal.h"
 #include "lib/quads/quads.h"
 
 namespace bp {
@@ -92,18 +93,9 @@ Vec3d Skin::to_mean(VertexId v, double& edge) const {
   return (1 / double(near_[v].size())) * sum;
 }
 
-Vec3d Skin::normal(VertexId v) const {
-  Vec3d n{};
-  mesh_.for_each_outgoing(v, [&](HalfEdgeId h) {
-    n = n + to_double(normal_of(mesh_.position(v), mesh_.position(mesh_.to(h)), mesh_.position(mesh_.opposite(h))));
-  });
-  const double size = length(n);
-  return size > 0 ? (1 / size) * n : n;
-}
-
 void Skin::relax(VertexId v) {
   double edge = 0;
-  const Vec3d d = to_mean(v, edge), n = normal(v);
+  const Vec3d d = to_mean(v, edge), n = vertex_normal(mesh_, v);
   if (go(v, d)) return;
   go(v, d - dot(d, n) * n);
 }
@@ -111,7 +103,7 @@ void Skin::relax(VertexId v) {
 void Skin::push(VertexId v, double inwards) {
   double edge = 0;
   (void)to_mean(v, edge);
-  go(v, (-inwards * edge) * normal(v));
+  go(v, (-inwards * edge) * vertex_normal(mesh_, v));
 }
 
 /// Moves v to where the faces around it enclose the least volume.

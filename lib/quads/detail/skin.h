@@ -27,8 +27,6 @@ class Skin {
 
   /// Moves v by `by`, or by the largest of its halves, quarters ... that is allowed.
   bool go(VertexId v, Vec3d by);
-  /// Returns the outer normal at v, of length 1, or 0 if it has none.
-  [[nodiscard]] Vec3d normal(VertexId v) const;
 
  private:
   template <class Step>

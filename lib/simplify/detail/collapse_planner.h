@@ -3,10 +3,10 @@
 #include <vector>
 
 #include "lib/enclosed/enclosed.h"
-#include "lib/mesh/constrained_minimum.h"
 #include "lib/mesh/face_tree.h"
 #include "lib/mesh/guard.h"
 #include "lib/mesh/shells.h"
+#include "lib/simplify/detail/edge_star.h"
 #include "lib/simplify/simplify_params.h"
 #include "lib/simplify/waves.h"
 
@@ -62,42 +62,25 @@ class CollapsePlanner {
     double cost = 0;  // of the summed quadrics at `position`, lattice units^4
     int attempt = 0;  // number of the attempt
   };
-  /// A face around one of the edge's ends; coordinates relative to from(edge).
-  struct StarFace {
-    FaceId face;
-    VertexId a, b;              // its corners besides the end, counter-clockwise
-    LatticeCoord apex, pa, pb;  // positions of the end, of a and of b
-    LatticeCoord normal;
-    bool lost;  // one of the two faces at the edge, which vanish
-  };
-
   /// Returns the first place for the merged vertex, from attempt `first_attempt` on; nothing if there is none.
   [[nodiscard]] std::optional<Candidate> solve(HalfEdgeId h, int first_attempt);
   [[nodiscard]] bool may_be_taken(const LatticeCoord& p);
   void fill(const Candidate& candidate, CollapsePlan& plan) const;
   [[nodiscard]] Quadric summed(HalfEdgeId h) const;
   [[nodiscard]] Vec3d midpoint(HalfEdgeId h) const;
-  void gather_star(HalfEdgeId h);
-  [[nodiscard]] bool link_holds() const;
-  void gather_constraints();
   [[nodiscard]] std::optional<Candidate> place_growing(const Quadric& q, const Vec3d& prior);
   [[nodiscard]] std::optional<Candidate> place_free(const Quadric& q, const Vec3d& prior, int first_attempt);
   [[nodiscard]] std::optional<Candidate> place_enclosing(const Quadric& q, const Vec3d& prior, int first_attempt);
-  [[nodiscard]] Vec3d pushed_out(const Vec3d& x) const;
-  [[nodiscard]] std::optional<LatticeCoord> round_inside(const Vec3d& x, const Quadric& q) const;
-  [[nodiscard]] bool outside_all(const LatticeCoord& p) const;
   [[nodiscard]] bool acceptable(const LatticeCoord& p, double cost);
-  [[nodiscard]] bool shape_is_fine(const LatticeCoord& p) const;
   [[nodiscard]] bool edges_are_short(const LatticeCoord& p) const;
   [[nodiscard]] bool adds_little(const LatticeCoord& p) const;
   [[nodiscard]] bool keeps_inside(const LatticeCoord& p);
   [[nodiscard]] bool too_far(double cost) const;
-  void gather_new_faces(const LatticeCoord& p);
   [[nodiscard]] bool stays_near() const;
   [[nodiscard]] bool leaves_near() const;
   [[nodiscard]] bool is_free(const LatticeCoord& p);
   [[nodiscard]] bool turns_over(const LatticeCoord& p) const;
-  [[nodiscard]] bool swallows(FaceId f, const LatticeCoord& p) const;
+  [[nodiscard]] const LatticeCoord& origin() const { return star_.origin(); }
   /// Keeps the refusal of the attempt that passed most tests.
   bool refuse(Refusal why) {
     refusal_ = std::max(refusal_, why);
@@ -110,12 +93,8 @@ class CollapsePlanner {
   Guard guard_;
   Refusal refusal_ = Refusal::none;
   // The fields below belong to the edge that solve() was last called with.
-  LatticeCoord origin_;  // position of from(h)
-  VertexId kept_ = kNoId;
-  double weight_ = 0;           // area that its quadrics are weighted by
-  std::vector<StarFace> star_;  // faces around from(h), then those around to(h) without the edge's own two
-  std::vector<VertexId> ring_;  // neighbours of from(h), then those of to(h) without from(h)
-  std::size_t ring_split_ = 0;  // where the neighbours of to(h) begin
+  EdgeStar star_;
+  double weight_ = 0;  // area that its quadrics are weighted by
   std::vector<PlaneConstraint> constraints_;
   std::vector<NewFace> new_faces_;
   std::vector<FaceId> replaced_;

@@ -1,23 +1,24 @@
 #pragma once
 #include <cstddef>
-#include <cstdint>
 
+#include "lib/core/memory_share.h"
 #include "lib/device/backend.h"
+#include "lib/grid/tile_grid.h"
 
 namespace bp {
 
-constexpr std::int32_t kMaxTileVox = 512;  ///< beyond that, halos cost little and tiles get few
+/// The tiles of a closing, and the resources for their work.
+struct TilePlan {
+  TileGrid tiles;
+  std::size_t at_work = 0;     ///< tiles that fit in memory at once, and find a worker
+  std::size_t cube_bytes = 0;  ///< ClosingParams::cube_bytes, if cubes are turned
+};
 
-/// Returns the bytes that closing one tile of a grid takes if every voxel of tile and halo is occupied: the boxes of
-/// close_tile(), and as much again as the tile itself for the components of its empty voxels.
-[[nodiscard]] double tile_bytes(const VoxelCoord& grid, std::int32_t tile, const Halo& halo, bool turned);
-
-/// Returns the tile size, up to `largest`, with the best product: of the workers that fit in memory and find enough
-/// tiles, and of the share of the voxels they read that are not halo.
-[[nodiscard]] std::int32_t choose_tile(const VoxelCoord& grid, const Halo& halo, std::size_t workers,
-                                       std::uint64_t memory_bytes, std::int32_t largest, bool turned);
-
-/// Returns the bytes of a worker's share of the memory that its tile leaves.
-[[nodiscard]] std::size_t left_of(std::uint64_t memory_bytes, double tile_bytes, std::size_t workers);
+/// Chooses the tiles of a grid: those of `tile_vox` a side, or, if it is 0, of the size with the best product: of the
+/// workers that fit in memory and find enough tiles, and of the share of the voxels they read that are not halo.
+/// `widest`: the halo where the scale is largest. `mostly_stays`: EarlierTiles::mostly_stays(). Throws as
+/// close_stream().
+[[nodiscard]] TilePlan plan_tiles(const VoxelBox& grid, const Halo& widest, bool turned, bool mostly_stays,
+                                  std::size_t backends, std::int32_t tile_vox, const MemoryShare& memory);
 
 }  // namespace bp

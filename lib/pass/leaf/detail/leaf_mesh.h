@@ -44,6 +44,7 @@ class LeafMesh {
   [[nodiscard]] const std::vector<Index>& faces_of(Index point) const { return points_[point].faces; }
   [[nodiscard]] const Face& face(Index f) const { return faces_[f]; }
   [[nodiscard]] const Corner& corner(Index c) const { return corners_[c]; }
+  [[nodiscard]] const Look& look_at(Index f, std::size_t k) const { return corners_[faces_[f][k]].look; }
   [[nodiscard]] Index point_of(Index f, std::size_t k) const { return corners_[faces_[f][k]].point; }
   /// Returns which corner of the face lies at the point; none: 3.
   [[nodiscard]] std::size_t place_in(Index f, Index point) const;
