@@ -11,6 +11,7 @@
 #include "lib/enclosed/enclosed_voxels.h"
 #include "lib/grid/shelf_stream.h"
 #include "lib/levels/detail/silhouettes.h"
+#include "lib/pass/hide/possible_rooms.h"
 #include "lib/pass/mesh/complement.h"
 #include "lib/pass/mesh/mesh_pass.h"
 #include "lib/volume/boundary_runs.h"
@@ -71,7 +72,9 @@ class HiddenSearch {
         steps_(request.hidden.context, pass, "scales", scales_.size()),
         options_(steps_.within(request.hidden)),
         more_than_(request.more_than_voxels),
-        enclosed_(enclosed_voxels(header, touched, backends, options_)) {}
+        enclosed_(enclosed_voxels(header, touched, backends, options_)) {
+    if (!asked_) leave_out_needless();
+  }
 
   HiddenScene run() {
     const std::size_t last = scales_.size() - 1;
@@ -83,7 +86,7 @@ class HiddenSearch {
       if (!is_enough(most_)) search(last);
     }
     // The scales are a factor apart: where none hides anything, the largest that may be tried still can.
-    if (most_ == 0) {
+    if (most_ == 0 && can_make_rooms(largest_scale(header_))) {
       scales_.push_back(largest_scale(header_));
       attempt(last + 1);
     }
@@ -91,6 +94,22 @@ class HiddenSearch {
   }
 
  private:
+  /// Leaves out the scales at which the closing makes no room: nothing more is hidden there than at 0.
+  void leave_out_needless() {
+    const std::vector<bool> possible = possible_rooms(header_, *enclosed_, scales_, options_);
+    std::size_t kept = 1;
+    for (std::size_t i = 1; i < scales_.size(); ++i) {
+      if (possible[i]) {
+        scales_[kept++] = scales_[i];
+      } else {
+        steps_.step();
+      }
+    }
+    scales_.resize(kept);
+  }
+  [[nodiscard]] bool can_make_rooms(double scale) const {
+    return possible_rooms(header_, *enclosed_, {scale}, options_).front();
+  }
   [[nodiscard]] bool gives_up() const { return double(most_possible_) <= more_than_; }
   /// Returns whether a scale that hides so much is taken before all larger ones.
   [[nodiscard]] bool is_enough(std::uint64_t hidden) const {

@@ -40,9 +40,10 @@ struct HiddenScene {
 };
 
 /// Returns what the scene hides at the scale that is asked for. Without one, it takes the least scale, up to a
-/// sixteenth of the scene's diagonal, that hides 0.95 of what the best one does. Scales that cannot hide as much as one
-/// that was tried are left out: a closing bounds what it and all smaller ones hide. `touched` holds the bricks of
-/// `header`. `pass`: the name of the work in reports of progress. Throws as close_stream().
+/// sixteenth of the scene's diagonal, that hides 0.95 of what the best one does. Scales at which the closing makes no
+/// room are left out (possible_rooms.h), and scales that cannot hide as much as one that was tried: a closing bounds
+/// what it and all smaller ones hide. `touched` holds the bricks of `header`. `pass`: the name of the work in reports
+/// of progress. Throws as close_stream().
 [[nodiscard]] HiddenScene hidden_scene(const StreamHeader& header, BrickShelf& touched, Backends& backends,
                                        const OccluderRequest& request, const char* pass);
 

@@ -5,6 +5,7 @@
 #include "lib/core/error.h"
 #include "lib/device/cpu/cpu_backend.h"
 #include "lib/pass/hide/hidden_pass.h"
+#include "lib/pass/hide/possible_rooms.h"
 #include "tests/catch.h"
 #include "tests/reference/closing.h"
 #include "tests/reference/flood.h"
@@ -212,6 +213,36 @@ TEST_CASE("a closing is known to make no room, and where it makes one", "[quick]
     CHECK_FALSE(makes_room(scale, closed));
     CHECK(makes_room(scale, room) == (scale >= 3));
     CHECK(makes_room(scale, room) == (defined(room, passed_closing_of(room, scale, kCube), scale) != open_room));
+  }
+}
+
+TEST_CASE("a scale at which no room is possible makes none, and the dilation knows of all that a closing makes",
+          "[quick][pass][occluder]") {
+  const int seed = GENERATE(range(0, 6));
+  std::mt19937 random(unsigned(seed) * 5 + 3);
+  std::vector<VoxelBox> plates;
+  for (int i = 0; i < 40; ++i) {
+    const auto number = [&](int most) { return std::int32_t(random() % unsigned(most)); };
+    const VoxelCoord at{number(40), number(25), number(25)};
+    VoxelCoord size{6 + number(14), 6 + number(10), 6 + number(10)};
+    size[i % 3] = 1;
+    plates.push_back({at, at + size});
+  }
+  const Solid touched = [&](VoxelCoord p) {
+    if (seed == 0) return p.x + p.y + p.z > 20 && kBox.contains(p);  // no room at any scale
+    return (seed == 1 && room(p)) ||
+           std::any_of(plates.begin(), plates.end(), [&](const VoxelBox& b) { return b.contains(p); });
+  };
+  const std::vector<double> scales{0, 1, 2, 2.0625, 2.9, 3.0625, 4, 5.5, 8};
+  Scene scene(touched, 0, StructuringElement::cube);
+  const auto enclosed = enclosed_voxels(scene.header, scene.shelf, scene.backends, scene.options);
+  const std::vector<bool> possible = possible_rooms(scene.header, *enclosed, scales, scene.options);
+  for (std::size_t i = 0; i < scales.size(); ++i) {
+    CAPTURE(seed, scales[i]);
+    scene.options.scale_world = scales[i];
+    const bool has_rooms = closed_voxels(scene.header, *enclosed, scene.backends, scene.options).has_rooms;
+    CHECK((possible[i] || !has_rooms));
+    if (seed == 0) CHECK_FALSE(possible[i]);
   }
 }
 
