@@ -41,13 +41,20 @@ bool is_above_target(const LatticeMesh& proxy, const SimplifyParams& params) {
   return by_volume(params) && proxy.triangles.size() > params.faces;
 }
 
-/// Returns the volume that one flip of a thin face's edge may add to a proxy: about three times what a collapse adds on
-/// a ball, and at most a small share. None for few faces, since each of these proxies begins from one of more
-/// (few_faces.h).
-double most_of_flip(double volume, std::uint64_t faces) {
+/// Returns the parameters with the volume that one flip of a thin face's edge may add: about three times what a
+/// collapse adds on a ball, and at most a small share. None for few faces, since each of these proxies begins from one
+/// of more (few_faces.h).
+TightenParams with_flips(TightenParams params, double volume, std::uint64_t faces) {
   constexpr double kThreeCollapses = 20, kMostShare = 1e-4;
-  if (faces < kFewFaces) return 0;
-  return volume * std::min(kThreeCollapses / (double(faces) * double(faces)), kMostShare);
+  if (faces < kFewFaces) return params;
+  params.most_of_flip = std::abs(volume) * std::min(kThreeCollapses / (double(faces) * double(faces)), kMostShare);
+  return params;
+}
+TightenParams with_flips(TightenParams params, const HalfEdgeMesh& proxy) {
+  return with_flips(std::move(params), volume_of(proxy), proxy.face_count());
+}
+TightenParams with_flips(TightenParams params, const LatticeMesh& proxy) {
+  return with_flips(std::move(params), double(volume6_of(proxy)) / 6, proxy.triangles.size());
 }
 
 /// Does steps (2) to (5) on a grown proxy.
@@ -83,9 +90,7 @@ class Steps {
       put_back(editor);
     }
     // Each region has an editor of its own.
-    TightenParams last = tightening_of(params_);
-    last.most_of_flip = most_of_flip(std::abs(double(volume6_of(proxy_.mesh))) / 6, faces());
-    tighten_regions(proxy_.mesh, enclosed_, last, proxy_.tightened);
+    tighten_regions(proxy_.mesh, enclosed_, with_flips(tightening_of(params_), proxy_.mesh), proxy_.tightened);
     return std::move(proxy_);
   }
 
@@ -191,8 +196,7 @@ class Steps {
   TightProxy tightened_whole(ProxyEditor& editor) {
     TightenParams last = tightening_of(params_);
     if (params_.limits == nullptr) last = enclosed_.is_exact() ? sweeps(10, 4, 1e-4) : sweeps(4, 2, 3e-4);
-    last.most_of_flip = most_of_flip(std::abs(volume_of(editor.mesh())), editor.mesh().face_count());
-    proxy_.mesh = tighten(editor, proxy_.mesh.frame, last, proxy_.tightened);
+    proxy_.mesh = tighten(editor, proxy_.mesh.frame, with_flips(last, editor.mesh()), proxy_.tightened);
     return std::move(proxy_);
   }
 

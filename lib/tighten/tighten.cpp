@@ -39,7 +39,6 @@ class Tightener {
     const bool gains = sweep_while_it_gains(params_.sweeps, [this] { move_together(); });
     if (!gains && params_.stops_early) return;
     sweep_while_it_gains(params_.final_sweeps, [this] { move_each(); });
-    if (params_.most_of_flip > 0) counts_.flips += flip_thin_faces(editor_, params_.most_of_flip);
   }
 
  private:
@@ -292,6 +291,7 @@ TightenCounts tighten_on(ProxyEditor& editor, const TightenParams& params) {
   const std::uint64_t tries = editor.counts().tries;
   counts.volume_before = volume_of(editor.mesh());
   Tightener(editor, params, counts).run();
+  if (params.most_of_flip > 0) counts.flips += flip_thin_faces(editor, params.most_of_flip);
   counts.volume_after = volume_of(editor.mesh());
   counts.tries = editor.counts().tries - tries;
   return counts;

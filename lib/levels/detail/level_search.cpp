@@ -45,6 +45,18 @@ bool may_reach_by_volume(const LodLevel& level, std::uint64_t faces) {
   return kFacesOfTetrahedron * parts <= faces && (parts == 1 || level.mesh.triangles.size() <= 2 * faces + kFewMore);
 }
 
+/// Returns whether a level lies no farther from the scene than a closing may: by the diagonal of a voxel, and of the
+/// cube if that closes anything. At a larger scale than `scale_world` it would hardly be nearer.
+bool is_near(const LodLevel& level, double scale_world, const LodGround& ground) {
+  const double closed = scale_world >= kLeastScaleVox * ground.voxel ? scale_world : 0;
+  return level.error_world <= std::sqrt(3.0) * (closed + ground.voxel);
+}
+
+/// Returns the most faces that show something of so many triangles.
+std::uint64_t most_faces_around(std::uint64_t triangles) {
+  return std::max<std::uint64_t>(kFacesPerTriangle * triangles, MeshParams::kSimpleScene);
+}
+
 }  // namespace
 
 bool may_follow(const LevelScene& scene, const LodTarget& target) {
@@ -57,7 +69,8 @@ bool follows_from(const LevelScene& scene, const LodTarget& target, const LevelS
 
 MeshParams params_of_level(const LodOptions& options, const LodTarget& target, bool has_triangles) {
   MeshParams params;
-  if (target.faces > 0) params.faces = {target.faces};
+  const std::uint64_t most = has_triangles ? most_faces_around(options.scene.size()) : target.faces;
+  if (target.faces > 0) params.faces = {std::min(target.faces, most)};
   params.error_world = target.error_world;
   params.mode = options.mode;
   params.enclose = options.enclose;
@@ -170,21 +183,9 @@ class LevelSearch {
         if (by_volume && keeps_near) closing_of_best = std::make_unique<Closing>(std::move(closing));
         leave_start(std::move(halfway), *solid, parts, scale);
       }
-      if (!is_simple() || is_as_near_as_its_closing(*solid) || last || scale >= 2 * whole) break;
+      if (!is_simple() || last || scale >= 2 * whole || is_near(best_.level(), scale, ground_)) break;
     }
     if (closing_of_best && !best_.is_exact()) propose_least_volume(*closing_of_best);
-  }
-  /// Returns whether the best mesh lies no farther from the scene than its closing may: by the diagonal of a voxel, and
-  /// of the cube that closes. At a larger scale it may only lie farther.
-  bool is_as_near_as_its_closing(const Solid& solid) const {
-    const LodLevel& level = best_.level();
-    return level.error_world <= std::sqrt(3.0) * (level.scale_world + solid.header.frame.voxel);
-  }
-  /// Returns how many faces a mesh may have: the budget, but no more than the scene's triangles can use.
-  std::uint64_t most_faces() const {
-    if (!scene_.has_triangles()) return target_.faces;
-    return std::min(target_.faces,
-                    std::max<std::uint64_t>(kFacesPerTriangle * options_.scene.size(), MeshParams::kSimpleScene));
   }
   /// Proposes the mesh of least volume around the closing of the best mesh.
   void propose_least_volume(const Closing& closing) {
@@ -252,7 +253,6 @@ class LevelSearch {
   /// near_world: as in MeshParams.
   MeshParams mesh_params(const Solid& solid, std::optional<double> near_world) const {
     MeshParams params = params_of_level(options_, target_, scene_.has_triangles());
-    if (target_.faces > 0) params.faces = {most_faces()};
     // The enclosed voxels reach up to a voxel's diagonal beyond the scene.
     if (target_.error_world > 0)
       params.error_world =

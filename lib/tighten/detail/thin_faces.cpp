@@ -18,8 +18,9 @@ double quality_of(const HalfEdgeMesh& mesh, FaceId f) {
   return triangle_quality(mesh.corner(f, 0), mesh.corner(f, 1), mesh.corner(f, 2));
 }
 
-/// Returns how much the thinner face beside the edge gains by a flip; at most 0 if the flip adds more than `most`, or if
-/// the new edge lies farther above the old one than the skin is thick.
+/// Returns how much the thinner face beside the edge gains by a flip. It is at most 0 if the flip adds more than
+/// `most`, if the new edge lies farther above the old one than the skin is thick, or if a new face turns away from the
+/// old ones: then the flip makes a fin, which has next to no volume.
 double gain_of_flip(const HalfEdgeMesh& mesh, HalfEdgeId h, double most) {
   const HalfEdgeId t = mesh.twin(h);
   if (t == kNoId || !mesh.can_flip(h)) return 0;
@@ -28,6 +29,9 @@ double gain_of_flip(const HalfEdgeMesh& mesh, HalfEdgeId h, double most) {
                      &a = mesh.position(mesh.opposite(h)), &b = mesh.position(mesh.opposite(t));
   const double added6 = double(fan_gain6(mesh, faces, b));  // six times a tetrahedron with both edges
   if (added6 > 6 * most || added6 > kSkin * length(cross(to_double(w - u), to_double(b - a)))) return 0;
+  for (const Vec3d& before : {to_double(normal_of(u, w, a)), to_double(normal_of(w, u, b))}) {
+    if (dot(before, to_double(normal_of(b, a, u))) <= 0 || dot(before, to_double(normal_of(a, b, w))) <= 0) return 0;
+  }
   return std::min(triangle_quality(b, a, u), triangle_quality(a, b, w)) -
          std::min(quality_of(mesh, faces[0]), quality_of(mesh, faces[1]));
 }

@@ -1,3 +1,5 @@
+#include <random>
+
 #include "lib/enclosed/enclosed_triangles.h"
 #include "lib/tighten/detail/thin_faces.h"
 #include "tests/support/proxy_checks.h"
@@ -30,6 +32,34 @@ LatticeMesh box_with_thin_face(std::int64_t lift) {
 std::vector<TriangleD> inner_triangle(const GridFrame& frame) {
   const auto at = [&](std::int64_t x, std::int64_t y) { return frame.world({x, y, kSide / 2}); };
   return {{at(2000, 2000), at(8000, 2000), at(2000, 8000)}};
+}
+
+double area_of(const HalfEdgeMesh& mesh) {
+  double area = 0;
+  for (FaceId f = 0; f < mesh.face_capacity(); ++f) {
+    if (mesh.alive(f)) area += bp::area_of(mesh.corner(f, 0), mesh.corner(f, 1), mesh.corner(f, 2));
+  }
+  return area;
+}
+
+/// A box whose sides are divided at random: each new vertex lies in a face, and up to two lattice units above it.
+LatticeMesh box_of_thin_faces(unsigned seed) {
+  std::mt19937 random(seed);
+  LatticeMesh mesh = box_with_thin_face(0);
+  for (int k = 0; k < 60; ++k) {
+    const std::size_t f = random() % mesh.triangles.size();
+    const auto [a, b, c] = mesh.triangles[f];
+    const std::int64_t s = 1 + random() % 98, t = 1 + random() % (99 - s);
+    const LatticeCoord &pa = mesh.vertices[a], &pb = mesh.vertices[b], &pc = mesh.vertices[c];
+    LatticeCoord p = pa * (100 - s - t) + pb * s + pc * t;
+    for (int i = 0; i < 3; ++i) p[i] = p[i] / 100 + std::int64_t(random() % 3) * (p[i] > 50 * kSide ? 1 : -1);
+    const auto v = VertexId(mesh.vertices.size());
+    mesh.vertices.push_back(p);
+    mesh.triangles[f] = {a, b, v};
+    mesh.triangles.push_back({b, c, v});
+    mesh.triangles.push_back({c, a, v});
+  }
+  return mesh;
 }
 
 double worst_quality(const HalfEdgeMesh& mesh) {
@@ -69,4 +99,22 @@ TEST_CASE("a thin face stays where a flip would add more than it may", "[quick][
   ProxyEditor editor(mesh, enclosed, {});
   CHECK(flip_thin_faces(editor, 1) == 0);
   CHECK(worst_quality(mesh) < 0.02);
+}
+
+TEST_CASE("flips of thin faces make no fins", "[quick][meshing]") {
+  const GridFrame frame;
+  const EnclosedTriangles enclosed(inner_triangle(frame), frame);
+  std::uint64_t flips = 0;
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    CAPTURE(seed);
+    const LatticeMesh proxy = box_of_thin_faces(seed);
+    if (self_intersections(proxy) != 0) continue;
+    HalfEdgeMesh mesh(proxy);
+    ProxyEditor editor(mesh, enclosed, {});
+    const double before = area_of(mesh);
+    flips += flip_thin_faces(editor, 1e-4 * double(mesh.volume6()) / 6);
+    CHECK(area_of(mesh) < 1.001 * before);
+    CHECK(self_intersections(mesh.compact(frame)) == 0);
+  }
+  CHECK(flips > 200);
 }
