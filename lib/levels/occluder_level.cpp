@@ -80,6 +80,7 @@ class HiddenSearch {
     const std::size_t last = scales_.size() - 1;
     attempt(0);
     if (asked_) return gives_up() ? HiddenScene{} : std::move(kept_.front());
+    if (last == 0 && gives_up() && !can_make_rooms(largest_scale(header_))) return {};
     if (last > 0) {
       most_possible_ = std::max(most_possible_, closed_at(last).count);
       if (gives_up()) return {};

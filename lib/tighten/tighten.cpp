@@ -291,8 +291,12 @@ TightenCounts tighten_on(ProxyEditor& editor, const TightenParams& params) {
   const std::uint64_t tries = editor.counts().tries;
   counts.volume_before = volume_of(editor.mesh());
   Tightener(editor, params, counts).run();
-  if (params.most_of_flip > 0) counts.flips += flip_thin_faces(editor, params.most_of_flip);
   counts.volume_after = volume_of(editor.mesh());
+  if (params.most_of_flip > 0) {
+    counts.flips += flip_thin_faces(editor, params.most_of_flip);
+    counts.volume_of_flips = volume_of(editor.mesh()) - counts.volume_after;
+    counts.volume_after += counts.volume_of_flips;
+  }
   counts.tries = editor.counts().tries - tries;
   return counts;
 }
@@ -304,7 +308,7 @@ LatticeMesh tighten(ProxyEditor& editor, const GridFrame& frame, const TightenPa
   editor.erase_inner_shells();
   counts.volume_before = volume_of(before);
   counts.volume_after = volume_of(editor.mesh());
-  if (counts.volume_after <= counts.volume_before) return editor.mesh().compact(frame);
+  if (counts.volume_after - counts.volume_of_flips <= counts.volume_before) return editor.mesh().compact(frame);
   counts.volume_after = counts.volume_before;
   return before.compact(frame);
 }

@@ -14,9 +14,9 @@ namespace bp {
 /// that others cannot use, and cannot go back themselves.
 TightenCounts tighten_on(ProxyEditor& editor, const TightenParams& params);
 
-/// Returns the tightened mesh of the editor. Returns it unchanged if the result would be larger, since sweeps keep a
-/// margin of less than a lattice unit. Deterministic. Every step is checked exactly before it is made. Cost: a few
-/// exact tests for each vertex and sweep.
+/// Returns the tightened mesh of the editor. Returns it unchanged if the result would be larger before thin faces
+/// are flipped, since sweeps keep a margin of less than a lattice unit. Deterministic. Every step is checked exactly
+/// before it is made. Cost: a few exact tests for each vertex and sweep.
 [[nodiscard]] LatticeMesh tighten(ProxyEditor& editor, const GridFrame& frame, const TightenParams& params,
                                   TightenCounts& counts);
 

@@ -22,6 +22,7 @@ struct TightenParams : ShapeLimits {
 struct TightenCounts {
   std::uint64_t sweeps = 0, moves = 0, flips = 0, tries = 0;
   double volume_before = 0, volume_after = 0;  ///< lattice units cubed
+  double volume_of_flips = 0;                  ///< of volume_after: what flips of thin faces have added
 };
 
 }  // namespace bp

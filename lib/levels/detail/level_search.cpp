@@ -121,8 +121,8 @@ class LevelSearch {
   using Keep = ShelfSource::Keep;
 
   bool is_of_few_faces() const { return scene_.is_bounding() && has_few_faces(target_); }
-  /// Returns whether all closings are tried: a number of faces alone is asked for, of a scene of so few triangles that
-  /// each closing takes little time.
+  /// Returns whether several closings may be tried: a number of faces alone is asked for, of a scene of so few
+  /// triangles that each closing takes little time.
   bool is_simple() const {
     return scene_.is_bounding() && scene_.has_triangles() && !options_.field && is_by_budget(target_) &&
            options_.scene.size() <= MeshParams::kSimpleScene;
@@ -147,9 +147,9 @@ class LevelSearch {
   bool has_too_many_parts(const Closing& closing, std::uint64_t faces_per_part) const {
     return target_.faces > 0 && parts_and_holes(closing, context_.pieces) * faces_per_part > target_.faces;
   }
-  /// Proposes one closing; for a simple scene, the closings of all scales up to twice that of the budget. The best of
-  /// these cannot be known before: a larger scale joins parts, so that the level needs fewer faces, and a smaller one
-  /// follows the scene's shape.
+  /// Proposes one closing; for a simple scene larger scales, too, up to twice that of the budget, until a level is
+  /// near. The best of these cannot be known before: a larger scale joins parts, so that the level needs fewer faces,
+  /// and a smaller one follows the scene's shape.
   void propose_closings() {
     const double least = options_.least_scale_world, whole = first_scale(ground_, target_, least);
     std::unique_ptr<Closing> closing_of_best;

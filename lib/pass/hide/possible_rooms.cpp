@@ -26,7 +26,9 @@ bool has_enclosed(const BitBox& walls) {
 std::vector<bool> possible_rooms(const StreamHeader& header, const BrickShelf& enclosed,
                                  const std::vector<double>& scales, const HiddenOptions& options) {
   std::vector<bool> possible(scales.size(), true);
-  if (scales.empty() || options.element != StructuringElement::cube) return possible;
+  constexpr double kMostVox = 4095;  // of a scale; the closing refuses larger ones
+  if (options.element != StructuringElement::cube || scales.empty()) return possible;
+  if (scales.back() > kMostVox * header.frame.voxel) return possible;
   const auto reach_of = [&](double scale) { return cube_radius(scale_of(scale, header.frame)); };
   const VoxelBox box = boundary_size(enclosed).box.grown(reach_of(scales.back()) + 1);
   if (double(box.volume()) / 8 * kSetsOfBits > double(options.context.memory.bytes)) return possible;
@@ -37,7 +39,8 @@ std::vector<bool> possible_rooms(const StreamHeader& header, const BrickShelf& e
     const std::int32_t next = scales[i] < header.frame.voxel ? 0 : reach_of(scales[i]);
     dilate(walls, next - reach);
     reach = next;
-    possible[i] = has_enclosed(walls);
+    options.context.check();
+    possible[i] = next > 0 && has_enclosed(walls);  // the enclosed voxels have no hollows
   }
   return possible;
 }

@@ -242,7 +242,7 @@ class LevelMaker {
   MeshCounts& counts_;
   ProxyBounds bounds_;
   Ground ground_;
-  const BrickShelf* near_ = nullptr;  // in_.LevelInputs::near_of() the level that is made
+  const BrickShelf* near_ = nullptr;  // LevelInputs::near_of() the level that is made
 };
 
 }  // namespace

@@ -31,6 +31,7 @@ class Editors {
       counts.moves += part->tightened.moves;
       counts.flips += part->tightened.flips;
       counts.tries += part->tightened.tries;
+      counts.volume_of_flips += part->tightened.volume_of_flips;
     }
   }
 
@@ -156,7 +157,7 @@ void tighten_regions(LatticeMesh& proxy, const Enclosed& enclosed, const Tighten
   counts = counts_before(proxy);
   tighten_turn(tight, enclosed, first, 0, counts);
   tighten_turn(tight, enclosed, second, 1, counts);
-  if (counts.volume_after <= counts.volume_before) {
+  if (counts.volume_after - counts.volume_of_flips <= counts.volume_before) {
     proxy = std::move(tight);
   } else {
     counts.volume_after = counts.volume_before;

@@ -29,7 +29,7 @@ export class Kept {
     this.link.download = name;
     this.link.textContent = `Download ${name}`;
     this.link.title = `bpview … --rules ${name} goes on from it`;
-    this.link.hidden = design.saved || !(design.can_undo || design.can_redo);
+    this.link.hidden = this.text === '' || design.saved || !(design.can_undo || design.can_redo);
   }
   withdraw(): void { this.link.hidden = true; }
 }

@@ -280,7 +280,6 @@ async function follow(): Promise<void> {
       }
     }
     told.revision = state.closing.shown;
-    void kept.follow(() => state);
   } catch (error) {
     complain(error);
   }
@@ -293,6 +292,7 @@ function tell(next: State): void {
   showState(state, (i) => void send('/api/edit', { op: 'remove', rule: i }));
   files.tell(state.layers);
   settle();
+  void kept.follow(() => state);
   showPlot();
   view.setBase(state.design.base_world);
   void follow();
