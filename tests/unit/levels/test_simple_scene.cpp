@@ -88,8 +88,8 @@ TEST_CASE("a level of a simple scene is closed at a smaller scale where it lies 
 
 TEST_CASE("a level that lies as near as its closing may is not closed at larger scales", "[quick][pass][lod]") {
   const LodLevel level = level_of(house(), {40000, 0, {}}).level;
-  const auto closings = std::count_if(level.tried.begin(), level.tried.end(),
-                                      [](const TriedWay& t) { return std::string(t.way) == "closing"; });
+  const auto closings =
+      std::count_if(level.tried.begin(), level.tried.end(), [](const TriedWay& t) { return t.way == "closing"; });
   CHECK(closings <= 2);  // one of them where nothing is closed; five up to twice the scale of the budget
   CHECK(level.error_world < std::sqrt(3.0) * (level.scale_world + 0.02));
   CHECK(level.mesh.triangles.size() <= 4096);

@@ -159,21 +159,29 @@ bool room(VoxelCoord p) {
   return within(0) && !within(3) && !door;
 }
 
+/// Plates that begin in the box of size `within` at the origin. Their sides are 6 voxels and up to `more` further ones,
+/// but for their thickness, along each axis in turn.
+std::vector<VoxelBox> random_plates(unsigned seed, int count, VoxelCoord within, VoxelCoord more,
+                                    std::int32_t thickness) {
+  std::mt19937 random(seed);
+  const auto number = [&](std::int32_t most) { return std::int32_t(random() % unsigned(most)); };
+  std::vector<VoxelBox> plates;
+  for (int i = 0; i < count; ++i) {
+    const VoxelCoord at{number(within.x), number(within.y), number(within.z)};
+    VoxelCoord size{6 + number(more.x), 6 + number(more.y), 6 + number(more.z)};
+    size[i % 3] = thickness;
+    plates.push_back({at, at + size});
+  }
+  return plates;
+}
+
 }  // namespace
 
 TEST_CASE("hidden voxels are those of the definition", "[quick][pass][occluder]") {
   const auto element = GENERATE(StructuringElement::ball, StructuringElement::cube);
   const double scale = GENERATE(0.0, 2.0, 3.5);
   const int seed = GENERATE(0, 1, 2);
-  std::mt19937 random(unsigned(seed) * 7 + 1);
-  std::vector<VoxelBox> plates;
-  for (int i = 0; i < 14; ++i) {
-    const auto number = [&](int most) { return std::int32_t(random() % unsigned(most)); };
-    const VoxelCoord at{number(50), number(28), number(28)};
-    VoxelCoord size{6 + number(12), 6 + number(8), 6 + number(8)};
-    size[i % 3] = 2;
-    plates.push_back({at, at + size});
-  }
+  const std::vector<VoxelBox> plates = random_plates(unsigned(seed) * 7 + 1, 14, {50, 28, 28}, {12, 8, 8}, 2);
   const Solid touched = [&](VoxelCoord p) {
     return room(p) || std::any_of(plates.begin(), plates.end(), [&](const VoxelBox& b) { return b.contains(p); });
   };
@@ -219,15 +227,7 @@ TEST_CASE("a closing is known to make no room, and where it makes one", "[quick]
 TEST_CASE("a scale at which no room is possible makes none, and the dilation knows of all that a closing makes",
           "[quick][pass][occluder]") {
   const int seed = GENERATE(range(0, 6));
-  std::mt19937 random(unsigned(seed) * 5 + 3);
-  std::vector<VoxelBox> plates;
-  for (int i = 0; i < 40; ++i) {
-    const auto number = [&](int most) { return std::int32_t(random() % unsigned(most)); };
-    const VoxelCoord at{number(40), number(25), number(25)};
-    VoxelCoord size{6 + number(14), 6 + number(10), 6 + number(10)};
-    size[i % 3] = 1;
-    plates.push_back({at, at + size});
-  }
+  const std::vector<VoxelBox> plates = random_plates(unsigned(seed) * 5 + 3, 40, {40, 25, 25}, {14, 10, 10}, 1);
   const Solid touched = [&](VoxelCoord p) {
     if (seed == 0) return p.x + p.y + p.z > 20 && kBox.contains(p);  // no room at any scale
     return (seed == 1 && room(p)) ||
