@@ -27,7 +27,6 @@ namespace {
 
 using NodeCoord = decltype(ScaleLattice::origin);
 using Range = ScaleField::Range;
-constexpr double kMaxScaleVoxels = 4095;
 constexpr double kRounding = 1e-9;  // relative, of distances and scales
 constexpr std::int32_t kBlock = 8;  // nodes along one side of a block whose nodes share one list of rules: 64 voxels
 

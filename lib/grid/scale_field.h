@@ -37,7 +37,9 @@ struct ScaleLattice {
 /// flat sides, too. The least scale above reaches as far, and its erosion takes that layer back.
 constexpr double kBeyondWholeVox = 1.0 / kScaleOne;
 
-/// Returns the nearest multiple of 1/16 voxel. `scale` is in scene units and fits.
+constexpr double kMaxScaleVoxels = 4095;  ///< Scale holds no larger one
+
+/// Returns the nearest multiple of 1/16 voxel. `scale` is in scene units, and at most kMaxScaleVoxels voxels.
 [[nodiscard]] Scale scale_of(double scale, const GridFrame& frame);
 
 enum class ScaleMode : std::uint8_t { set, increase, decrease, erase };
@@ -98,7 +100,7 @@ struct ScaleField {
   /// Returns samples that interpolate S over all voxels of `box`. The extent of `box` only cuts them, so tilings agree.
   [[nodiscard]] ScaleLattice sample(const GridFrame& frame, const VoxelBox& box) const;
   /// Returns an upper bound of S anywhere, 1/16 voxel. Throws bad_argument if a scale is negative, not finite, or
-  /// beyond 4095 voxels, or if another number is out of range.
+  /// beyond kMaxScaleVoxels, or if another number is out of range.
   [[nodiscard]] Scale upper_bound(const GridFrame& frame) const;
   /// Returns the field with the base and the scales of all rules times `factor`. Shapes, slope and supports stay.
   [[nodiscard]] ScaleField scaled(double factor) const;

@@ -26,9 +26,8 @@ bool has_enclosed(const BitBox& walls) {
 std::vector<bool> possible_rooms(const StreamHeader& header, const BrickShelf& enclosed,
                                  const std::vector<double>& scales, const HiddenOptions& options) {
   std::vector<bool> possible(scales.size(), true);
-  constexpr double kMostVox = 4095;  // of a scale; the closing refuses larger ones
   if (options.element != StructuringElement::cube || scales.empty()) return possible;
-  if (scales.back() > kMostVox * header.frame.voxel) return possible;
+  if (scales.back() > kMaxScaleVoxels * header.frame.voxel) return possible;  // refused later
   const auto reach_of = [&](double scale) { return cube_radius(scale_of(scale, header.frame)); };
   const VoxelBox box = boundary_size(enclosed).box.grown(reach_of(scales.back()) + 1);
   if (double(box.volume()) / 8 * kSetsOfBits > double(options.context.memory.bytes)) return possible;
