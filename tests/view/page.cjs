@@ -92,6 +92,16 @@ async function main() {
   await page.click('#part-finer');
   s = await until((q) => q.design.rules.length === 7 && q.closing.shown === q.design.revision, 'a rule by name');
   check('the part has the scale of the brush', s.design.rules[6].node === name && s.design.rules[6].mode === 'decrease' && s.design.rules[6].scale === '5%', s.design.rules[6]);
+  const names = await page.locator('#part-names option').evaluateAll((all) => all.map((o) => o.value));
+  const nameAt = async (px, py) => {
+    await page.fill('#part', '');
+    await page.locator('#view').focus();
+    await page.keyboard.press('p');
+    await page.mouse.click(px, py);
+    await page.waitForFunction(() => document.getElementById('part').value !== '');
+    return page.inputValue('#part');
+  };
+  check('a click on the body tells its part', await nameAt(x, y) === 'skin', names);
   await page.fill('#part', 'no such part');
   await page.click('#part-coarser');
   await message(page, 'no such part');

@@ -22,7 +22,7 @@ def who_gets_in(s):
     check("the page has its policy", page[1]["Content-Security-Policy"].startswith("default-src 'self';"))
     check("no type is guessed", page[1]["X-Content-Type-Options"] == "nosniff")
     check("no other site may read", page[1]["Access-Control-Allow-Origin"] is None)
-    for path in ("/api/state", "/api/parts", "/api/rules", "/api/scene", "/api/surface", "/api/proxy", "/api/layer?file=0", "/api/events"):
+    for path in ("/api/state", "/api/parts", "/api/part?x=0&y=0&z=0", "/api/rules", "/api/scene", "/api/surface", "/api/proxy", "/api/layer?file=0", "/api/events"):
         check("a stranger reads nothing", status("GET", path) == 401, path)
         check("a wrong cookie is none", status("GET", path, headers={"Cookie": f"bpview_{s.port}=" + "0" * 32}) == 401, path)
     check("a stranger changes nothing", status("POST", "/api/edit", '{"op": "undo"}') == 401)
@@ -34,6 +34,9 @@ def who_gets_in(s):
         check("the cookie is kept from others", word in s.set_cookie, s.set_cookie)
     check("the page reads", status("GET", "/api/state") == 200)
     check("parts have names", json.loads(s.ask("GET", "/api/parts")[2]) == [f"part_{i}" for i in range(7)], s.ask("GET", "/api/parts")[2])
+    for point, part in (((5, 0.5, 7), 0), ((5.2, 3, 4), 4), ((1e9, 3, 1), 0)):
+        answer = s.ask("GET", "/api/part?x={}&y={}&z={}".format(*point))
+        check("a point has the part that is nearest", json.loads(answer[2]) == {"part": f"part_{part}"}, point, answer)
     for host in ("evil.example", f"evil.example:{s.port}", "127.0.0.1", f"127.0.0.1.evil.example:{s.port}", f"[::1]:{s.port}", "", f"127.0.0.1:{s.port + 1}"):
         check("another host is refused", status("GET", "/api/state", headers={"Host": host}) == 421, host)
         check("even for the page", status("GET", "/", headers={"Host": host}) == 421, host)
@@ -56,6 +59,8 @@ def what_is_asked(s):
         check("a path leads nowhere", status in (400, 404) and b"root:" not in body, path, status)
     for after in ("-1", "x", "99999999999999999999999999", "1e3", "%00", "1;2"):
         check("what is no number is refused", s.ask("GET", f"/api/surface?after={after}")[0] == 400, after)
+    for point in ("", "x=1&y=2", "x=1&y=2&z=", "x=1&y=2&z=nan", "x=1&y=2&z=1e999", "x=1&y=2&z=3,4", "x=1&y=two&z=3", "x=%00&y=2&z=3"):
+        check("what is no point is refused", s.ask("GET", f"/api/part?{point}")[0] == 400, point)
     before = s.state()["design"]
     big = b"[" * (2 << 20)
     check("a huge body is refused", s.ask("POST", "/api/edit", big)[0] == 413)

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <charconv>
+#include <cmath>
 #include <mutex>
 
 #include "lib/core/error.h"
@@ -27,7 +28,7 @@ constexpr int kThreads = 24;                ///< each holds one connection
 constexpr int kMostListeners = 8;
 constexpr int kReadSeconds = 5, kWriteSeconds = 20, kIdleSeconds = 2;
 constexpr std::chrono::seconds kPing{10};
-constexpr const char* kBytes = "application/octet-stream";
+constexpr const char *kBytes = "application/octet-stream", *kJson = "application/json";
 constexpr std::size_t kAtATime = 1 << 18;  ///< bytes of a scene that are handed over together
 
 const httplib::Headers& headers() {
@@ -44,7 +45,7 @@ const httplib::Headers& headers() {
 
 void refuse(Response& response, int status, const std::string& text) {
   response.status = status;
-  response.set_content(Json{{"error", text}}.dump(), "application/json");
+  response.set_content(Json{{"error", text}}.dump(), kJson);
   response.set_header("Connection", "close");  // the body of the request was not read
 }
 
@@ -60,8 +61,7 @@ void answer(Response& response, const Make& make) {
     make();
   } catch (const Error& e) {
     response.status = status_of(e.code());
-    response.set_content(Json{{"error", advised(e)}}.dump(-1, ' ', false, Json::error_handler_t::replace),
-                         "application/json");
+    response.set_content(Json{{"error", advised(e)}}.dump(-1, ' ', false, Json::error_handler_t::replace), kJson);
   }
 }
 
@@ -73,6 +73,18 @@ std::uint64_t number_in(const Request& request, const char* key) {
   if (!text.empty() && (error != std::errc() || end != text.data() + text.size()))
     fail(ErrorCode::bad_argument, "{}: is no number", key);
   return number;
+}
+
+/// Returns a point of the request's address: x, y and z. Throws bad_argument if one is missing or no finite number.
+Vec3d point_in(const Request& request) {
+  Vec3d point{};
+  for (const std::size_t i : {0, 1, 2}) {
+    const std::string text = request.get_param_value(std::string(1, "xyz"[i]));
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), point[i]);
+    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(point[i]))
+      fail(ErrorCode::bad_argument, "{}: is no coordinate", "xyz"[i]);
+  }
+  return point;
 }
 
 /// Binds the port that is wanted, or any free one. Returns the port, or -1. Connections inherit the options of this
@@ -113,7 +125,7 @@ struct Server::State {
   const int port;
   Access access;
   std::atomic<int> listeners{0};
-  std::mutex meshes;  ///< one mesh is made at a time
+  std::mutex meshes;  ///< held while a mesh is made, or the scene read
 };
 
 Server::State::State(Session& of, int wanted) : session(of), port(bound(http, wanted)), access(port) {
@@ -135,8 +147,7 @@ Server::State::State(Session& of, int wanted) : session(of), port(bound(http, wa
 
 /// Returns whether a request needs no cookie: the page itself, which holds no secret, and the exchange of the token.
 bool Server::State::is_open(const Request& request) const {
-  if (request.path == "/session") return true;
-  if (request.path == "/") return true;
+  if (request.path == "/session" || request.path == "/") return true;
   for (const PageFile& file : page_files()) {
     if (request.path == file.path) return true;
   }
@@ -180,29 +191,32 @@ httplib::Server::Handler Server::State::doing(const std::function<void(const std
   return [act](const Request& request, Response& response) {
     answer(response, [&] {
       act(request.body);
-      response.set_content("{}", "application/json");
+      response.set_content("{}", kJson);
     });
   };
 }
 
 void Server::State::add_geometry() {
-  const auto bytes = [this](const char* path, const auto& make) {
-    http.Get(path, [make](const Request& request, Response& response) {
-      answer(response, [&] { response.set_content(make(request), kBytes); });
+  // One is made at a time, since each takes memory meanwhile.
+  const auto made = [this](const char* path, const char* type, const auto& make) {
+    http.Get(path, [this, type, make](const Request& request, Response& response) {
+      answer(response, [&] {
+        const std::lock_guard one(meshes);
+        response.set_content(make(request), type);
+      });
     });
   };
   http.Get("/api/scene", [this](const Request&, Response& response) { send_scene(response); });
   http.Get("/api/surface", [this](const Request& request, Response& response) {
     answer(response, [&] { send_surface(number_in(request, "after"), response); });
   });
-  bytes("/api/proxy", [this](const Request& request) {
-    const std::lock_guard one(meshes);  // each takes memory while it is made
+  made("/api/proxy", kBytes, [this](const Request& request) {
     return session.proxy(number_in(request, "number"), number_in(request, "distances") == 1);
   });
-  bytes("/api/layer", [this](const Request& request) {
-    const std::lock_guard one(meshes);
+  made("/api/layer", kBytes, [this](const Request& request) {
     return session.layer(number_in(request, "file"), number_in(request, "level"), number_in(request, "distances") == 1);
   });
+  made("/api/part", kJson, [this](const Request& request) { return session.scene().part_at(point_in(request)); });
 }
 
 void Server::State::add_routes() {
@@ -210,19 +224,17 @@ void Server::State::add_routes() {
     const std::string cookie = access.cookie_for(request.body);
     if (cookie.empty()) return refuse(response, 403, "the link is not valid; open the one that bpview printed");
     response.set_header("Set-Cookie", cookie);
-    response.set_content("{}", "application/json");
+    response.set_content("{}", kJson);
   });
   const auto json = [this](const char* path, const auto& make) {
-    http.Get(path, [make](const Request&, Response& response) { response.set_content(make(), "application/json"); });
+    http.Get(path, [make](const Request&, Response& response) { response.set_content(make(), kJson); });
   };
   json("/api/state", [this] { return session.state(); });
-  json("/api/parts", [this] { return session.parts(); });
+  json("/api/parts", [this] { return session.scene().part_names(); });
   json("/api/rules", [this] { return session.rules(); });
   http.Get("/api/events", [this](const Request& request, Response& response) { listen(request, response); });
   http.Post("/api/edit", [this](const Request& request, Response& response) {
-    answer(response, [&] {
-      response.set_content(fmt::format("{{\"revision\": {}}}", session.edit(request.body)), "application/json");
-    });
+    answer(response, [&] { response.set_content(Json{{"revision", session.edit(request.body)}}.dump(), kJson); });
   });
   http.Post("/api/save", doing([this](const std::string& body) { session.save(body); }));
   http.Post("/api/check", doing([this](const std::string& body) { session.check(body); }));
@@ -232,7 +244,7 @@ void Server::State::add_routes() {
 
 /// Sends the scene from where it is: a copy for each page would take its memory again.
 void Server::State::send_scene(Response& response) {
-  const std::string& bytes = session.scene();
+  const std::string& bytes = session.scene().bytes();
   if (bytes.empty()) return response.set_content("", kBytes);
   response.set_content_provider(bytes.size(), kBytes,
                                 [&bytes](std::size_t at, std::size_t left, httplib::DataSink& sink) {

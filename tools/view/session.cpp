@@ -5,7 +5,6 @@
 
 #include "io/files/file.h"
 #include "io/files/json_shape.h"
-#include "io/scene/scene_format.h"
 #include "io/scene/scene_reader.h"
 #include "io/stream/brick_shelf.h"
 #include "io/stream/brick_stream.h"
@@ -14,7 +13,6 @@
 #include "tools/run/memory_shares.h"
 #include "tools/run/part_boxes.h"
 #include "tools/run/read_again.h"
-#include "tools/run/scene_budget.h"
 
 namespace bp {
 
@@ -71,24 +69,12 @@ std::uint64_t most_shown(const ViewOptions& o) {
   return std::min(kMostShown, o.common.memory_bytes / 2 / kBytesOfTriangle);
 }
 
-bool has_part_names(const ViewOptions& o) {
-  return std::any_of(o.voxels.scenes.begin(), o.voxels.scenes.end(), [&](const std::string& scene) {
-    return names_parts(o.voxels.format.empty() ? scene_format_of(scene) : o.voxels.format);
-  });
-}
-
-SceneOptions scene_options(const ViewOptions& o) {
-  SceneOptions scene{o.voxels.format, o.common.memory_bytes / 8, o.common.temp};
-  scene.document = document_budget(o.common.memory_bytes, kVoxelProgram, 2);
-  return scene;
-}
-
 }  // namespace
 
 Session::Session(const ViewOptions& options, Backends& backends)
     : options_(options), most_shown_(most_shown(options)), faces_(options.faces) {
   open_stream();
-  if (header_.scene.triangles <= most_shown_) std::call_once(read_, [this] { read_scene(); });
+  scene_ = std::make_unique<ShownScene>(options_, header_, middle_, most_shown_, events_);
   const auto open = [this] { return open_scenes(options_.voxels.scenes, scene_options(options_)); };
   distances_ = std::make_unique<SceneDistances>(open, middle_, options_.common.memory_bytes / 4);
   begin_design();
@@ -133,23 +119,6 @@ void Session::open_stream() {
   solid_ = make_shelf(options_.common.memory_bytes / 8, options_.common.temp);
   for (Brick brick; reader.read(brick);) solid_->put(brick.coord, brick.fill, brick.bits);
   for (std::size_t i = 0; i < 3; ++i) middle_[i] = header_.bounds.min[i] / 2 + header_.bounds.max[i] / 2;
-}
-
-void Session::read_scene() {
-  const bool shown = header_.scene.triangles <= most_shown_;
-  if (!shown && !has_part_names(options_)) return;
-  SceneOptions scene = scene_options(options_);
-  scene.part_names = std::make_shared<PartNames>();
-  const auto source = open_scenes(options_.voxels.scenes, scene);
-  std::vector<TriangleD> all, some;
-  if (shown) all.reserve(header_.scene.triangles);
-  while (!events_.ended() && source->read(some)) {
-    if (shown && all.size() + some.size() > most_shown_)
-      fail(ErrorCode::bad_input, "{}: has changed while it was read", source->name());
-    if (shown) all.insert(all.end(), some.begin(), some.end());
-  }
-  parts_ = *scene.part_names;
-  if (shown) scene_bytes_ = shown_smooth(all, minus(middle_)).bytes();
 }
 
 void Session::begin_design() {
@@ -264,16 +233,6 @@ void Session::save(const std::string& json) {
   events_.tell();
 }
 
-/// Names of a scene that is not shown are read when a page asks: its closing comes first.
-std::string Session::parts() {
-  std::call_once(read_, [this] { read_scene(); });
-  Json names = Json::array();
-  for (const std::string& name : parts_.names) {
-    if (names.size() < kMostNames) names.push_back(name);
-  }
-  return names.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
 std::string Session::rules() const {
   const std::lock_guard lock(mutex_);
   return design_->json();
@@ -353,7 +312,7 @@ std::string Session::state() const {
   const Json state{{"scene",
                     {{"files", files},
                      {"triangles", header_.scene.triangles},
-                     {"shown", !scene_bytes_.empty()},
+                     {"shown", !scene_->bytes().empty()},
                      {"most_shown", most_shown_},
                      {"min", b.min},
                      {"max", b.max},

@@ -1,11 +1,11 @@
 #pragma once
 #include <optional>
 
-#include "io/scene/part_names.h"
 #include "lib/live/design.h"
 #include "lib/live/live_closing.h"
 #include "tools/view/events.h"
 #include "tools/view/files/layers.h"
+#include "tools/view/files/shown_scene.h"
 #include "tools/view/geometry/distances.h"
 #include "tools/view/made_proxies.h"
 #include "tools/view/proxy_job.h"
@@ -21,14 +21,10 @@ class Session {
 
   [[nodiscard]] Events& events() { return events_; }
   [[nodiscard]] std::string state() const;  ///< JSON of everything but geometry; events tell when it changes
-  /// As ShownMesh::bytes(); empty: the scene has too many triangles.
-  [[nodiscard]] const std::string& scene() const { return scene_bytes_; }
+  [[nodiscard]] ShownScene& scene() { return *scene_; }
   /// Returns the pieces of the closing's surface that changed after a generation.
   [[nodiscard]] LiveSurface::Change surface(std::uint64_t after) const { return closing_->surface().since(after); }
-  /// Returns the names of the scene's parts as a JSON list, for rules by name: the first kMostNames.
-  [[nodiscard]] std::string parts();
   [[nodiscard]] std::string rules() const;  ///< the file that save() writes: a page keeps it for the case that we end
-  static constexpr std::size_t kMostNames = 1000;
   /// Returns the proxy with a number as ShownMesh::bytes(), with distances from the scene if they are asked for. Number
   /// 0: the last one, or nothing if there is none. Throws bad_argument if the proxy is not kept, out_of_resource if it
   /// has too many triangles.
@@ -52,8 +48,6 @@ class Session {
 
  private:
   void open_stream();
-  /// Reads the names of parts, and the triangles if the page shows them.
-  void read_scene();
   void begin_design();
   void changed();  ///< called by the closing and the proxy job, on their threads
   void request_proxy();
@@ -70,9 +64,7 @@ class Session {
   std::unique_ptr<BrickShelf> solid_;  ///< until the closing takes it
   Vec3d middle_{};                     ///< of the scene; it is subtracted from positions that are sent
   const std::uint64_t most_shown_;     ///< triangles of a scene or file
-  std::string scene_bytes_;
-  PartNames parts_;
-  std::once_flag read_;  ///< of read_scene()
+  std::unique_ptr<ShownScene> scene_;
   std::unique_ptr<SceneDistances> distances_;
 
   mutable std::mutex mutex_;  ///< guards all that follows

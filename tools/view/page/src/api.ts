@@ -61,6 +61,11 @@ export async function parts(): Promise<string[]> {
   return (await ask('/api/parts')).json();
 }
 
+/// The name of the part of the scene that is nearest to a point; empty: it has none.
+export async function partAt(at: Vec3): Promise<string> {
+  return (await (await ask(`/api/part?x=${at[0]}&y=${at[1]}&z=${at[2]}`)).json()).part;
+}
+
 /// The file of rules that the server would save.
 export async function rules(): Promise<string> {
   return (await ask('/api/rules')).text();

@@ -5,8 +5,8 @@ import { toWorld, type Length } from './lengths';
 import type { State } from './api';
 import type { View } from './view';
 
-export type Tool = 'turn' | 'ruler' | 'decrease' | 'increase' | 'erase';
-export const kColors: Record<Tool, string> = { turn: '#888888', ruler: '#888888', decrease: '#2f6fd6', increase: '#d9711f', erase: '#7a8594' };
+export type Tool = 'turn' | 'ruler' | 'part' | 'decrease' | 'increase' | 'erase';
+export const kColors: Record<Tool, string> = { turn: '#888888', ruler: '#888888', part: '#888888', decrease: '#2f6fd6', increase: '#d9711f', erase: '#7a8594' };
 const kSendEvery = 120;  // ms, while a stroke is drawn
 const kMostPoints = 400;
 
@@ -30,7 +30,7 @@ export class Brush {
     canvas.addEventListener('pointerleave', () => { if (!this.drawing) { this.last = null; this.view.setBrush(null, 0, '#000'); this.hover(null); } });
   }
 
-  private get paints(): boolean { return this.tool !== 'turn' && this.tool !== 'ruler'; }
+  get paints(): boolean { return this.tool === 'decrease' || this.tool === 'increase' || this.tool === 'erase'; }
   get world(): number { return toWorld(this.radius, this.facts()); }
 
   private pickAt(event: PointerEvent): THREE.Vector3 | null {

@@ -1,5 +1,5 @@
 // The page of bpview (docs/bpview.1.md).
-import { bytes, enter, listen, parts as askParts, post, state as askState, type State, type Vec3 } from './api';
+import { bytes, enter, listen, post, state as askState, type State, type Vec3 } from './api';
 import { Brush, type Tool } from './brush';
 import { percent, show, toWorld } from './lengths';
 import { Plot, type PlotPoint } from './plot';
@@ -12,6 +12,8 @@ import { Frames } from './frames';
 import { kFaces, type Faces } from './shown';
 import { Kept } from './kept';
 import { Mirror } from './mirror';
+import { onClick } from './clicks';
+import { Parts } from './parts';
 import { readMesh, readSurface } from './wire';
 
 // A new link in this tab changes the part behind # only.
@@ -176,13 +178,13 @@ function choose(tool: Tool): void {
   byId('canvas').classList.toggle('brush', tool !== 'turn');
   ruler.active = tool === 'ruler';
   frames.activate(tool === 'turn');
-  byId('cross').hidden = tool !== 'ruler';
+  byId('cross').hidden = tool !== 'ruler' && tool !== 'part';
   if (tool !== 'ruler') ruler.clear();
-  const hints: Record<Tool, string> = { ruler: 'click two points · Enter: the point under the cross', turn: 'drag: turn · right drag: move · wheel: zoom', decrease: 'drag on the surface: finer · Alt: turn',
+  const hints: Record<Tool, string> = { ruler: 'click two points · Enter: the point under the cross', part: 'click on a part · Enter: the part under the cross', turn: 'drag: turn · right drag: move · wheel: zoom', decrease: 'drag on the surface: finer · Alt: turn',
     increase: 'drag on the surface: coarser · Alt: turn', erase: 'drag on the surface: base scale · Alt: turn' };
   byId('hint').textContent = hints[tool];
   for (const button of document.querySelectorAll<HTMLButtonElement>('[data-tool]')) button.ariaPressed = String(button.dataset.tool === tool);
-  if (tool === 'turn' || tool === 'ruler') view.setBrush(null, 0, '#000');
+  if (!brush.paints) view.setBrush(null, 0, '#000');
 }
 function size(by: number): void {
   const now = Number(byId<HTMLInputElement>('radius-slide').value);
@@ -206,13 +208,13 @@ byId('save-proxy').onclick = () => void send('/api/save', { what: 'proxy' });
 byId<HTMLInputElement>('live').onchange = (event) => void send('/api/edit', { op: 'live', live: (event.target as HTMLInputElement).checked });
 byId<HTMLInputElement>('distances').onchange = (event) => void turnDistances((event.target as HTMLInputElement).checked);
 /// A rule by name has the scale of the brush. A name that no part has is refused by the server.
-function rulePart(mode: 'decrease' | 'increase'): void {
-  const node = byId<HTMLInputElement>('part').value.trim();
-  if (!node) return;
-  void send('/api/edit', { op: 'rule', rule: { node, scale: brush.target, mode } }).then((done) => { if (done) checkTarget(mode); });
+const parts = new Parts(byId('part-row'), byId<HTMLInputElement>('part'), byId('part-names'), byId('part-finer'), byId('part-coarser'), (node, mode) =>
+  void send('/api/edit', { op: 'rule', rule: { node, scale: brush.target, mode } }).then((done) => { if (done) checkTarget(mode); }));
+function takePart(x: number, y: number): void {
+  const at = view.pick(x, y);
+  void parts.take(at && view.toScene(at));
 }
-byId('part-finer').onclick = () => rulePart('decrease');
-byId('part-coarser').onclick = () => rulePart('increase');
+onClick(byId('canvas'), () => brush.tool === 'part', takePart);
 byId('prove-all').onclick = () => state.layers.forEach((layer, i) => { if (isProvable(layer)) void send('/api/check', { file: i }); });
 for (const button of document.querySelectorAll<HTMLButtonElement>('[data-cubes]'))
   button.onclick = () => (button.dataset.cubes === 'frame' ? addFrame() : frames.choose(button.dataset.cubes === 'auto' ? 'auto' : null));
@@ -246,12 +248,13 @@ addEventListener('keydown', (event) => {
       return event.preventDefault();
     }
     if (key === 'enter' && ruler.active) return ruler.takeMiddle();
+    if (key === 'enter' && brush.tool === 'part') return takePart(byId('canvas').clientWidth / 2, byId('canvas').clientHeight / 2);
   }
   const acts: Record<string, () => void> = {
     1: () => toggle('scene'), 2: () => toggle('closing'), 3: () => toggle('proxy'), f: () => view.frame(), '[': () => size(-40), ']': () => size(40),
     '+': () => view.zoom(0.9), '=': () => view.zoom(0.9), '-': () => view.zoom(1 / 0.9),
     v: () => choose('turn'), escape: () => choose('turn'), b: () => choose('decrease'), c: () => choose('increase'), e: () => choose('erase'),
-    m: () => byId('mesh').click(), r: () => choose('ruler'), y: () => mirror.next(), o: addFrame, d: () => void turnDistances(!distances), g: () => lookAs(kFaces[(kFaces.indexOf(look) + 1) % kFaces.length]), l: () => turnTo(byId('look').hidden ? 'look' : 'design'),
+    m: () => byId('mesh').click(), r: () => choose('ruler'), p: () => { if (!byId('part-row').hidden) choose('part'); }, y: () => mirror.next(), o: addFrame, d: () => void turnDistances(!distances), g: () => lookAs(kFaces[(kFaces.indexOf(look) + 1) % kFaces.length]), l: () => turnTo(byId('look').hidden ? 'look' : 'design'),
     x: () => cut.next(), ',': () => cut.move(-10), '.': () => cut.move(10), '<': () => cut.move(-1), '>': () => cut.move(1), '\\': () => cut.flip(), k: () => cut.toggleFill(),
   };
   if (key >= '4' && key <= '9') files.toggle(Number(key) - 4);
@@ -322,9 +325,7 @@ async function begin(): Promise<void> {
     button.disabled = true;
     button.title = `More than ${state.scene.most_shown.toLocaleString('en')} triangles: the scene is not drawn`;
   }
-  const names = await askParts();
-  byId('part-names').replaceChildren(...names.map((value) => Object.assign(document.createElement('option'), { value })));
-  byId('part-row').hidden = names.length === 0;
+  await parts.begin();
   told.ready = true;
 }
 begin().catch((error) => complain(error, true));

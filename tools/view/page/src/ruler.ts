@@ -1,22 +1,16 @@
 // The ruler: a distance between two picked points.
 import * as THREE from 'three';
+import { onClick } from './clicks';
 import { percent, show } from './lengths';
 import type { State } from './api';
 import type { View } from './view';
 
 export class Ruler {
   private points: THREE.Vector3[] = [];
-  private down: [number, number] | null = null;
   active = false;
 
   constructor(private canvas: HTMLCanvasElement, private view: View, private facts: () => State['scene'], private label: HTMLElement, private text: HTMLElement) {
-    // A click takes a point; a drag turns the view.
-    canvas.addEventListener('pointerdown', (event) => { this.down = this.active && event.button === 0 ? [event.clientX, event.clientY] : null; });
-    canvas.addEventListener('pointerup', (event) => {
-      if (!this.down || Math.hypot(event.clientX - this.down[0], event.clientY - this.down[1]) > 4) return;
-      const box = canvas.getBoundingClientRect();
-      this.take(event.clientX - box.left, event.clientY - box.top);
-    });
+    onClick(canvas, () => this.active, (x, y) => this.take(x, y));
     view.drawn = () => this.place();
   }
 
