@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "gpu/device_properties.h"
-#include "gpu/device_solid.h"
 #include "gpu/device_tiles.h"
 #include "gpu/device_weighing.h"
 #include "gpu/kernels/device_error.h"
@@ -25,7 +24,6 @@ class CudaBackend final : public Backend {
         name_(fmt::format("cuda:{} {}", device, properties_.name)),
         staging_(stream_.get()),
         work_{name_, stream_.get(), staging_, [this] { make_room(); }},
-        solid_(work_, properties_.multiProcessorCount),
         tiles_(work_,
                {properties_.multiProcessorCount, std::min(kSlabBytes, properties_.totalGlobalMem / kSlabShare)}) {
     require_code();
@@ -34,23 +32,6 @@ class CudaBackend final : public Backend {
 
   [[nodiscard]] std::string name() const override { return name_; }
   [[nodiscard]] std::uint64_t pinned_bytes() const override { return 2 * kStagingBytes; }
-
-  void voxelize(std::span<const FixedTriangle> triangles, BitBox& out, std::int64_t slack) override {
-    stream_.select();
-    solid_.voxelize(triangles, out, slack);
-  }
-
-  void find_crossings(std::span<const FixedTriangle> triangles, const VoxelBox& tile,
-                      std::vector<Crossing>& out) override {
-    stream_.select();
-    solid_.find_crossings(triangles, tile, out);
-  }
-
-  void fill_winding(std::vector<Crossing>& crossings, std::span<const std::uint64_t> skip,
-                    std::span<std::int32_t> numbers, BitBox& bits) override {
-    stream_.select();
-    solid_.fill_winding(crossings, skip, numbers, bits);
-  }
 
   void close(const BitBox& solid, const ScaleLattice& scale, const Halo& halo, const ClosingParams& params,
              const VoxelBox& interior, BitBox& closed) override {
@@ -92,7 +73,6 @@ class CudaBackend final : public Backend {
   /// Frees all device memory.
   void make_room() {
     BP_CUDA_CHECK(cudaStreamSynchronize(stream_.get()));
-    solid_.release();
     tiles_.release();
     weighing_.release();
   }
@@ -102,7 +82,6 @@ class CudaBackend final : public Backend {
   std::string name_;
   Staging staging_;
   const DeviceWork work_;
-  DeviceSolid solid_;
   DeviceTiles tiles_;
   DeviceWeighing weighing_;
 };

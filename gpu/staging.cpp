@@ -70,14 +70,4 @@ void Staging::download(void* to, const void* from, std::size_t bytes) {
   });
 }
 
-void Staging::download_bits(std::uint64_t* to, const void* from, std::size_t count) {
-  download_blocks(from, count * 8, [&](std::size_t at, const std::byte* block, std::size_t n) {
-    for (std::size_t i = 0; i < n; i += 8) {
-      std::uint64_t word = 0;
-      std::memcpy(&word, block + i, 8);
-      to[(at + i) / 8] |= word;
-    }
-  });
-}
-
 }  // namespace bp

@@ -28,8 +28,6 @@ class Staging {
                        const std::function<void(std::size_t at, const std::byte* block, std::size_t n)>& take);
   /// Returns when `to` holds the data. Everything enqueued before has run then.
   void download(void* to, const void* from, std::size_t bytes);
-  /// Downloads, too, but adds the bits of `count` words to those of `to`.
-  void download_bits(std::uint64_t* to, const void* from, std::size_t count);
 
  private:
   struct Block {

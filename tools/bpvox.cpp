@@ -14,7 +14,6 @@
 #include "tools/cli/run_tool.h"
 #include "tools/notes/estimate.h"
 #include "tools/pipe/voxelize_step.h"
-#include "tools/run/make_backend.h"
 #include "tools/run/memory_shares.h"
 #include "tools/run/provenance.h"
 #include "tools/run/scene_budget.h"
@@ -72,11 +71,9 @@ void fill_report(bp::Report& report, const Options& o, const bp::StreamHeader& h
 void run(const Options& o) {
   bp::Report report("bpvox");
   bp::Progress progress("bpvox", o.common.progress);
-  bp::Backends backends = bp::make_backends(o.common, 0);  // reading takes far longer than voxelizing
-  const std::uint64_t memory = bp::unpinned(o.common.memory_bytes, bp::pinned_bytes(backends));
-  const bp::VoxelizeBudget budget(memory);
+  const bp::VoxelizeBudget budget(o.common.memory_bytes);
   bp::SceneOptions scene{o.voxels.format, budget.reader, o.common.temp};
-  scene.document = bp::document_budget(memory, bp::kVoxelProgram, o.voxels.scenes.size());
+  scene.document = bp::document_budget(o.common.memory_bytes, bp::kVoxelProgram, o.voxels.scenes.size());
   scene.keep_degenerate = true;
   const auto source = bp::open_scenes(o.voxels.scenes, scene);
   const auto file = bp::open_output(o.out, o.common.overwrite);
@@ -97,12 +94,11 @@ void run(const Options& o) {
   };
   bp::VoxelizeOptions options = bp::voxelize_options(o.voxels, o.common, budget);
   options.context.progress = progress.for_pass();
-  const bp::VoxelizeCounts counts = bp::voxelize_stream(*source, open, backends, options);
+  const bp::VoxelizeCounts counts = bp::voxelize_stream(*source, open, options);
   writer->finish();
   file->commit();
   progress.end();
   report.bytes_out = file->bytes();
-  report.counts["backends"] = bp::names_of(backends);
   fill_report(report, o, header, counts, scene);
   report.write(o.common);
 }

@@ -16,17 +16,6 @@ constexpr int kFewSeeds = 12;
 /// Memory for the distances of a slab of a tile. Wider domains take several slabs.
 constexpr std::size_t kSlabBytes = std::size_t(3) << 29;
 constexpr std::size_t kSlabShare = 32;  ///< a 32nd of all device memory at most, since several backends share a device
-/// Bits that are voxelized at a time. Taller boxes take several parts.
-constexpr std::size_t kVoxelizeBytes = std::size_t(512) << 20;
-/// Triangles on the device at a time.
-constexpr std::size_t kTriangleBatch = std::size_t(1) << 18;
-/// Room for crossings at first. A batch of triangles with more crossings is gone through twice.
-constexpr std::uint32_t kCrossingBatch = 1u << 20;
-/// Crossings on the device at a time (256 MiB). A batch of triangles with more is halved; a tile with more is filled on
-/// the host.
-constexpr std::uint32_t kMostCrossings = 1u << 26;
-/// Kernels count crossings in 32 bits.
-constexpr std::uint64_t kCountedCrossings = 0xffffffffu;
 /// Size of a page-locked block for copies. A backend has two.
 constexpr std::size_t kStagingBytes = std::size_t(4) << 20;
 

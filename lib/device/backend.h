@@ -7,8 +7,6 @@
 #include "lib/deform/weight_block.h"
 #include "lib/device/backends.h"
 #include "lib/grid/stream.h"
-#include "lib/voxel/fixed_triangle.h"
-#include "lib/voxel/winding.h"
 
 /// The operations on tiles and on cages' coordinates that CpuBackend and CudaBackend implement. Each worker thread has
 /// one Backend. It owns its scratch (on a GPU: its stream and buffers), allocated on the first call and kept. Results
@@ -22,17 +20,6 @@ class Backend {
   [[nodiscard]] virtual std::string name() const = 0;  ///< "cpu", "cuda:0 NVIDIA H100 80GB HBM3"
   /// Returns the bytes of page-locked host memory that the backend holds, in addition to the memory of its calls.
   [[nodiscard]] virtual std::uint64_t pinned_bytes() const { return 0; }
-
-  /// Sets, in `out`, every voxel whose closed cube, grown by `slack` (fixed_slack()), meets a triangle, and keeps the
-  /// set ones. Triangles may reach outside the box. Exact in integers; [SS10].
-  virtual void voxelize(std::span<const FixedTriangle> triangles, BitBox& out, std::int64_t slack) = 0;
-
-  /// Appends the crossings of the tile's columns that lie in the tile, in any order (lib/voxel/winding.h).
-  virtual void find_crossings(std::span<const FixedTriangle> triangles, const VoxelBox& tile,
-                              std::vector<Crossing>& out) = 0;
-  /// Does what fill_winding() in lib/voxel/winding.h does, for the tile of `bits`.
-  virtual void fill_winding(std::vector<Crossing>& crossings, std::span<const std::uint64_t> skip,
-                            std::span<std::int32_t> numbers, BitBox& bits) = 0;
 
   /// Does what close_tile() in lib/closing/closing.h does.
   virtual void close(const BitBox& solid, const ScaleLattice& scale, const Halo& halo, const ClosingParams& params,

@@ -3,7 +3,7 @@
 #include "lib/voxel/crossing.h"
 #include "lib/voxel/overlap.h"
 
-/// Where the columns of a tile cross one triangle: the inner step of find_crossings, for host and device.
+/// Where the columns of a tile cross one triangle: the inner step of find_crossings.
 ///
 /// Bounds of the integers, with E the triangle's extent. A column inside the triangle lies within E of each vertex.
 ///   EdgeInt: two products of E and E                           64 bits up to E = 2^30, else 128
@@ -13,26 +13,18 @@ namespace bp {
 constexpr std::int64_t kFixedHalf = kFixedOne / 2;
 
 /// First and last voxel whose centre lies in [low, high], along one axis.
-[[nodiscard]] BP_HD inline std::int64_t first_centre(std::int64_t low) {
+[[nodiscard]] inline std::int64_t first_centre(std::int64_t low) {
   return (low - kFixedHalf + kFixedOne - 1) >> kFixedBits;
 }
-[[nodiscard]] BP_HD inline std::int64_t last_centre(std::int64_t high) {
+[[nodiscard]] inline std::int64_t last_centre(std::int64_t high) {
   return (high - kFixedHalf) >> kFixedBits;
 }
-
-/// A share of the rows of a triangle, or of the columns of a row, for one of several threads: every `step`-th from
-/// `first` on.
-struct Share {
-  std::int32_t first = 0, step = 1;
-};
 
 /// Iterates over the crossings of one triangle with the columns of a tile.
 template <class EdgeInt, class PlaneInt>
 class ColumnCrossings {
  public:
-  /// Begins with all columns, or with a share of the rows and of the columns in each row.
-  BP_HD ColumnCrossings(const Corners& t, const VoxelBox& tile, Share rows = {}, Share columns = {})
-      : tile_(tile), row_step_(rows.step), columns_(columns) {
+  ColumnCrossings(const Corners& t, const VoxelBox& tile) : tile_(tile) {
     for (int axis = 0; axis < 3; ++axis) {
       corner_[axis] = t.p[0][axis];
       normal_[axis] = normal_component<PlaneInt>(t, axis);
@@ -42,34 +34,32 @@ class ColumnCrossings {
     if (clockwise) {
       for (PlaneInt& n : normal_) n = -n;  // up
     }
-    x0_ = larger<std::int64_t>(first_centre(t.low(0)), tile.min.x);
-    y0_ = larger<std::int64_t>(first_centre(t.low(1)), tile.min.y);
-    const std::int64_t x1 = smaller<std::int64_t>(last_centre(t.high(0)), tile.max.x - 1),
-                       y1 = smaller<std::int64_t>(last_centre(t.high(1)), tile.max.y - 1);
+    x0_ = std::max<std::int64_t>(first_centre(t.low(0)), tile.min.x);
+    y0_ = std::max<std::int64_t>(first_centre(t.low(1)), tile.min.y);
+    const std::int64_t x1 = std::min<std::int64_t>(last_centre(t.high(0)), tile.max.x - 1),
+                       y1 = std::min<std::int64_t>(last_centre(t.high(1)), tile.max.y - 1);
     if (normal_[2] == 0 || x0_ > x1 || y0_ > y1) return;  // no rows
     width_ = std::int32_t(x1 - x0_) + 1;
     row_count_ = std::int32_t(y1 - y0_) + 1;
-    row_ = rows.first - rows.step;
+    row_ = -1;
     for (int e = 0; e < 3; ++e) edges_[e] = edge(t, e, clockwise);
   }
 
   /// Finds the next crossing that lies in the tile; returns false if there is none left.
-  BP_HD bool next(Crossing& out) {
+  bool next(Crossing& out) {
     for (;;) {
       while (column_ > last_) {
-        row_ += row_step_;
-        if (row_ >= row_count_) return false;
+        if (++row_ >= row_count_) return false;
         begin_row();
       }
-      const std::int64_t x = x0_ + column_, y = y0_ + row_;
-      column_ += columns_.step;
+      const std::int64_t x = x0_ + column_++, y = y0_ + row_;
       if (cross(x, y, out)) return true;
     }
   }
 
  private:
   /// Returns the columns on the inner side of edge e of the projection along z, counted from (x0_, y0_).
-  BP_HD HalfSpace<EdgeInt> edge(const Corners& t, int e, bool clockwise) const {
+  HalfSpace<EdgeInt> edge(const Corners& t, int e, bool clockwise) const {
     const std::int64_t* from = t.p[clockwise ? (e + 1) % 3 : e];
     const std::int64_t* to = t.p[clockwise ? e : (e + 1) % 3];
     const EdgeInt dx = to[0] - from[0], dy = to[1] - from[1];
@@ -83,16 +73,16 @@ class ColumnCrossings {
     return h;
   }
 
-  BP_HD void begin_row() {
+  void begin_row() {
     std::int32_t first = 0, last = width_ - 1;
     bool any = true;
     for (int e = 0; e < 3 && any; ++e) any = clip(edges_[e].value(0, row_, 0), edges_[e].step[0], first, last);
-    column_ = first + columns_.first;
+    column_ = first;
     last_ = any ? last : -1;
   }
 
   /// Height above the corner: -(nx dx + ny dy) / nz, exact; then in half voxels above the grid, rounded down and up.
-  BP_HD bool cross(std::int64_t x, std::int64_t y, Crossing& out) const {
+  bool cross(std::int64_t x, std::int64_t y, Crossing& out) const {
     const std::int64_t dx = x * kFixedOne + kFixedHalf - corner_[0], dy = y * kFixedOne + kFixedHalf - corner_[1];
     // corner z = whole half voxels + rest keeps the products small.
     const std::int64_t whole = corner_[2] >> (kFixedBits - 1), rest = corner_[2] & (kFixedHalf - 1);
@@ -112,8 +102,6 @@ class ColumnCrossings {
   PlaneInt normal_[3];
   HalfSpace<EdgeInt> edges_[3];
   std::int64_t x0_, y0_;  ///< first column and row of the triangle's box
-  std::int32_t row_step_;
-  Share columns_;
   bool down_;
   std::int32_t width_ = 0, row_count_ = 0, row_ = 0, column_ = 0, last_ = -1;
 };

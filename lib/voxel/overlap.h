@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cstdint>
 
 #include "lib/core/box.h"
@@ -29,22 +30,12 @@ __extension__ typedef __int128 Int128;
 constexpr std::int64_t kSmallExtent = std::int64_t(1) << 20;
 constexpr std::int64_t kMediumExtent = std::int64_t(1) << 30;
 
-/// std::min and std::max, for host and device.
-template <class T>
-[[nodiscard]] BP_HD constexpr T smaller(T a, T b) {
-  return b < a ? b : a;
-}
-template <class T>
-[[nodiscard]] BP_HD constexpr T larger(T a, T b) {
-  return a < b ? b : a;
-}
-
 /// The cells with at + step . cell >= 0, counted from the first cell of the range.
 template <class Int>
 struct HalfSpace {
   Int at{};
   Int step[3]{};
-  [[nodiscard]] BP_HD Int value(std::int32_t x, std::int32_t y, std::int32_t z) const {
+  [[nodiscard]] Int value(std::int32_t x, std::int32_t y, std::int32_t z) const {
     return at + step[0] * x + step[1] * y + step[2] * z;
   }
 };
@@ -52,27 +43,27 @@ struct HalfSpace {
 /// Half-open range of cells.
 struct CellRange {
   std::int64_t min[3], max[3];
-  [[nodiscard]] BP_HD bool empty() const { return min[0] >= max[0] || min[1] >= max[1] || min[2] >= max[2]; }
-  [[nodiscard]] BP_HD std::int64_t size(int axis) const { return max[axis] - min[axis]; }
+  [[nodiscard]] bool empty() const { return min[0] >= max[0] || min[1] >= max[1] || min[2] >= max[2]; }
+  [[nodiscard]] std::int64_t size(int axis) const { return max[axis] - min[axis]; }
 };
 
 /// A triangle as arrays, for loops over axes.
 struct Corners {
   std::int64_t p[3][3];
   std::int64_t slack;  ///< that cells are grown by, at most kMostFixedSlack
-  BP_HD explicit Corners(const FixedTriangle& t, std::int64_t grown_by = kFixedSlack)
+  explicit Corners(const FixedTriangle& t, std::int64_t grown_by = kFixedSlack)
       : p{{t.a.x, t.a.y, t.a.z}, {t.b.x, t.b.y, t.b.z}, {t.c.x, t.c.y, t.c.z}}, slack(grown_by) {}
-  [[nodiscard]] BP_HD std::int64_t low(int axis) const { return smaller(smaller(p[0][axis], p[1][axis]), p[2][axis]); }
-  [[nodiscard]] BP_HD std::int64_t high(int axis) const { return larger(larger(p[0][axis], p[1][axis]), p[2][axis]); }
-  [[nodiscard]] BP_HD std::int64_t extent() const {
+  [[nodiscard]] std::int64_t low(int axis) const { return std::min(std::min(p[0][axis], p[1][axis]), p[2][axis]); }
+  [[nodiscard]] std::int64_t high(int axis) const { return std::max(std::max(p[0][axis], p[1][axis]), p[2][axis]); }
+  [[nodiscard]] std::int64_t extent() const {
     std::int64_t e = 0;
-    for (int axis = 0; axis < 3; ++axis) e = larger(e, high(axis) - low(axis));
+    for (int axis = 0; axis < 3; ++axis) e = std::max(e, high(axis) - low(axis));
     return e;
   }
 };
 
 /// Voxels whose closed, grown cubes meet the triangle's box.
-[[nodiscard]] BP_HD inline CellRange voxel_range(const Corners& t) {
+[[nodiscard]] inline CellRange voxel_range(const Corners& t) {
   CellRange r{};
   for (int axis = 0; axis < 3; ++axis) {
     // Returns n . p, saturated to +-2^126, without overflow: |n| < 2^96, |p| < 2^49.
@@ -83,7 +74,7 @@ struct Corners {
 }
 
 /// n . p saturated to +-2^126, without overflow: |n| < 2^96, |p| < 2^49.
-[[nodiscard]] BP_HD inline Int128 saturated_dot(const Int128 n[3], const std::int64_t p[3]) {
+[[nodiscard]] inline Int128 saturated_dot(const Int128 n[3], const std::int64_t p[3]) {
   Int128 high = 0, low = 0;  // sum = high * 2^48 + low
   for (int axis = 0; axis < 3; ++axis) {
     high += (n[axis] >> 48) * p[axis];
@@ -96,27 +87,27 @@ struct Corners {
   if (high < -(limit >> 48)) return -limit;
   return high * (Int128(1) << 48) + low;
 }
-[[nodiscard]] BP_HD inline std::int64_t saturated_dot(const std::int64_t n[3], const std::int64_t p[3]) {
+[[nodiscard]] inline std::int64_t saturated_dot(const std::int64_t n[3], const std::int64_t p[3]) {
   return n[0] * p[0] + n[1] * p[1] + n[2] * p[2];
 }
 
 /// Returns the corner, grown, of the range's first cell that lies farthest along a normal with this sign.
-[[nodiscard]] BP_HD inline std::int64_t far_corner(const Corners& t, const CellRange& range, int axis, bool positive,
-                                                   std::int64_t edge) {
+[[nodiscard]] inline std::int64_t far_corner(const Corners& t, const CellRange& range, int axis, bool positive,
+                                             std::int64_t edge) {
   return range.min[axis] * edge + (positive ? edge + t.slack : -t.slack);
 }
 
 /// Returns component w of the triangle's normal: twice the signed area of the projection along w.
 template <class Int>
-[[nodiscard]] BP_HD inline Int normal_component(const Corners& t, int w) {
+[[nodiscard]] inline Int normal_component(const Corners& t, int w) {
   const int u = (w + 1) % 3, v = (w + 2) % 3;
   return Int(t.p[1][u] - t.p[0][u]) * (t.p[2][v] - t.p[1][v]) - Int(t.p[1][v] - t.p[0][v]) * (t.p[2][u] - t.p[1][u]);
 }
 
 /// Half-space of edge e, projected along w; `clockwise`: normal_component(t, w) < 0.
 template <class Int>
-[[nodiscard]] BP_HD inline HalfSpace<Int> edge_space(const Corners& t, int e, int w, bool clockwise,
-                                                     const CellRange& range, std::int64_t edge) {
+[[nodiscard]] inline HalfSpace<Int> edge_space(const Corners& t, int e, int w, bool clockwise, const CellRange& range,
+                                               std::int64_t edge) {
   const int u = (w + 1) % 3, v = (w + 2) % 3;
   const std::int64_t* from = t.p[e];
   const std::int64_t* to = t.p[(e + 1) % 3];
@@ -132,8 +123,8 @@ template <class Int>
 
 /// Half-space of the cells that reach the side of the triangle's plane to which `normal` points.
 template <class Int>
-[[nodiscard]] BP_HD inline HalfSpace<Int> plane_space(const Corners& t, const Int normal[3], const CellRange& range,
-                                                      std::int64_t edge) {
+[[nodiscard]] inline HalfSpace<Int> plane_space(const Corners& t, const Int normal[3], const CellRange& range,
+                                                std::int64_t edge) {
   HalfSpace<Int> h;
   std::int64_t reach[3];
   for (int axis = 0; axis < 3; ++axis) {
@@ -152,7 +143,7 @@ struct TriangleCells {
   HalfSpace<PlaneInt> plane[2];
 
   /// `range`: the cells asked about, all of which meet the triangle's box.
-  BP_HD TriangleCells(const Corners& t, const CellRange& cells, std::int64_t edge) : range(cells) {
+  TriangleCells(const Corners& t, const CellRange& cells, std::int64_t edge) : range(cells) {
     PlaneInt normal[3], opposite[3];
     for (int w = 0; w < 3; ++w) {
       normal[w] = normal_component<PlaneInt>(t, w);
@@ -164,7 +155,7 @@ struct TriangleCells {
   }
 
   /// True if the cell, counted from range.min, meets the triangle.
-  [[nodiscard]] BP_HD bool meets(std::int32_t x, std::int32_t y, std::int32_t z) const {
+  [[nodiscard]] bool meets(std::int32_t x, std::int32_t y, std::int32_t z) const {
     for (const auto& h : edges) {
       if (h.value(x, y, z) < 0) return false;
     }
@@ -183,7 +174,7 @@ constexpr std::int64_t kWideCells = 2048;
 /// Shrinks [low, high] to the i with at + step * i >= 0. False if none is left. An estimate in doubles, corrected in
 /// integers: exact whatever the estimate.
 template <class Int>
-[[nodiscard]] BP_HD inline bool clip(Int at, Int step, std::int32_t& low, std::int32_t& high) {
+[[nodiscard]] inline bool clip(Int at, Int step, std::int32_t& low, std::int32_t& high) {
   const Int at_low = at + step * low, at_high = at + step * high;
   if (at_low >= 0 && at_high >= 0) return true;
   if (at_low < 0 && at_high < 0) return false;

@@ -6,8 +6,6 @@
 #include "lib/closing/rotation.h"
 #include "lib/device/cpu/cpu_backend.h"
 #include "lib/device/cpu/fallback_backend.h"
-#include "lib/voxel/voxelize.h"
-#include "lib/voxel/winding.h"
 #include "tests/catch.h"
 #include "tests/reference/closing.h"
 #include "tests/reference/random_closing.h"
@@ -48,8 +46,7 @@ TEST_CASE("the order in which a block's threads run changes no bit", "[quick][em
   emulator::set_thread_order(0);
 }
 
-TEST_CASE("a tile that does not fit in device memory is closed or voxelized in parts, to the same bits",
-          "[quick][emulated]") {
+TEST_CASE("a tile that does not fit in device memory is closed in parts, to the same bits", "[quick][emulated]") {
   const Tile tile;
   std::size_t whole = 0;
   {
@@ -61,17 +58,6 @@ TEST_CASE("a tile that does not fit in device memory is closed or voxelized in p
     CHECK(got == tile.want);
   }
   CHECK(emulator::memory_in_use() == 0);
-  {
-    const VoxelBox box{{0, 0, 0}, {256, 128, 200}};
-    const std::vector<FixedTriangle> triangles{
-        {{0, 0, 0}, {250 * kFixedOne, 3, 190 * kFixedOne}, {7, 120 * kFixedOne, 90 * kFixedOne}}};
-    BitBox got(box), want(box);
-    voxelize_surface(triangles, want);
-    emulator::set_memory_limit(std::size_t(want.word_count()) * 8 / 3);
-    make_cuda_backend(0)->voxelize(triangles, got, kFixedSlack);
-    CHECK(got == want);
-    emulator::set_memory_limit(std::size_t(-1));
-  }
   const auto backend = make_cuda_backend(0);
   for (const std::size_t share : {2, 4}) {
     CAPTURE(whole, share);
@@ -112,37 +98,6 @@ TEST_CASE("turned cubes that do not fit in device memory close in parts, in any 
   make_cuda_backend(0)->close(tile.solid, tile.scale, halo, params, tile.interior, got);
   emulator::set_memory_limit(std::size_t(-1));
   CHECK(got == want);
-}
-
-TEST_CASE("crossings and the fill by winding on a device with little memory are the same", "[quick][emulated]") {
-  const VoxelBox tile{{0, 0, 0}, {128, 64, 64}};
-  std::vector<FixedTriangle> triangles;
-  for (std::int64_t i = 0; i < 400; ++i) {
-    const std::int64_t z = i * 5 % 60 * kFixedOne;
-    triangles.push_back({{-kFixedOne, -kFixedOne, z}, {300 * kFixedOne, 0, z}, {0, 300 * kFixedOne, z + 7000}});
-    if (i % 2 == 0) std::swap(triangles.back().b, triangles.back().c);
-  }
-  std::vector<Crossing> want;
-  find_crossings(triangles, tile, want);
-  REQUIRE(want.size() == 400u * 128 * 64);  // more than there is room for at first
-  const auto backend = make_cuda_backend(0);
-  std::vector<Crossing> got;
-  emulator::set_memory_limit(std::size_t(5) << 20);  // a third of them
-  backend->find_crossings(triangles, tile, got);
-  CHECK(got.size() == want.size());
-  std::vector<std::int32_t> numbers(128 * 64, 0), want_numbers = numbers;
-  add_crossings(want, tile, want_numbers);
-  add_crossings(got, tile, numbers);
-  CHECK(numbers == want_numbers);
-
-  BitBox bits(tile), want_bits(tile);
-  numbers.assign(numbers.size(), 1);
-  want_numbers = numbers;
-  backend->fill_winding(got, {}, numbers, bits);  // does not fit: on the host
-  emulator::set_memory_limit(std::size_t(-1));
-  fill_winding(want, tile, {}, want_numbers, want_bits);
-  CHECK(bits == want_bits);
-  CHECK(numbers == want_numbers);
 }
 
 namespace {

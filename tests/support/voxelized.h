@@ -27,7 +27,6 @@ inline Voxelized voxelized(const Triangles& scene, double voxel, std::int32_t ce
   Voxelized out;
   ShelfSink sink(out.shelf.get());
   MemorySource source(scene);
-  Backends backends = plain_backends(2);
   VoxelizeOptions options;
   options.voxel_size = [&](const Bounds3d&) { return voxel; };
   options.cell_vox = cell_vox;
@@ -38,7 +37,7 @@ inline Voxelized voxelized(const Triangles& scene, double voxel, std::int32_t ce
     out.header = h;
     return sink;
   };
-  voxelize_stream(source, open, backends, options);
+  voxelize_stream(source, open, options);
   return out;
 }
 

@@ -108,8 +108,7 @@ std::shared_ptr<const VoxelGrid> voxelize(const std::shared_ptr<const Scene>& sc
                                           Call& call) {
   const VoxelOptions voxels = voxel_options(*scene, given);
   call.begin("reading");
-  Backends backends = make_backends(call.common(), 0);
-  const std::uint64_t memory = unpinned(call.common().memory_bytes, pinned_bytes(backends));
+  const std::uint64_t memory = call.common().memory_bytes;
   const VoxelizeBudget budget(memory);
   const SceneOptions reading = reading_options(*scene, call.common(), memory, budget);
   const auto source = scene->open(reading);
@@ -129,7 +128,7 @@ std::shared_ptr<const VoxelGrid> voxelize(const std::shared_ptr<const Scene>& sc
         scene->arrays ? SceneFiles{{}, "", counts.scene.triangles, counts.input_hash} : scene_files(voxels, counts);
     return sink;
   };
-  const VoxelizeCounts counts = voxelize_stream(*source, open, backends, options);
+  const VoxelizeCounts counts = voxelize_stream(*source, open, options);
   note_voxels(call.report(), call.common(), grid->header, counts, {voxels.scenes, reading});
   return grid;
 }

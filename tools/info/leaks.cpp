@@ -70,7 +70,6 @@ WallVoxels wall_voxels(VoxelOptions voxels, const CommonOptions& common) {
   WallVoxels walls;
   walls.bricks = make_shelf(budget.shelf, common.temp);
   ShelfSink sink(walls.bricks.get());
-  Backends none;
   const VoxelizeCounts counts = voxelize_stream(
       *source,
       [&](const StreamHeader& header, const VoxelizeCounts&) -> BrickSink& {
@@ -78,7 +77,7 @@ WallVoxels wall_voxels(VoxelOptions voxels, const CommonOptions& common) {
         walls.header = header;
         return sink;
       },
-      none, voxelize_options(voxels, common, budget));
+      voxelize_options(voxels, common, budget));
   walls.header.scene = scene_files(voxels, counts);
   return walls;
 }

@@ -14,6 +14,7 @@
 #include "lib/levels/level_plan.h"
 #include "lib/levels/occluder_level.h"
 #include "lib/levels/tiles/tile_plan.h"
+#include "lib/voxel/fixed_triangle.h"
 #include "tools/lod/bake_levels.h"
 #include "tools/lod/build.h"
 #include "tools/lod/choices.h"

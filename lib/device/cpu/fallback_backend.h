@@ -17,11 +17,6 @@ class FallbackBackend final : public Backend {
 
   [[nodiscard]] std::string name() const override { return device_ ? name_ : name_ + ", then cpu"; }
   [[nodiscard]] std::uint64_t pinned_bytes() const override { return device_ ? device_->pinned_bytes() : 0; }
-  void voxelize(std::span<const FixedTriangle> triangles, BitBox& out, std::int64_t slack) override;
-  void find_crossings(std::span<const FixedTriangle> triangles, const VoxelBox& tile,
-                      std::vector<Crossing>& out) override;
-  void fill_winding(std::vector<Crossing>& crossings, std::span<const std::uint64_t> skip,
-                    std::span<std::int32_t> numbers, BitBox& bits) override;
   void close(const BitBox& solid, const ScaleLattice& scale, const Halo& halo, const ClosingParams& params,
              const VoxelBox& interior, BitBox& closed) override;
   void close_from_shelf(const BrickShelf& solid, const BrickBox& bricks, const ScaleLattice& scale, const Halo& halo,

@@ -60,8 +60,7 @@ GridFrame voxelize_mesh(const LatticeMesh& mesh, double voxel, FillMode fill, co
     frame = header.frame;
     return sink;
   };
-  Backends on_threads;
-  voxelize_stream(source, open, on_threads, options);
+  voxelize_stream(source, open, options);
   return frame;
 }
 

@@ -6,7 +6,6 @@
 
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
-#include "lib/device/cpu/cpu_backend.h"
 #include "lib/grid/cells.h"
 #include "lib/pass/voxelize/detail/chunked_surface.h"
 #include "lib/pass/voxelize/detail/grid_voxelizer.h"
@@ -19,19 +18,14 @@ namespace {
 /// The work of voxelize_stream() for one scene.
 class SceneVoxelizer {
  public:
-  SceneVoxelizer(TriangleSource& source, Backends& backends, const VoxelizeOptions& options)
+  SceneVoxelizer(TriangleSource& source, const VoxelizeOptions& options)
       : source_(source),
         options_(options),
         chunks_(options.context.results != nullptr && options.fill != FillMode::winding
                     ? std::make_unique<ChunkedSurface>(*options.context.results, options.context.turn)
                     : nullptr),
         // Three fifths for triangles: their bins, which are half as large, then fit in the rest.
-        scene_(source, options.context.memory.bytes / 5 * 3, chunks_.get()) {
-    for (int i = 0; backends.empty() && i < thread_count(); ++i) own_.push_back(std::make_unique<CpuBackend>());
-    std::vector<Backend*> all;
-    for (const auto& backend : backends.empty() ? own_ : backends) all.push_back(backend.get());
-    backends_ = std::make_unique<BackendPool>(std::move(all));
-  }
+        scene_(source, options.context.memory.bytes / 5 * 3, chunks_.get()) {}
 
   VoxelizeCounts operator()(const OpenSink& open) {
     const bool guessed = guess_grid();
@@ -60,8 +54,6 @@ class SceneVoxelizer {
 
   TriangleSource& source_;
   const VoxelizeOptions& options_;
-  Backends own_;  ///< if the caller gave none
-  std::unique_ptr<BackendPool> backends_;
   VoxelizeCounts counts_;
   std::unique_ptr<ChunkedSurface> chunks_;  ///< null: none are kept
   ScenePasses scene_;
@@ -108,7 +100,7 @@ StreamHeader SceneVoxelizer::header_of(const Bounds3d& bounds, double off) {
 
 void SceneVoxelizer::make_grid() {
   grid_.reset();  // its memory goes before a new one takes some
-  grid_ = std::make_unique<GridVoxelizer>(header_, slack_, options_, *backends_, chunks_.get());
+  grid_ = std::make_unique<GridVoxelizer>(header_, slack_, options_, chunks_.get());
 }
 
 /// Makes the grid of the scene's bounds, unless it was guessed. Returns whether all triangles are in it.
@@ -202,9 +194,8 @@ StreamHeader solid_header(const Bounds3d& bounds, double voxel, UpAxis up, const
   return header;
 }
 
-VoxelizeCounts voxelize_stream(TriangleSource& source, const OpenSink& open, Backends& backends,
-                               const VoxelizeOptions& options) {
-  return SceneVoxelizer(source, backends, options)(open);
+VoxelizeCounts voxelize_stream(TriangleSource& source, const OpenSink& open, const VoxelizeOptions& options) {
+  return SceneVoxelizer(source, options)(open);
 }
 
 }  // namespace bp

@@ -1,13 +1,12 @@
 #pragma once
 #include <functional>
 
-#include "lib/device/backends.h"
 #include "lib/pass/voxelize/voxelize_options.h"
 
 /// The work of bpvox: a stream of triangles in, a stream of solid bricks out, tile by tile, out of core. If the source
 /// tells its bounds beforehand, the scene is read once. Otherwise it is read for its bounds, and a second time if it
 /// did not fit in memory. Triangles set voxels in bricks that all threads share; triangles that are large or have no
-/// room there are sorted by tile, and each tile is voxelized by a backend. Voxels that the outside cannot reach, or
+/// room there are sorted by tile, and each tile is voxelized by one thread. Voxels that the outside cannot reach, or
 /// that the winding number says are inside, are filled over all tiles; the bricks leave in slab order. Tile size,
 /// memory and threads change no voxel.
 namespace bp {
@@ -25,11 +24,10 @@ namespace bp {
 /// returns where the bricks go.
 using OpenSink = std::function<BrickSink&(const StreamHeader&, const VoxelizeCounts&)>;
 
-/// Voxelizes a scene. Without backends the computing threads voxelize the tiles. The caller calls finish() on the sink.
+/// Voxelizes a scene. The caller calls finish() on the sink.
 /// The header's bricks are those of voxel_bounds(), its slab_axis is their longest axis. Throws bad_input if there is
 /// no triangle, bad_argument if the grid is impossible (too many voxels or tiles, too far from the origin, beyond
 /// kWindingVoxels for winding).
-VoxelizeCounts voxelize_stream(TriangleSource& source, const OpenSink& open, Backends& backends,
-                               const VoxelizeOptions& options);
+VoxelizeCounts voxelize_stream(TriangleSource& source, const OpenSink& open, const VoxelizeOptions& options);
 
 }  // namespace bp

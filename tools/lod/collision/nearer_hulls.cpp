@@ -45,7 +45,7 @@ LatticeMesh body_of_rest(Build& build, const MadeChain& chain, std::vector<Trian
         header = h;
         return sink;
       },
-      build.backends, v);
+      v);
   lod.scene = std::move(rest);
   LodChain levels(header, std::move(solid), build.backends, std::move(lod));
   LodLevel level = levels.make(chain.made.facts.front().target);

@@ -173,7 +173,7 @@ LodScene read_scene(Build& build, const ReadOptions& read) {
                     build.report);
     return sink;
   };
-  voxels.counts = voxelize_stream(*source, open, build.backends, v);
+  voxels.counts = voxelize_stream(*source, open, v);
   const SceneCounts& counts = voxels.counts.scene;
   scene.size = {voxels.header.bounds, counts.triangles, counts.kept_degenerate};
   scene.enclosed = enclosed_by(o, counts.triangles);

@@ -6,6 +6,7 @@
 #include "lib/core/parallel.h"
 #include "lib/grid/cells.h"
 #include "lib/pass/voxelize/detail/emit_bricks.h"
+#include "lib/voxel/voxelize.h"
 #include "lib/voxel/winding.h"
 
 namespace bp {
@@ -44,12 +45,10 @@ TileGrid cut_grid(const VoxelBox& grid, const VoxelizeOptions& options) {
   return tiles;
 }
 
-/// Returns buffers for the tiles at work. A GPU has few backends; the other threads load, label and shelve tiles
-/// meanwhile.
-TileWorks make_works(std::int32_t edge_vox, std::uint64_t memory_bytes, int backends) {
+/// Returns buffers for the tiles at work.
+TileWorks make_works(std::int32_t edge_vox, std::uint64_t memory_bytes) {
   const std::uint64_t fit = std::max<std::uint64_t>(1, memory_bytes / work_bytes(edge_vox));
-  std::vector<std::unique_ptr<TileWork>> works(
-      std::min<std::uint64_t>(fit, std::uint64_t(std::max(thread_count(), backends))));
+  std::vector<std::unique_ptr<TileWork>> works(std::min<std::uint64_t>(fit, std::uint64_t(thread_count())));
   for (auto& w : works) w = std::make_unique<TileWork>();
   return TileWorks(std::move(works));
 }
@@ -57,22 +56,21 @@ TileWorks make_works(std::int32_t edge_vox, std::uint64_t memory_bytes, int back
 }  // namespace
 
 GridVoxelizer::GridVoxelizer(const StreamHeader& header, std::int64_t slack, const VoxelizeOptions& options,
-                             BackendPool& backends, ChunkedSurface* chunks)
+                             ChunkedSurface* chunks)
     : frame_(header.frame),
       slab_axis_(header.slab_axis),
       slack_(slack),
       options_(options),
-      backends_(backends),
       chunks_(chunks),
       tiles_(cut_grid(voxels_of(header.bricks), options)),
       shelf_(options.context.make_shelf()),
       store_(options.context.make_scratch()),
       bins_(tiles_, *store_),
-      works_(make_works(tiles_.edge_vox, options.tile_memory_bytes, backends.count())) {
+      works_(make_works(tiles_.edge_vox, options.tile_memory_bytes)) {
   if (chunks_ == nullptr && options.fill != FillMode::winding)
     bricks_ = std::make_unique<SurfaceBricks>(options.context.memory.bytes / 10 * 3);
   if (options.fill != FillMode::none)
-    fill_ = std::make_unique<TileFill>(options.fill, tiles_, *shelf_, *store_, backends_, works_);
+    fill_ = std::make_unique<TileFill>(options.fill, tiles_, *shelf_, *store_, works_);
 }
 
 TriangleBatch GridVoxelizer::sort(std::span<const TriangleD> triangles) const {
@@ -164,11 +162,8 @@ void GridVoxelizer::voxelize_tile(std::uint64_t tile, bool last) {
   if (bricks_ && last) bricks_->take(work->bits);
   bins_.for_each(tile, [&](std::span<const FixedTriangle> triangles) {
     work->crossings.clear();
-    {
-      const BackendPool::Lease backend(backends_);
-      backend->voxelize(triangles, work->bits, slack_);
-      if (options_.fill == FillMode::winding) backend->find_crossings(triangles, box, work->crossings);
-    }
+    voxelize_surface(triangles, work->bits, slack_);
+    if (options_.fill == FillMode::winding) find_crossings(triangles, box, work->crossings);
     if (fill_) fill_->add_crossings(tile, work->crossings);
   });
   store_voxels(work->bits, *shelf_);

@@ -14,10 +14,9 @@ namespace bp {
 /// Sets the voxels of a grid, tile by tile, and fills them. Triangles wait in bricks or bins until all have come.
 class GridVoxelizer {
  public:
-  /// Keeps references to the options, the backends and the chunks, which are null or used in place of bins, except for
+  /// Keeps references to the options and the chunks, which are null or used in place of bins, except for
   /// large triangles. `slack`: that voxels are grown by. Throws bad_argument if the grid is too fine.
-  GridVoxelizer(const StreamHeader& header, std::int64_t slack, const VoxelizeOptions& options, BackendPool& backends,
-                ChunkedSurface* chunks);
+  GridVoxelizer(const StreamHeader& header, std::int64_t slack, const VoxelizeOptions& options, ChunkedSurface* chunks);
 
   [[nodiscard]] std::uint64_t tiles() const { return std::uint64_t(tiles_.total()); }
   [[nodiscard]] BrickShelf& shelf() { return *shelf_; }
@@ -41,7 +40,6 @@ class GridVoxelizer {
   const int slab_axis_;
   const std::int64_t slack_;
   const VoxelizeOptions& options_;
-  BackendPool& backends_;
   ChunkedSurface* const chunks_;
   const TileGrid tiles_;
   const std::unique_ptr<BrickShelf> shelf_;

@@ -9,13 +9,11 @@
 
 namespace bp {
 
-TileFill::TileFill(FillMode mode, const TileGrid& tiles, BrickShelf& shelf, Scratch& store, BackendPool& backends,
-                   TileWorks& works)
+TileFill::TileFill(FillMode mode, const TileGrid& tiles, BrickShelf& shelf, Scratch& store, TileWorks& works)
     : mode_(mode),
       tiles_(tiles),
       shelf_(shelf),
       store_(store),
-      backends_(backends),
       works_(works),
       flood_(tiles.voxels, VoxelCoord{tiles.edge_vox, tiles.edge_vox, tiles.edge_vox}) {}
 
@@ -129,7 +127,7 @@ void TileFill::fill_column(std::int32_t tx, std::int32_t ty) {
       flooded = work->bits;
       flood_.fill_enclosed(box, flooded);
     }
-    BackendPool::Lease(backends_)->fill_winding(work->crossings, open.bits, numbers, work->bits);
+    fill_winding(work->crossings, box, open.bits, numbers, work->bits);
     for (std::int32_t z = box.min.z; flood && z < box.max.z; ++z) {
       for (std::size_t w = 0; w < open.bits.size(); ++w) {
         work->bits.row(box.min.y, z)[w] |= flooded.row(box.min.y, z)[w] & open.bits[w];

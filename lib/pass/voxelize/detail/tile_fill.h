@@ -6,12 +6,12 @@
 #include <unordered_set>
 
 #include "lib/core/pool.h"
-#include "lib/device/backend.h"
 #include "lib/grid/stream.h"
 #include "lib/grid/tile_grid.h"
 #include "lib/pass/pass_progress.h"
 #include "lib/store/scratch.h"
 #include "lib/volume/outside.h"
+#include "lib/voxel/winding.h"
 
 /// Fills the inside of the surface voxels of a grid of tiles, on their shelf.
 namespace bp {
@@ -22,7 +22,6 @@ struct TileWork {
   std::vector<Crossing> crossings;
 };
 using TileWorks = Pool<std::unique_ptr<TileWork>>;
-using BackendPool = Pool<Backend*>;
 
 /// Usage: call add_crossings() and add_surface() for each tile as it is voxelized, then resolve(); then for winding
 /// fill_columns(), else fill_flood() for each tile. Thread-safe, except for resolve().
@@ -30,8 +29,7 @@ class TileFill {
  public:
   /// Keeps references to all arguments but `tiles`. The tiles' surface voxels are on the shelf; crossings go to the
   /// store.
-  TileFill(FillMode mode, const TileGrid& tiles, BrickShelf& shelf, Scratch& store, BackendPool& backends,
-           TileWorks& works);
+  TileFill(FillMode mode, const TileGrid& tiles, BrickShelf& shelf, Scratch& store, TileWorks& works);
 
   /// For winding: adds some of the crossings of a tile. Thread-safe for different tiles.
   void add_crossings(std::uint64_t tile, std::span<const Crossing> crossings);
@@ -64,7 +62,6 @@ class TileFill {
   const TileGrid tiles_;
   BrickShelf& shelf_;
   Scratch& store_;
-  BackendPool& backends_;
   TileWorks& works_;
   OutsideFlood flood_;
   std::unordered_map<std::uint64_t, std::vector<Scratch::Handle>> crossings_;  // by tile

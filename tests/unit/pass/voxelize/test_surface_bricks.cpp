@@ -153,13 +153,12 @@ TEST_CASE("a scene whose bounds are told is read once, and has the same voxels",
   };
   const auto run = [&](TriangleSource& source) {
     test::MemorySink sink;
-    Backends backends = test::plain_backends(2);
     const auto open = [&](const StreamHeader& h, const VoxelizeCounts&) -> BrickSink& {
       sink.header = h;
       return sink;
     };
     Found found;
-    found.counts = voxelize_stream(source, open, backends, o);
+    found.counts = voxelize_stream(source, open, o);
     found.header = sink.header, found.bits = sink.bits();
     return found;
   };

@@ -59,7 +59,6 @@ Chunked run_chunked(const Triangles& scene, VoxelizeOptions o, ResultStore* resu
   o.context.results = results;
   test::MemorySource source(scene);
   test::MemorySink sink;
-  Backends none;
   Chunked r;
   r.counts = voxelize_stream(
       source,
@@ -67,7 +66,7 @@ Chunked run_chunked(const Triangles& scene, VoxelizeOptions o, ResultStore* resu
         r.header = sink.header = h;
         return sink;
       },
-      none, o);
+      o);
   r.bits = sink.bits();
   return r;
 }
@@ -312,11 +311,10 @@ TEST_CASE("a scene that changes between two readings leaves no chunk behind", "[
   o.voxel_size = [](const Bounds3d&) { return 0.75; };
   o.context.memory.bytes = 100000;
   o.context.results = &results;
-  Backends none;
   const auto open = [&](const StreamHeader& h, const VoxelizeCounts&) -> BrickSink& {
     sink.header = h;
     return sink;
   };
-  CHECK_THROWS_AS(voxelize_stream(source, open, none, o), Error);
+  CHECK_THROWS_AS(voxelize_stream(source, open, o), Error);
   CHECK(results.results.empty());
 }

@@ -29,11 +29,10 @@ VoxelizeOptions default_options() {
   return o;
 }
 
-Result run(const Triangles& scene, VoxelizeOptions o, double voxel, int backends = 2) {
+Result run(const Triangles& scene, VoxelizeOptions o, double voxel) {
   if (!o.voxel_size) o.voxel_size = [voxel](const Bounds3d&) { return voxel; };
   test::MemorySource source(scene);
   test::MemorySink sink;
-  Backends all = test::plain_backends(backends);
   Result r;
   r.counts = voxelize_stream(
       source,
@@ -41,7 +40,7 @@ Result run(const Triangles& scene, VoxelizeOptions o, double voxel, int backends
         sink.header = h;
         return sink;
       },
-      all, o);
+      o);
   r.header = sink.header;
   r.bits = sink.bits();
   r.rewinds = source.rewinds;
@@ -107,7 +106,7 @@ TEST_CASE("tile size, memory and threads change no voxel", "[quick][pass]") {
         o.context.memory.bytes = memory;
         const ThreadLimit limit(threads);
         CAPTURE(tile, memory, threads);
-        const Result r = run(scene, o, 0.8, threads);
+        const Result r = run(scene, o, 0.8);
         CHECK(r.bits == whole.bits);
         CHECK(r.header == whole.header);
         CHECK(r.rewinds == (memory < 30000 ? 1 : 0));
@@ -331,7 +330,6 @@ TEST_CASE("a source that changes between two readings is reported", "[quick][pas
   const auto [batches, height] = GENERATE(std::pair(4, 1.0), std::pair(5, 0.9));  // fewer; as many, but others
   Fickle source(batches, height);
   test::MemorySink sink;
-  Backends all = test::plain_backends(1);
   VoxelizeOptions o = default_options();
   o.context.memory.bytes = 1000;
   o.voxel_size = [](const Bounds3d&) { return 0.1; };
@@ -341,6 +339,6 @@ TEST_CASE("a source that changes between two readings is reported", "[quick][pas
                         sink.header = h;
                         return sink;
                       },
-                      all, o),
+                      o),
                   Error);
 }
