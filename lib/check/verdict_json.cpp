@@ -85,6 +85,14 @@ Json answers_of(const CheckReport& r) {
   return a;
 }
 
+Json recipe_json(const CheckReport& r) {
+  Json json = {{"voxel", r.recipe.frame.voxel},
+               {"scale", r.recipe.scale_world},
+               {"closed_gap", r.recipe.closed_gap(r.hidden_off)}};
+  if (r.recipe.body_world > 0) json["body"] = r.recipe.body_world;
+  return json;
+}
+
 Json json_of(const CheckReport& r, const std::string& proxy_name) {
   Json findings = Json::object();
   for (const FindingText& t : finding_texts())
@@ -117,10 +125,7 @@ Json json_of(const CheckReport& r, const std::string& proxy_name) {
   all["answers"] = answers_of(r);
   all["proxy"] = std::move(proxy);
   all["scene"] = scene_json(r);
-  if (r.asks_hidden)
-    all["hidden"] = {{"voxel", r.recipe.frame.voxel},
-                     {"scale", r.recipe.scale_world},
-                     {"closed_gap", r.recipe.closed_gap(r.hidden_off)}};
+  if (r.asks_hidden) all["hidden"] = recipe_json(r);
   all["findings"] = std::move(findings);
   all["measures"] = std::move(measures);
   return all;

@@ -9,6 +9,7 @@
 #include "lib/check/scene_words.h"
 #include "lib/check/verdict_words.h"
 #include "lib/geometry/signed_volume.h"
+#include "lib/volume/entered.h"
 
 namespace bp {
 
@@ -55,8 +56,12 @@ std::string row(const char* question, Answer answer, const std::string& why) {
 
 /// Returns the recipe that the proxy's file names, on which the answer depends.
 std::string recipe_text(const HidingRecipe& recipe) {
-  const std::string voxels = fmt::format("its file names voxels of {:.4g}", recipe.frame.voxel);
-  return recipe.scale_world > 0 ? voxels + fmt::format(" and a closing scale of {:.4g}", recipe.scale_world) : voxels;
+  std::string text = fmt::format("its file names voxels of {:.4g}", recipe.frame.voxel);
+  if (recipe.scale_world > 0) text += fmt::format(" and a closing scale of {:.4g}", recipe.scale_world);
+  if (recipe.body_world > 0)
+    text += fmt::format("; rooms count as outside if a body {:.4g} high and {:.4g} wide can enter", recipe.body_world,
+                        recipe.body_world * kBodyWidth);
+  return text;
 }
 
 /// Returns the rows on parts outside. Inner walls may lie in the hidden space: then it is no failure.

@@ -116,14 +116,18 @@ class Sweeper {
 }  // namespace
 
 void dilate(BitBox& voxels, std::int32_t reach) {
+  dilate(voxels, {reach, reach, reach});
+}
+
+void dilate(BitBox& voxels, VoxelCoord reach) {
   const VoxelBox& box = voxels.box();
   std::vector<std::uint64_t> line;
   for (std::int32_t z = box.min.z; z < box.max.z; ++z) {
     for (std::int32_t y = box.min.y; y < box.max.y; ++y)
-      dilate_row(voxels.row(y, z), voxels.words_per_row(), reach, line);
+      dilate_row(voxels.row(y, z), voxels.words_per_row(), reach.x, line);
   }
   for (const int axis : {1, 2}) {
-    for_each_step(reach, [&](std::int32_t step) {
+    for_each_step(reach[axis], [&](std::int32_t step) {
       const BitBox before = voxels;
       add_moved(voxels, before, axis, step);
     });

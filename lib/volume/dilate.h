@@ -6,6 +6,7 @@ namespace bp {
 /// Adds every voxel within `reach` of an occupied one along each axis, in the box and its whole words. Cost: for each
 /// axis log2(reach + 1) passes over the words, and a second box for a moment.
 void dilate(BitBox& voxels, std::int32_t reach);
+void dilate(BitBox& voxels, VoxelCoord reach);  ///< the same, with a reach for each axis
 
 /// Adds the voxels of `within` that share a face with an occupied one. Returns whether there were any. Both have the
 /// same box. Cost: one pass over the words, and a second box for a moment.

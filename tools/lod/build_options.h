@@ -47,7 +47,9 @@ struct BuildOptions {
   LodProfile profile = LodProfile::gltf;
   std::int32_t tile_vox = 512;              ///< edge of a tileset's cell, in voxels
   Symmetry symmetry = Symmetry::automatic;  ///< of a cage
-  double min_hidden = 0;                    ///< share of the scene's bounds that an occluder holds, or it fails
+  /// Height of a body to which an occluder leaves rooms open; 0: it follows from the rooms; empty: rooms are filled.
+  std::optional<Length> rooms;
+  double min_hidden = 0;  ///< share of the scene's bounds that an occluder holds, or it fails
   Length margin{kCageMargin, Length::Unit::percent};       ///< of a cage
   std::int64_t hulls = 0;                                  ///< most hulls of a collision mesh; 0: as HullLimits::hulls
   std::int64_t hull_corners = std::int64_t(kMostCorners);  ///< most corners of a hull

@@ -10,6 +10,7 @@
 #include "lib/check/counted.h"
 #include "lib/core/error.h"
 #include "lib/levels/footprints.h"
+#include "lib/volume/entered.h"
 #include "tools/lod/choices.h"
 #include "tools/lod/lod_outputs.h"
 #include "tools/notes/leak_words.h"
@@ -22,6 +23,9 @@ namespace {
 constexpr double kLittle = 5e-3;  // of the bounds' volume
 constexpr double kMuch = 0.3;     ///< of the bounds' volume: then no large rooms are missing
 constexpr double kHalf = 0.5;     ///< of the hidden volume
+// The share of hidden voxels that a note tells of if a body can enter them. It is 0.3 and more in houses, and less than
+// this in the inlets and wheels of machines (openfoam_motorBike, engine_2cylinder).
+constexpr double kMuchEntered = 0.1;
 
 double hidden_volume(const BuiltOccluder& built) {
   return double(built.hidden.voxels.count) * std::pow(built.scene.voxels.header.frame.voxel, 3);
@@ -33,7 +37,8 @@ double volume_of(const Bounds3d& b) {
 
 OccluderRecipe recipe_of(const BuildOptions& o, const BuiltOccluder& built) {
   const GridFrame& frame = built.scene.voxels.header.frame;
-  return {{frame, built.hidden.scale_world, o.closing.element}, true, built.ground, frame.up};
+  const double body = o.rooms ? built.rooms.body_world : 0;
+  return {{frame, built.hidden.scale_world, o.closing.element, body}, true, built.ground, frame.up};
 }
 
 OptionText option_text(const BuildOptions& o, const BuiltOccluder& built) {
@@ -57,6 +62,8 @@ Json json_of(const BuildOptions& o, const BuiltOccluder& built) {
           {"ground", built.ground},
           {"hidden", hidden_volume(built)},
           {"closed_gap", closed_gap(o, built)},
+          {"body", built.rooms.body_world},
+          {"entered", double(built.rooms.entrance.hidden) * voxel_volume},
           {"opening", built.made.opening_world},
           {"parts", counts.levels.front().measures.shells},
           {"parts_dropped", counts.dropped_parts}};
@@ -133,6 +140,28 @@ void require_hidden(Build& build, const BuiltOccluder& built, double volume) {
        100 * share, 100 * build.options.min_hidden, leak_clause(build, built.scene.voxels));
 }
 
+/// Returns a note about rooms that somebody can enter: what becomes of them, and where the entrance to filled ones is.
+std::string rooms_note(const BuildOptions& o, const BuiltOccluder& built) {
+  const auto& [body_world, entrance] = built.rooms;
+  const GridFrame& frame = built.scene.voxels.header.frame;
+  if (o.rooms && body_world == 0)
+    return "--rooms open leaves no room open: none is so high that voxels could show its doors; name a height";
+  const std::string body = fmt::format("a body {:.3g} high and {:.3g} wide", body_world, body_world * kBodyWidth);
+  if (o.rooms) return fmt::format("rooms that {} can enter are left open", body);
+  const double share = double(entrance.hidden) / double(built.hidden.voxels.count);
+  if (share < kMuchEntered) return "";
+  const VoxelBox& door = entrance.opening;
+  const int up = ground_of(frame).axis;
+  const VoxelCoord size = door.size(),
+                   middle{floor_div(door.min.x + door.max.x, 2), floor_div(door.min.y + door.max.y, 2),
+                          floor_div(door.min.z + door.max.z, 2)};
+  return fmt::format(
+      "{} can enter {:.2g} % of what is filled, by an opening {:.3g} wide and {:.3g} high at {}; --rooms "
+      "open leaves such rooms open",
+      body, 100 * share, std::max(size[(up + 1) % 3], size[(up + 2) % 3]) * frame.voxel, size[up] * frame.voxel,
+      place_text(middle_of(middle, frame), frame));
+}
+
 void note(Build& build, const BuiltOccluder& built, double volume) {
   const MadeOccluder& made = built.made;
   const double hidden = hidden_volume(built), share = hidden / volume_of(built.scene.voxels.header.bounds);
@@ -148,11 +177,12 @@ void note(Build& build, const BuiltOccluder& built, double volume) {
   if (build.options.closing.scale && built.hidden.scale_world > 0 && share < kMuch)
     build.note(filled_note(build, built));
   build.note(apart_note(built));
+  build.note(rooms_note(build.options, built));
   if (built.ground) build.note("the scene is open below: it is taken to stand on the ground, and eyes to be above it");
   if (built.hidden.scale_world > 0)
     build.note(fmt::format(
         "openings narrower than {:.4g} may count as closed, and then the rooms behind them are filled, as are "
-        "valleys as narrow; --scale 0 keeps free what one enters",
+        "valleys as narrow",
         closed_gap(build.options, built)));
   else if (!build.options.closing.scale)
     build.note(fmt::format("openings wider than {:.4g} stay open: closing them would hide little more",
@@ -162,34 +192,60 @@ void note(Build& build, const BuiltOccluder& built, double volume) {
                            made.faces_asked));
 }
 
+/// Returns what a scene hides, and what somebody enters there.
+HiddenScene hidden_of(Build& build, const VoxelizedScene& scene, OccluderRequest request, const char* pass,
+                      EnteredRooms& rooms) {
+  const std::optional<Length>& body = build.options.rooms;
+  const StreamHeader& header = scene.header;
+  std::optional<Entered> entered;
+  if (body)
+    entered = entered_by(header, *scene.solid, body->in_world(header.bounds.diagonal(), header.frame.voxel),
+                         request.hidden.context);
+  if (entered) {
+    std::uint64_t& memory = request.hidden.context.memory.bytes;
+    memory -= std::min(memory, std::uint64_t(entered->voxels.word_count()) * sizeof(std::uint64_t));
+    request.hidden.entered = &entered->voxels;
+  }
+  build.report.begin("close openings");
+  HiddenScene hidden = hidden_scene(header, *scene.solid, build.backends, request, pass);
+  if (!body && hidden.scale_world > 0 && hidden.voxels.count > 0) {
+    try {
+      entered = entered_by(header, *scene.solid, 0, request.hidden.context);
+      if (entered) rooms.entrance = entrance_of(entered->voxels, *hidden.voxels.voxels);
+    } catch (const NeedsMemory&) {  // there is a note less
+    }
+  }
+  rooms.body_world = entered ? entered->body_world : 0;
+  return hidden;
+}
+
 BuiltOccluder make(Build& build) {
   const BuildOptions& o = build.options;
   BuiltOccluder built;
   built.scene = read_scene(build, {});
   const StreamHeader& header = built.scene.voxels.header;
   const LevelRequest levels = request_of(o, header.bounds.diagonal(), header.frame.voxel);
-  OccluderRequest request{
-      levels.faces.empty() ? 0 : levels.faces.front(), levels.scale_world, {0, o.closing.element, build.context()}};
+  OccluderRequest request{levels.faces.empty() ? 0 : levels.faces.front(),
+                          levels.scale_world,
+                          {0, o.closing.element, nullptr, build.context()}};
   naming_limit([] { check_outputs(); },
                [&] { return occluder_limit_before(header, *built.scene.voxels.solid, request); });
-  const auto hidden_of = [&](const VoxelizedScene& scene, const char* pass) {
-    build.report.begin("close openings");
-    return hidden_scene(scene.header, *scene.solid, build.backends, request, pass);
-  };
-  built.hidden = hidden_of(built.scene.voxels, "closing openings");
+  built.hidden = hidden_of(build, built.scene.voxels, request, "closing openings", built.rooms);
   const std::uint64_t without = built.hidden.voxels.count;
   if (can_read_again(o) && may_gain_on_ground(header, without)) {
     request.more_than_voxels = kGroundGains * double(without);
-    HiddenScene grounded =
-        hidden_of(read_scene(build, {0, nullptr, true, false}).voxels, "closing openings above the ground");
+    EnteredRooms rooms;
+    HiddenScene grounded = hidden_of(build, read_scene(build, {0, nullptr, true, false}).voxels, request,
+                                     "closing openings above the ground", rooms);
     built.ground = gains_on_ground(grounded.voxels.count, without);
-    if (built.ground) built.hidden = std::move(grounded);
+    if (built.ground) built.hidden = std::move(grounded), built.rooms = rooms;
   }
   if (built.hidden.voxels.count == 0)
     fail(ErrorCode::bad_input,
          "the scene hides nothing: it is open, also at a scale of {:.4g}, or thinner than its voxels of {:.4g}{}; try "
-         "another --scale, or smaller voxels",
-         built.hidden.scale_world, header.frame.voxel, leak_clause(build, built.scene.voxels));
+         "another --scale, or smaller voxels{}",
+         built.hidden.scale_world, header.frame.voxel, leak_clause(build, built.scene.voxels),
+         o.rooms ? ", or --rooms filled" : "");
   build.report.begin("mesh");
   naming_limit([] { check_outputs(); }, [&] { return occluder_limit(header, built.hidden, request); });
   built.made = make_occluder(header, built.hidden, build.backends, request);

@@ -19,6 +19,11 @@ std::string value_of(const std::string& line, const std::string& key) {
   return line.substr(begin, line.find(' ', begin) - begin);
 }
 
+/// Returns the number of "key=value" among words; 0 if there is none.
+double number_or_0(const std::string& line, const std::string& key) {
+  return line.find(" " + key + "=") == std::string::npos ? 0 : parse_number(value_of(line, key));
+}
+
 OccluderRecipe parsed(const std::string& line) {
   constexpr std::int64_t kMost = std::int64_t(1) << 50;
   OccluderRecipe whole;
@@ -26,6 +31,7 @@ OccluderRecipe parsed(const std::string& line) {
   recipe.frame.voxel = parse_number(value_of(line, "voxel"));
   recipe.scale_world = parse_number(value_of(line, "openings"));
   recipe.element = value_of(line, "element") == "ball" ? StructuringElement::ball : StructuringElement::cube;
+  recipe.body_world = number_or_0(line, "body");
   std::size_t i = 0;
   for_each_item(value_of(line, "grid"), [&](std::string_view number) {
     if (i == 3) fail(ErrorCode::bad_argument, "a grid of more than three numbers");
@@ -36,15 +42,16 @@ OccluderRecipe parsed(const std::string& line) {
   whole.ground = value_of(line, "ground") == "yes";
   const std::optional<UpAxis> up = up_axis_named(value_of(line, "up"));
   if (!up) fail(ErrorCode::bad_argument, "no axis that points up");
-  whole.up = *up;
+  whole.up = recipe.frame.up = *up;
   return whole;
 }
 
 }  // namespace
 
 void add_recipe(const OccluderRecipe& recipe, OptionText& text) {
-  const auto& [frame, scale_world, element] = recipe.hiding;
+  const auto& [frame, scale_world, element, body_world] = recipe.hiding;
   text.add("openings", scale_world).add("element", name_of(element));
+  if (body_world > 0) text.add("body", body_world);
   text.add("walls", recipe.opaque_only ? "opaque" : "all").add("ground", recipe.ground).add("up", name_of(recipe.up));
   text.add("voxel", frame.voxel);
   text.add("grid", fmt::format("{},{},{}", frame.origin[0], frame.origin[1], frame.origin[2]));

@@ -13,6 +13,7 @@
 #include "lib/exact/predicates.h"
 #include "lib/grid/brick_voxels.h"
 #include "lib/volume/dilate.h"
+#include "lib/volume/entered.h"
 #include "lib/voxel/voxelize.h"
 
 namespace bp {
@@ -122,6 +123,12 @@ BitBox hidden_voxels(const BitBox& touched, const HidingRecipe& recipe) {
   BitBox closing = closing_of(touched, recipe);
   BitBox reached(touched.box());
   reached.set(touched.box().min);
+  std::optional<BitBox> entered;  // the set P
+  if (recipe.body_world > 0) {
+    entered = entered_voxels(touched, body_reach(recipe.frame, recipe.body_world));
+    combine(reached, *entered, either);
+    combine(reached, closing, less);
+  }
   grow_within(inverse(closing), reached);  // the set O
   BitBox rooms = behind_openings(closing, touched, reached, recipe);
   BitBox open = std::move(closing);
@@ -129,6 +136,9 @@ BitBox hidden_voxels(const BitBox& touched, const HidingRecipe& recipe) {
   combine(open, touched, less);
   combine(open, rooms, less);
   rooms = {};
+  for (BitBox* const set : {&open, &reached}) {
+    if (entered) combine(*set, *entered, either);
+  }
   grow_within(open, reached);  // the set O'
   BitBox seen = reached;
   for (int layer = 0; layer < 2; ++layer) {
@@ -137,6 +147,12 @@ BitBox hidden_voxels(const BitBox& touched, const HidingRecipe& recipe) {
   }
   combine(seen, reached, either);
   return inverse(std::move(seen));
+}
+
+/// Returns whether the voxel, the scale and the body of a recipe are such that its sets can be made.
+bool is_in_range(const HidingRecipe& r) {
+  const auto may_be = [&](double length) { return length >= 0 && length <= kMostScaleVox * r.frame.voxel; };
+  return r.frame.voxel > 0 && may_be(r.scale_world) && may_be(r.body_world);
 }
 
 class HiddenCheck {
@@ -174,8 +190,7 @@ class HiddenCheck {
 
   bool find_corners() {
     const GridFrame& frame = recipe_.frame;
-    if (!(frame.voxel > 0) || !(recipe_.scale_world >= 0) || recipe_.scale_world > kMostScaleVox * frame.voxel)
-      return undecided("the voxel or the scale that the file names is out of range");
+    if (!is_in_range(recipe_)) return undecided("the voxel, scale or body that the file names is out of range");
     if (round_corners(kMostWideVoxels)) {
       const bool exact = std::equal(corners_.begin(), corners_.end(), mesh_.points.begin(),
                                     [&](const LatticeCoord& l, const Vec3d& p) { return frame.world(l) == p; });
@@ -215,8 +230,8 @@ class HiddenCheck {
     report_.off = walls_.counts().rounding.of(bounds);
     if (fixed_slack(recipe_.frame, report_.off) > kMostFixedSlack)
       return undecided(fmt::format("coordinates are read to within {:.2g}, too much for these voxels", report_.off));
-    const double reach = recipe_.scale_world / recipe_.frame.voxel;
-    double bytes = double(kSetsAtOnce) / 8;
+    const double reach = std::max(recipe_.scale_world, recipe_.body_world / 2) / recipe_.frame.voxel;
+    double bytes = double(kSetsAtOnce + (recipe_.body_world > 0)) / 8;
     for (const Vec3d& p : {bounds.min, bounds.max}) {
       for (const double x : recipe_.frame.to_voxels(p))
         if (!(std::abs(x) < kMostWideVoxels))

@@ -1,16 +1,33 @@
 #include "lib/levels/detail/level_voxels.h"
 
+#include <cmath>
 #include <utility>
+#include <vector>
 
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/pass/close/close_pass.h"
+#include "lib/pass/hide/possible_rooms.h"
 #include "lib/pass/measure/shape_rules.h"
 #include "lib/surface/repair.h"
 #include "lib/volume/reduce.h"
 #include "lib/volume/topology.h"
 
 namespace bp {
+
+namespace {
+
+void add_voxels(const BrickShelf& from, BrickShelf& to) {
+  for (const BrickCoord at : from.coords()) {
+    BitBox added(voxels_of({at, {at.x + 1, at.y + 1, at.z + 1}})), all(added.box());
+    load_voxels(from, added);
+    load_voxels(to, all);
+    for (std::int64_t i = 0; i < all.word_count(); ++i) all.data()[i] |= added.data()[i];
+    store_voxels(all, to);
+  }
+}
+
+}  // namespace
 
 LevelVoxels::LevelVoxels(const StreamHeader& header, std::unique_ptr<BrickShelf> solid, Backends& backends,
                          const LodOptions& options)
@@ -39,6 +56,30 @@ ScaleField LevelVoxels::field_at(const Solid& solid, double scale, const PassCon
   return measured(plan, solid.header, *solid.shelf, {0, context}).field;
 }
 
+std::unique_ptr<BrickShelf> LevelVoxels::with_rooms(const Solid& solid, const ScaleField& field,
+                                                    const PassContext& context) {
+  std::vector<double> scales;
+  for (double scale = field.base; scale >= kLeastScaleVox * solid.header.frame.voxel; scale /= std::sqrt(2.0))
+    scales.insert(scales.begin(), scale);
+  HiddenOptions options;
+  options.context = context;
+  const std::vector<bool> possible = possible_rooms(solid.header, *solid.shelf, scales, options);
+  std::unique_ptr<BrickShelf> all;
+  for (std::size_t i = 0; i < scales.size(); ++i) {
+    if (!possible[i]) continue;
+    const auto rooms = context.make_shelf();
+    CloseOptions close;
+    close.context = context;
+    close.filled = rooms.get();
+    (void)close_shelf(solid.header, *solid.shelf, backends_, field.scaled(scales[i] / field.base),
+                      {StructuringElement::cube}, close);
+    if (rooms->coords().empty()) continue;
+    if (!all) add_voxels(*solid.shelf, *(all = context.make_shelf()));
+    add_voxels(*rooms, *all);
+  }
+  return all;
+}
+
 LevelVoxels::Closing LevelVoxels::closed_at(const Solid& solid, double scale, const PassContext& context) {
   CloseOptions close;
   close.context = context;
@@ -48,7 +89,9 @@ LevelVoxels::Closing LevelVoxels::closed_at(const Solid& solid, double scale, co
   {
     const std::lock_guard lock(closing_);
     isolated([&] {
-      closing.voxels = close_shelf(solid.header, *solid.shelf, backends_, closed.scale, options_.closing, close);
+      const auto filled = options_.mode == MeshMode::fit ? with_rooms(solid, closed.scale, context) : nullptr;
+      closing.voxels =
+          close_shelf(solid.header, filled ? *filled : *solid.shelf, backends_, closed.scale, options_.closing, close);
     });
   }
   closed.bricks = closing_bricks(solid.header, closed.scale);

@@ -40,6 +40,11 @@ class LevelVoxels {
   [[nodiscard]] Closing closed_at(const Solid& solid, double scale_world, const PassContext& context);
 
  private:
+  /// Returns the solid with the rooms that cubes of this scale or of smaller ones shut off; null if there are none. A
+  /// ball leaves a hole open in a wall that is thinner than the hole is wide, and a fit would follow both sides of the
+  /// wall. A cube that is too large fills a room without shutting its hole, so smaller ones are tried, too.
+  [[nodiscard]] std::unique_ptr<BrickShelf> with_rooms(const Solid& solid, const ScaleField& field,
+                                                       const PassContext& context);
   [[nodiscard]] ScaleField field_at(const Solid& solid, double scale_world, const PassContext& context) const;
 
   Backends& backends_;

@@ -12,6 +12,7 @@
 #include "lib/core/parallel.h"
 #include "lib/grid/brick_voxels.h"
 #include "lib/grid/shelf_stream.h"
+#include "lib/pass/hide/entered_rooms.h"
 #include "lib/pass/mesh/complement.h"
 #include "lib/volume/boundary_runs.h"
 #include "lib/volume/dilate.h"
@@ -311,6 +312,7 @@ ClosedVoxels closed_voxels(const StreamHeader& header, BrickShelf& enclosed, Bac
   out.closed = close_shelf(header, enclosed, backends, uniform(o.scale_world), {o.element}, close_options(o, true));
   out.filled = o.context.make_shelf();
   out.has_rooms = fill(header, *out.closed, backends, o, *out.filled) > 0;
+  if (o.entered != nullptr && out.has_rooms) out.has_rooms = leave_open(*o.entered, *out.closed, *out.filled);
   out.count = count_voxels(*out.filled);
   return out;
 }
@@ -319,6 +321,7 @@ Shelf unreached_voxels(const StreamHeader& header, const BrickShelf& enclosed, C
                        const HiddenOptions& o) {
   const Shelf both = o.context.make_shelf();
   Walls(header, enclosed, *closed.closed, *closed.filled, o).put(*both);
+  if (o.entered != nullptr) take_out(*o.entered, *both);
   closed = {};
   Shelf out = o.context.make_shelf();
   fill(header, *both, backends, o, *out);

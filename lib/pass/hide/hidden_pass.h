@@ -2,15 +2,17 @@
 #include "lib/pass/close/close_pass.h"
 
 /// The voxels that a scene hides from every eye outside, once openings narrower than twice a scale are closed: the
-/// ground of occluders. With G the voxels that the scene touches, and E their closing:
-///   O       reached by the outside through faces of voxels not in E
+/// ground of occluders. With G the voxels that the scene touches, E their closing, and P the voxels that somebody
+/// enters:
+///   O       reached by the outside, or from P, through faces of voxels not in E
 ///   C       voxels neither in E nor in O: rooms behind closed openings
 ///   added   voxels of E that are not in G
 ///   gaps    added voxels in a run along an axis, of at most 2 sqrt(2) S added voxels, between two voxels of G:
 ///           openings, alleys, niches
 ///   R       added voxels that lie in no gap and are nearer to C than to O, along paths over faces of such voxels, at
 ///           most 2 ceil(S) long: what the closing adds along the edges of rooms
-///   O'      reached by the outside through faces of voxels not in G, C or R. So it has everything that the closing
+///   O'      P, and what the outside or P reach through faces of voxels not in G, C or R. So it has everything that the
+///   closing
 ///           adds in corners, niches, alleys and openings; but no room behind them
 ///   T       voxels of G next to O', and voxels of G next to these; over faces, edges and corners. Each point of the
 ///           scene that is seen from O' lies in T alone
@@ -22,7 +24,8 @@ namespace bp {
 struct HiddenOptions {
   double scale_world = 0;  ///< scene units; below a voxel nothing is closed
   StructuringElement element = StructuringElement::cube;
-  PassContext context;  ///< as in CloseOptions
+  const BitBox* entered = nullptr;  ///< the set P (entered_rooms.h); null: none
+  PassContext context;              ///< as in CloseOptions
 };
 
 struct HiddenVoxels {
@@ -40,8 +43,8 @@ struct ClosedVoxels {
   std::unique_ptr<BrickShelf> closed;  ///< E, with the voxels that G encloses
   std::unique_ptr<BrickShelf> filled;  ///< the same, and C
   bool has_rooms = false;              ///< C is not empty
-  /// The number of filled voxels. No more are hidden at this scale, nor at a smaller one: closings grow with the scale,
-  /// up to a layer of voxels.
+  /// The number of filled voxels, without rooms that are entered. No more are hidden at this scale, nor at a smaller
+  /// one: closings grow with the scale, up to a layer of voxels.
   std::uint64_t count = 0;
 };
 /// Makes the closing; below a voxel it is left out, and only counted. `enclosed`: enclosed_voxels().

@@ -26,7 +26,7 @@ IndexedMesh room() {
 
 /// Checks a proxy in the room, or with `scene` elsewhere.
 CheckReport hidden_in(const IndexedMesh& scene, const IndexedMesh& proxy, double scale,
-                      std::uint64_t memory_bytes = 1 << 28) {
+                      std::uint64_t memory_bytes = 1 << 28, double body = 0) {
   VectorSource source(triangles_of(scene)), walls(triangles_of(scene));
   CheckOptions options;
   options.inside = true;
@@ -34,6 +34,8 @@ CheckReport hidden_in(const IndexedMesh& scene, const IndexedMesh& proxy, double
   HidingRecipe recipe;
   recipe.frame.origin = {-8, -8, -8};
   recipe.scale_world = scale;
+  recipe.body_world = body;
+  recipe.frame.up = UpAxis::z;
   options.hidden = HidingQuestion{recipe, &walls};
   return check_proxy(proxy, &source, options);
 }
@@ -49,6 +51,16 @@ TEST_CASE("a proxy in a room is hidden once its door is closed", "[quick][check]
   const CheckReport without = hidden_in(room(), proxy, 0);
   CHECK(without.answer() == Answer::refuted);
   CHECK(without.exposed.count > 0);
+}
+
+TEST_CASE("a proxy in a room that a body enters is refuted", "[quick][check][occluder]") {
+  const IndexedMesh proxy = box({4, 4, 4}, {28, 20, 20});
+  const std::uint64_t memory = 1 << 28;
+  CHECK(hidden_in(room(), proxy, 4.0625, memory, 9).answer() == Answer::refuted);
+  CHECK(hidden_in(room(), proxy, 4.0625, memory, 14).answer() == Answer::proven);  // the door is less high
+  CHECK(hidden_in(room(), proxy, 4.0625, memory, -1).answer() == Answer::undecided);
+  const std::string text = verdict_text(hidden_in(room(), proxy, 4.0625, memory, 14), "p.obj");
+  CHECK(text.find("rooms count as outside if a body 14 high and 4.667 wide can enter") != std::string::npos);
 }
 
 TEST_CASE("inner walls may lie in what is hidden", "[quick][check][occluder]") {

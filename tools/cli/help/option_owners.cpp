@@ -70,6 +70,7 @@ constexpr OptionOfTools kOptionsOfTools[] = {
     {"--quiet", "bpvox, bpscale, bpclose, bpmesh, bpcheck, bpdeform, bplod and bpview"},
     {"--report", "bpvox, bpscale, bpclose, bpmesh, bpcheck, bpdeform and bplod"},
     {"--resolution", "bpvox, bplod, bpinfo and bpview"},
+    {"--rooms", "bplod"},
     {"--rules", "bpview"},
     {"--scale", "bpclose and bplod"},
     {"--show", "bpview"},

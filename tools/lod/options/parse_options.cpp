@@ -55,6 +55,14 @@ Symmetry parse_symmetry(const std::string& text) {
                      "auto, x, y, z or off");
 }
 
+std::optional<Length> parse_rooms(const std::string& text) {
+  if (text == "filled") return {};
+  if (text == "open") return Length{};
+  const Length height = parse_length(text);
+  if (height.value == 0) fail(ErrorCode::bad_argument, "{}: must be open, filled or the height of a person", text);
+  return height;
+}
+
 HullFiles parse_hull_files(const std::string& text) {
   return parse_named(text, {HullFiles::obj, HullFiles::stl}, "obj or stl");
 }
@@ -110,7 +118,7 @@ void check_profile(const Args& args, const BuildOptions& o) {
   needs({"--tile", "--tiles", "--cache", "--leaves", "--tile-compression", "--place", "--crs"}, LodProfile::tiles);
   needs({"--hulls", "--hull-corners", "--hull-files"}, LodProfile::collision);
   needs({"--margin", "--symmetry"}, LodProfile::cage);
-  needs({"--min-hidden"}, LodProfile::occluder);
+  needs({"--min-hidden", "--rooms"}, LodProfile::occluder);
   if (o.is_tileset() && args.given("--origin") && !(o.place.place && o.proxy.origin.kind == OriginOption::Kind::point))
     fail(ErrorCode::bad_argument,
          "--origin: a tileset holds its place in double, in the transforms of its tiles; leave it out, or name with "
@@ -206,6 +214,9 @@ void declare_profile(Args& args, BuildOptions& o) {
   args.option(
       "--min-hidden", "SHARE", [&o](const std::string& text) { o.min_hidden = parse_share(text); },
       "occluder: fail if it holds less of the scene's bounds, as 5%");
+  args.option(
+      "--rooms", "filled|open|HEIGHT", [&o](const std::string& text) { o.rooms = parse_rooms(text); },
+      "occluder: fill rooms, or leave those open that a person so high can enter (default: filled)");
   args.option("--margin", "LENGTH", o.margin, "cage: least distance from the scene");
   args.option(
       "--appearance",
@@ -335,6 +346,9 @@ Json options_json(const BuildOptions& o) {
           {"symmetry", o.is_cage() ? Json(name_of(o.symmetry)) : Json(nullptr)},
           {"margin", o.is_cage() ? Json(o.margin.text()) : Json(nullptr)},
           {"min_hidden", o.min_hidden > 0 ? Json(o.min_hidden) : Json(nullptr)},
+          {"rooms", !o.rooms             ? "filled"
+                    : o.rooms->value > 0 ? o.rooms->text()
+                                         : "open"},
           {"hulls", o.hulls > 0 ? Json(o.hulls) : Json(nullptr)},
           {"hull_corners", o.hull_corners},
           {"hull_files", o.hull_files == HullFiles::none ? Json(nullptr) : Json(name_of(o.hull_files))},

@@ -4,8 +4,11 @@
 
 #include "lib/core/error.h"
 #include "lib/device/cpu/cpu_backend.h"
+#include "lib/grid/brick_voxels.h"
+#include "lib/pass/hide/entered_rooms.h"
 #include "lib/pass/hide/hidden_pass.h"
 #include "lib/pass/hide/possible_rooms.h"
+#include "lib/volume/entered.h"
 #include "tests/catch.h"
 #include "tests/reference/closing.h"
 #include "tests/reference/flood.h"
@@ -43,8 +46,10 @@ struct Scene {
   }
 };
 
-Made made(const Solid& touched, double scale, StructuringElement element, std::int32_t threads = 2) {
+Made made(const Solid& touched, double scale, StructuringElement element, std::int32_t threads = 2,
+          const BitBox* entered = nullptr) {
   Scene scene(touched, scale, element, threads);
+  scene.options.entered = entered;
   const HiddenVoxels hidden = hidden_voxels(scene.header, scene.shelf, scene.backends, scene.options);
   Made out{BitBox(voxels_of(bricks_of(kBox))), hidden.count};
   load_voxels(*hidden.voxels, out.bits);
@@ -86,11 +91,30 @@ BitBox passed_closing_of(const Solid& touched, double scale, StructuringElement 
   return e;
 }
 
+constexpr VoxelCoord kSides[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+
+/// Takes the rooms that hold an entered voxel out of `filled`, which has them and the closing `e`.
+void leave_open_by_walks(const BitBox& entered, const BitBox& e, BitBox& filled) {
+  std::vector<VoxelCoord> left;
+  const auto add = [&](VoxelCoord p) {
+    if (!filled.test(p) || e.test(p)) return;
+    filled.clear(p);
+    left.push_back(p);
+  };
+  for_each_voxel(entered, add);
+  while (!left.empty()) {
+    const VoxelCoord p = left.back();
+    left.pop_back();
+    for (const VoxelCoord d : kSides) add(p + d);
+  }
+}
+
 /// The definition, voxel by voxel. `e`: the closing.
-BitBox defined(const Solid& touched, const BitBox& e, double scale) {
+BitBox defined(const Solid& touched, const BitBox& e, double scale, const BitBox* entered = nullptr) {
   const VoxelBox wide = kWide;
   const BitBox g = wide_bits_of(touched);
-  const BitBox filled = reference::fill_enclosed(e, wide);
+  BitBox filled = reference::fill_enclosed(e, wide);
+  if (entered != nullptr) leave_open_by_walks(*entered, e, filled);
   BitBox walls = g, seen(wide), seen_more(wide), hidden(voxels_of(bricks_of(kBox)));
   for (std::int64_t i = 0; i < walls.word_count(); ++i) walls.data()[i] |= filled.data()[i] & ~e.data()[i];
   const auto is_added = [&](VoxelCoord p) { return e.test(p) && !g.test(p); };
@@ -112,7 +136,7 @@ BitBox defined(const Solid& touched, const BitBox& e, double scale) {
   const auto add_neighbours = [&](std::vector<VoxelCoord>& front, bool is_room) {
     std::vector<VoxelCoord> next;
     for (const VoxelCoord p : front)
-      for (const VoxelCoord d : {VoxelCoord{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}) {
+      for (const VoxelCoord d : kSides) {
         if (is_added(p + d) && !in_gap(p + d) && shared.emplace(p + d, is_room).second) next.push_back(p + d);
       }
     front = std::move(next);
@@ -126,7 +150,7 @@ BitBox defined(const Solid& touched, const BitBox& e, double scale) {
     add_neighbours(rooms, true);
   }
   for (const auto& [p, is_room] : shared)
-    if (is_room) walls.set(p);
+    if (is_room && (entered == nullptr || !entered->test(p))) walls.set(p);
   const BitBox unreached = reference::fill_enclosed(walls, wide);
   const auto each = [&](const auto& f) {
     for (VoxelCoord p = wide.min; p.z < wide.max.z; ++p.z)
@@ -190,6 +214,34 @@ TEST_CASE("hidden voxels are those of the definition", "[quick][pass][occluder]"
   CHECK(got.bits == defined(touched, closing_of(touched, scale, element), scale));
   CHECK(got.count == got.bits.count());
   CHECK(got.bits == made(touched, scale, element, 1).bits);
+}
+
+TEST_CASE("hidden voxels are those of the definition where a body enters", "[quick][pass][occluder]") {
+  const auto element = GENERATE(StructuringElement::ball, StructuringElement::cube);
+  const double scale = GENERATE(0.0, 3.5, 4.5);
+  const auto reach = GENERATE(VoxelCoord{1, 1, 3}, VoxelCoord{1, 1, 5}, VoxelCoord{2, 2, 6});
+  const int seed = GENERATE(0, 1, 2);
+  const std::vector<VoxelBox> plates = random_plates(unsigned(seed) * 7 + 1, seed * 5, {50, 28, 28}, {12, 8, 8}, 2);
+  const Solid touched = [&](VoxelCoord p) {  // the room, another one behind it, a closed one
+    return room(p) || room({p.x - 26, p.y, p.z}) ||
+           (p.x >= 14 && p.x < 16 && p.y >= 8 && p.y < 32 && p.z >= 8 && p.z < 32) ||
+           std::any_of(plates.begin(), plates.end(), [&](const VoxelBox& b) { return b.contains(p); });
+  };
+  const BitBox entered = entered_voxels(wide_bits_of(touched), reach);
+  CAPTURE(scale, seed, reach.z);
+  const Made got = made(touched, scale, element, 2, &entered);
+  CHECK(got.bits == defined(touched, passed_closing_of(touched, scale, element), scale, &entered));
+  CHECK(got.count == got.bits.count());
+  CHECK(got.bits == made(touched, scale, element, 1, &entered).bits);
+  for_each_voxel(got.bits, [&](VoxelCoord p) { REQUIRE_FALSE(entered.test(p)); });
+}
+
+TEST_CASE("the usual height of rooms is that of most of their volume", "[quick][pass][occluder]") {
+  const auto height = [](const Solid& touched, int up = 2) { return usual_height(bits_of(kBox, touched), up); };
+  CHECK(height(room) == 18);
+  CHECK(height(room, 0) == 26);
+  CHECK(height([](VoxelCoord p) { return p.z == 5; }) == 0);
+  CHECK(height([](VoxelCoord p) { return p.z == 5 || p.z == 8 || (p.z == 15 && p.x < 10); }) == 2);
 }
 
 TEST_CASE("hollows that nothing opens change no room that a closing makes beside them", "[quick][pass][occluder]") {
