@@ -83,9 +83,8 @@ LodTarget level_target(const LevelRequest& r, std::size_t i, std::size_t since, 
 }
 
 bool clearly_fewer(std::uint64_t faces, std::uint64_t asked) {
-  constexpr double kClearly = 0.95;
   // A collapse removes two faces at a time, so merging may end one face below an odd number.
-  return faces + 2 <= asked && double(faces) < kClearly * double(asked);
+  return faces + 2 <= asked && double(faces) < kClearlyLess * double(asked);
 }
 
 }  // namespace bp

@@ -9,13 +9,13 @@
 #include "lib/hulls/convex_budget.h"
 #include "lib/mesh/box_group.h"
 #include "lib/mesh/lattice_geometry.h"
+#include "lib/simplify/shape_limits.h"
 
 namespace bp {
 
 namespace {
 
-constexpr double kClearly = 0.97;        // share of the proxy's volume in the skin
-constexpr double kNearer = 0.95;         // share of the length of the proxy's box: a shorter box has no spikes
+constexpr double kLessInSkin = 0.97;     // share of the proxy's volume in the skin
 constexpr std::size_t kMostFaces = 512;  // of a hull; a hull of more faces is round, and a proxy is as good there
 
 struct Rating {
@@ -120,10 +120,10 @@ ConvexHull box_around(const ConvexHull& hull) {
 }
 
 /// Returns whether one of two meshes is better; both have few enough faces. It has clearly less volume in the skin, and
-/// also less volume or no spikes; or it has fewer faces and less of both volumes.
+/// also less volume or, with a clearly shorter box, no spikes; or it has fewer faces and less of both volumes.
 bool is_better(const Rating& one, const Rating& other) {
-  const bool less = one.volume < other.volume, nearer = one.diagonal < kNearer * other.diagonal;
-  if (one.in_skin < kClearly * other.in_skin && (less || nearer)) return true;
+  const bool less = one.volume < other.volume, nearer = one.diagonal < kClearlyLess * other.diagonal;
+  if (one.in_skin < kLessInSkin * other.in_skin && (less || nearer)) return true;
   return less && one.faces < other.faces && one.in_skin < other.in_skin;
 }
 
