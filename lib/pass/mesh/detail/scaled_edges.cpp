@@ -18,8 +18,7 @@ namespace bp {
 
 namespace {
 
-/// Answers like ScaleField::reaches_along(), but keeps bounds of S for cells of space, instead of finding them for each
-/// line. Both evaluate S at the same points of the line; here some points are skipped since a bound decides.
+/// Finds whether S is large enough along lines. Bounds of S are kept for cells of space.
 class ScaleLines {
  public:
   ScaleLines(const ScaleField& field, double voxel, ScaledEdgeWork* work) : field_(field), voxel_(voxel), work_(work) {}
@@ -27,8 +26,17 @@ class ScaleLines {
   /// Returns whether S is at least `scale` along the line. S is evaluated at points at most a voxel apart, where no
   /// bound decides.
   [[nodiscard]] bool reach(const Vec3d& a, const Vec3d& b, double scale) {
-    if (field_.rules.size() < kFewRules) return field_.reaches_along(a, b, scale, voxel_);
-    return reach_between(a, b, scale);
+    const Vec3d middle = 0.5 * (a + b);
+    const double line = length(a - b);
+    const Part part = part_of(cell_of(middle, line));
+    if (part->range.least >= scale) return true;
+    if (part->range.most < scale) return false;
+    if (line > kShortVox * voxel_)
+      return value_at(*part, middle) >= scale && reach(a, middle, scale) && reach(middle, b, scale);
+    const Point from{a, value_at(*part, a)};
+    if (from.s < scale) return false;
+    const Point to{b, value_at(*part, b)};
+    return to.s >= scale && reach_within(*part, from, to, scale);
   }
 
  private:
@@ -59,7 +67,7 @@ class ScaleLines {
     std::mutex mutex;
     std::unordered_map<Cell, Part, CellHash> parts;
   };
-  static constexpr std::size_t kFewRules = 8, kShards = 32, kMostCells = 1024;  // cells kept in a shard, at most
+  static constexpr std::size_t kShards = 32, kMostCells = 1024;  // cells kept in a shard, at most
   static constexpr double kShortVox = 8;  // lines of at most so many voxels are followed within one part
   static constexpr int kCoarse = 6;       // cells of this level or above evaluate all rules
   // Radius of the part in edges: it holds a line as long as two edges whose middle lies in the cell.
@@ -69,20 +77,6 @@ class ScaleLines {
   static bool is_too_near_to_fall(const Point& a, const Point& b, double line, double slope, double scale) {
     constexpr double kRounding = 1e-9;  // relative, as that of ranges
     return a.s + b.s - slope * line >= 2 * scale + kRounding * (a.s + b.s + slope * line);
-  }
-
-  bool reach_between(const Vec3d& a, const Vec3d& b, double scale) {
-    const Vec3d middle = 0.5 * (a + b);
-    const double line = length(a - b);
-    const Part part = part_of(cell_of(middle, line));
-    if (part->range.least >= scale) return true;
-    if (part->range.most < scale) return false;
-    if (line > kShortVox * voxel_)
-      return value_at(*part, middle) >= scale && reach_between(a, middle, scale) && reach_between(middle, b, scale);
-    const Point from{a, value_at(*part, a)};
-    if (from.s < scale) return false;
-    const Point to{b, value_at(*part, b)};
-    return to.s >= scale && reach_within(*part, from, to, scale);
   }
 
   /// Returns whether S reaches the scale between two points that do, in the ball of the part.
