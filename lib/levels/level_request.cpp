@@ -7,8 +7,6 @@ namespace bp {
 
 namespace {
 
-constexpr std::uint64_t kDefaultLevels = 4;
-
 std::size_t list_size(const LevelRequest& r) {
   return std::max({r.faces.size(), r.shares.size(), r.errors_world.size()});
 }
