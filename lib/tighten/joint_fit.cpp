@@ -20,9 +20,8 @@ namespace {
 constexpr double kDeepest = 2;  // lattice units: a point that is so much above its face lies under another one
 constexpr double kRim = 8;      // lattice units: a point so near to the rim of its face lies under the neighbours, too
 constexpr double kLongest = 2;  // times the unhindered step: the largest shift that forces may cause
-constexpr int kRounds = 8;      // over all rows
-constexpr int kRoundsOn = 6;    // the same if it begins with the forces of an earlier fit
-constexpr int kPressingRounds = 8;    // after each round, over the rows with a force
+constexpr int kRounds = 8;      // over all rows; and after each of these, over the rows with a force
+constexpr int kRoundsOn = 6;    // over all rows, if it begins with the forces of an earlier fit
 constexpr double kLeastGive = 1e-30;  // so that its inverse is a float
 
 FourFloats lanes_of(const Vec3d& v, double fourth) {
@@ -127,7 +126,7 @@ void JointFit::relax(Block& block) {
     relax(block.rows[i]);
     if (block.rows[i].force > 0) block.pressing.push_back(i);
   }
-  for (int i = 0; i < kPressingRounds; ++i) {
+  for (int i = 0; i < kRounds; ++i) {
     for (const std::uint32_t r : block.pressing) relax(block.rows[r]);
   }
 }

@@ -95,7 +95,7 @@ class Steps {
  private:
   [[nodiscard]] std::uint64_t faces() const { return proxy_.mesh.triangles.size(); }
   [[nodiscard]] bool is_above_target() const { return bp::is_above_target(proxy_.mesh, params_); }
-  [[nodiscard]] TightenParams sweeps(int together, int alone, double least_gain) const {
+  [[nodiscard]] TightenParams sweeps(int together, int alone, double least_gain = TightenParams().least_gain) const {
     TightenParams some = tightening_of(params_);
     some.sweeps = together;
     some.final_sweeps = alone;
@@ -117,7 +117,7 @@ class Steps {
   void relax() {
     TightenCounts ignored;
     params_.limits->relax(true);
-    proxy_.mesh = tighten(proxy_.mesh, enclosed_, sweeps(1, 2, 5e-4), ignored);
+    proxy_.mesh = tighten(proxy_.mesh, enclosed_, sweeps(1, 2), ignored);
     params_.limits->relax(false);
   }
 
