@@ -145,9 +145,6 @@ class ScaleLines {
   std::array<Shard, kShards> shards_;
 };
 
-// The least S, in voxels, for which an edge may lie farther from the voxels than a voxel.
-constexpr double kLeastNearVox = 1;
-
 double largest_of(const ScaleField& field) {
   double largest = field.base;
   for (const ScaleRule& rule : field.rules) largest = std::max(largest, rule.scale);
@@ -199,11 +196,11 @@ class ScaledEdges {
   }
 
   /// Returns whether the edge lies near the voxels, for the least S along it. S is taken as the power of two below it,
-  /// so that a few masks serve all edges.
+  /// in voxels, so that a few masks serve all edges; below one voxel as 0.
   [[nodiscard]] bool is_near(const LatticeCoord& a, const LatticeCoord& b) {
     if (!near_) return false;
     const Vec3d from = frame_.world(a), to = frame_.world(b);
-    for (double s = 0, next = kLeastNearVox;; s = next, next *= 2) {
+    for (double s = 0, next = 1;; s = next, next *= 2) {
       if (near_->is_near(a, b, (kNearOfEdge * factor_ * s + 1) * kLatticePerVoxel)) return true;
       if (next * frame_.voxel > largest_ || !lines_.reach(from, to, next * frame_.voxel)) return false;
     }
@@ -232,7 +229,7 @@ EdgeLimit scaled_edges(const ScaleField& scale, const GridFrame& frame, double f
 
 std::uint64_t bytes_of_near_edges(const ScaleField& scale, const GridFrame& frame, const BrickShelf& near) {
   std::uint64_t masks = 1;
-  for (double s = kLeastNearVox * frame.voxel; s <= largest_of(scale); s *= 2) ++masks;
+  for (double s = frame.voxel; s <= largest_of(scale); s *= 2) ++masks;
   return masks * NearMasks::bytes_of_mask(near);
 }
 

@@ -39,9 +39,9 @@ TEST_CASE("an edge is as long as the scale allows all along it, for few rules an
     };
     const LatticeCoord a = corner(60 * kLatticePerVoxel), b = a + corner(i % 50 == 0 ? 5000 : 6 * kLatticePerVoxel);
     const double edge = length(to_double(b - a));
-    const bool expected = edge <= 2 * kLatticePerVoxel ||
-                          reaches_along(field, frame.world(a), frame.world(b),
-                                        edge / kLatticePerVoxel * frame.voxel / factor, frame.voxel);
+    const bool expected =
+        edge <= 2 * kLatticePerVoxel || reaches_along(field, frame.world(a), frame.world(b),
+                                                      edge / kLatticePerVoxel * frame.voxel / factor, frame.voxel);
     CHECK(limit(a, b) == expected);
     allowed += expected ? 1 : 0;
   }
