@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "lib/hulls/convex_budget.h"
-#include "lib/mesh/box_group.h"
+#include "lib/hulls/hull_sides.h"
 #include "lib/mesh/lattice_geometry.h"
 #include "lib/simplify/shape_limits.h"
 
@@ -33,43 +33,10 @@ Rating rate(const Mesh& mesh) {
   return {mesh.triangles.size(), volume, volume + kSkin * area, length(to_double(box.max - box.min))};
 }
 
-/// The planes of a hull.
-class Sides {
- public:
-  explicit Sides(const ConvexHull& hull) {
-    for (const auto& t : hull.triangles) {
-      const LatticeCoord a = hull.vertices[t[0]];
-      sides_.push_back({a, normal_of(a, hull.vertices[t[1]], hull.vertices[t[2]])});
-    }
-  }
-  /// Returns whether the whole box lies in the hull.
-  [[nodiscard]] bool hold(const LatticeBox& box) const {
-    return std::all_of(sides_.begin(), sides_.end(), [&](const Side& side) {
-      LatticeCoord farthest;
-      for (int k = 0; k < 3; ++k) farthest[k] = side.normal[k] > 0 ? box.max[k] : box.min[k];
-      return side_along(side.normal, farthest - side.point) <= 0;
-    });
-  }
-
- private:
-  struct Side {
-    LatticeCoord point, normal;
-  };
-  std::vector<Side> sides_;
-};
-
-void add_corners(const LatticeBox& box, std::vector<LatticeCoord>& points) {
-  if (box.min == box.max) return points.push_back(box.min);
-  for (int i = 0; i < 8; ++i) {
-    LatticeCoord& p = points.emplace_back();
-    for (int k = 0; k < 3; ++k) p[k] = (i >> k & 1) != 0 ? box.max[k] : box.min[k];
-  }
-}
-
 /// Replaces `hull` by the hull of itself and the boxes.
 void add_outer(std::span<const LatticeBox> boxes, ConvexHull& hull) {
   constexpr std::size_t kAtOnce = 32;
-  const Sides sides(hull);
+  const HullSides sides(hull);
   std::vector<LatticeCoord> points = hull.vertices;
   while (!boxes.empty()) {
     const auto some = boxes.first(std::min(kAtOnce, boxes.size()));
