@@ -12,6 +12,7 @@
 
 #include "lib/core/vec3.h"
 #include "lib/enclosed/near_masks.h"
+#include "lib/grid/coord_hash.h"
 #include "lib/grid/scale_field.h"
 
 namespace bp {
@@ -168,7 +169,7 @@ class ScaledEdges {
     if (scale > largest_ && !near_) return false;
     const bool is_turned = std::tie(b.x, b.y, b.z) < std::tie(a.x, a.y, a.z);
     const Edge ends = is_turned ? Edge{b, a} : Edge{a, b};
-    const std::size_t place = hash_of(ends) % kKept;
+    const std::size_t place = (3 * CoordHash()(ends[0]) + CoordHash()(ends[1])) % kKept;
     std::mutex& mutex = mutexes_[place % mutexes_.size()];
     {
       const std::lock_guard lock(mutex);
@@ -187,13 +188,6 @@ class ScaledEdges {
     bool allowed = true;
   };
   static constexpr std::size_t kKept = std::size_t(1) << 15;  // 1.8 MB
-
-  static std::size_t hash_of(const Edge& edge) {
-    std::uint64_t h = 0;
-    for (const LatticeCoord& p : edge)
-      for (const std::int64_t x : {p.x, p.y, p.z}) h = (h ^ std::uint64_t(x)) * 0x9E3779B97F4A7C15ULL;
-    return std::size_t(h ^ h >> 29);
-  }
 
   /// Returns whether the edge lies near the voxels, for the least S along it. S is taken as the power of two below it,
   /// in voxels, so that a few masks serve all edges; below one voxel as 0.
