@@ -57,6 +57,8 @@ void stop_if_asked();
 /// Calls body(i) for i in [0, n), in any order, in parallel. Rethrows the first exception.
 void parallel_for(std::int64_t n, const std::function<void(std::int64_t)>& body);
 
+/// The usual grain of parallel_ranges(), for faces, points and the like that take microseconds each.
+constexpr std::int64_t kItemsAtOnce = 256;
 /// Calls body(begin, end) for consecutive chunks of `grain` items. The last chunk may have fewer.
 void parallel_ranges(std::int64_t n, std::int64_t grain, const std::function<void(std::int64_t, std::int64_t)>& body);
 

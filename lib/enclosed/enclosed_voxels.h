@@ -6,6 +6,7 @@
 
 #include "lib/enclosed/enclosed.h"
 #include "lib/enclosed/near_masks.h"
+#include "lib/grid/coord_hash.h"
 #include "lib/grid/stream.h"
 
 namespace bp {
@@ -39,14 +40,8 @@ class EnclosedVoxels : public Enclosed {
   [[nodiscard]] bool brick_clear(class Separator& separator, BrickCoord coord, const BoundaryBrick& brick,
                                  Blocker* blocker) const;
   [[nodiscard]] bool block_clear(Separator& separator, VoxelCoord first, const Block& block, Blocker* blocker) const;
-  struct Hash {
-    std::size_t operator()(const BrickCoord& c) const {
-      return std::size_t(std::uint32_t(c.x) * 0x9e3779b1u ^ std::uint32_t(c.y) * 0x85ebca77u ^
-                         std::uint32_t(c.z) * 0xc2b2ae3du);
-    }
-  };
   NearMasks near_;
-  std::unordered_map<BrickCoord, BoundaryBrick, Hash> bricks_;
+  std::unordered_map<BrickCoord, BoundaryBrick, CoordHash> bricks_;
   std::vector<Block> blocks_;
   /// Corners with one occupied voxel around them, and corners 8 voxels apart on straight edges and flat sides; some on
   /// brick borders are left out.

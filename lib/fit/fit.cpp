@@ -69,7 +69,7 @@ class SmoothNormals {
 
 void move_to_targets(std::vector<FitPlace>& points, const HalfEdgeMesh& surface, const FitTarget& target) {
   const SmoothNormals normals(surface);
-  parallel_ranges(std::int64_t(points.size()), 256, [&](std::int64_t begin, std::int64_t end) {
+  parallel_ranges(std::int64_t(points.size()), kItemsAtOnce, [&](std::int64_t begin, std::int64_t end) {
     std::uint32_t guess = 0;
     for (auto i = std::size_t(begin); i < std::size_t(end); ++i)
       points[i] = target(points[i].at, normals.at(points[i].at, guess));

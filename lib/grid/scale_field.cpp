@@ -269,15 +269,6 @@ ScaleField ScaleField::near(const Vec3d& centre, double radius) const {
   return part;
 }
 
-bool ScaleField::reaches_along(const Vec3d& a, const Vec3d& b, double scale, double shortest) const {
-  const Vec3d middle = 0.5 * (a + b);
-  const Range around = range(middle, distance(a, b) / 2);
-  if (around.least >= scale) return true;
-  if (around.most < scale || evaluate(middle) < scale) return false;
-  if (distance(a, b) <= shortest) return evaluate(a) >= scale && evaluate(b) >= scale;
-  return reaches_along(a, middle, scale, shortest) && reaches_along(middle, b, scale, shortest);
-}
-
 ScaleLattice ScaleField::sample(const GridFrame& frame, const VoxelBox& box) const {
   (void)upper_bound(frame);  // refuses a field that cannot be sampled
   ScaleLattice lattice;

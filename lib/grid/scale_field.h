@@ -93,10 +93,6 @@ struct ScaleField {
   /// Returns the rules that may change S within `radius` of a point. The result evaluates to the same there, to the
   /// last bit.
   [[nodiscard]] ScaleField near(const Vec3d& centre, double radius) const;
-  /// Returns true if S is at least `scale` all along the straight line from a to b, scene units. Bounds of S over ever
-  /// shorter pieces decide; if they do not decide for a piece of `shortest` or less, S at its ends does. Cost: a bound,
-  /// which visits all rules, or some bounds per change of S along the line.
-  [[nodiscard]] bool reaches_along(const Vec3d& a, const Vec3d& b, double scale, double shortest) const;
   /// Returns samples that interpolate S over all voxels of `box`. The extent of `box` only cuts them, so tilings agree.
   [[nodiscard]] ScaleLattice sample(const GridFrame& frame, const VoxelBox& box) const;
   /// Returns an upper bound of S anywhere, 1/16 voxel. Throws bad_argument if a scale is negative, not finite, or

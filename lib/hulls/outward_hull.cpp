@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "lib/hulls/detail/convex_shape.h"
+#include "lib/hulls/hull_sides.h"
 #include "lib/mesh/box_tree.h"
 #include "lib/mesh/constrained_minimum.h"
 #include "lib/mesh/lattice_geometry.h"
@@ -26,12 +27,6 @@ LatticeBox cell_around(const Vec3d& p, double off) {
     cell.min[k] = std::int64_t(std::floor(x - off)), cell.max[k] = std::int64_t(std::ceil(x + off));
   }
   return cell;
-}
-
-LatticeCoord farthest_of(const LatticeBox& cell, const LatticeCoord& normal) {
-  LatticeCoord p;
-  for (int k = 0; k < 3; ++k) p[k] = normal[k] > 0 ? cell.max[k] : cell.min[k];
-  return p;
 }
 
 int128 along(const LatticeCoord& n, const LatticeCoord& d) {
@@ -104,21 +99,13 @@ std::optional<ConvexHull> moved_out(const ConvexHull& hull, const std::vector<La
 }
 
 bool holds_cells(const ConvexHull& hull, const std::vector<LatticeBox>& cells) {
-  return std::all_of(hull.triangles.begin(), hull.triangles.end(), [&](const auto& t) {
-    const LatticeCoord a = hull.vertices[t[0]], normal = normal_of(a, hull.vertices[t[1]], hull.vertices[t[2]]);
-    return std::all_of(cells.begin(), cells.end(),
-                       [&](const LatticeBox& cell) { return side_along(normal, farthest_of(cell, normal) - a) <= 0; });
-  });
+  const HullSides sides(hull);
+  return std::all_of(cells.begin(), cells.end(), [&](const LatticeBox& cell) { return sides.hold(cell); });
 }
 
 ConvexHull hull_of_cells(const std::vector<LatticeBox>& cells) {
   std::vector<LatticeCoord> points;
-  for (const LatticeBox& cell : cells) {
-    for (int i = 0; i < 8; ++i) {
-      LatticeCoord& p = points.emplace_back();
-      for (int k = 0; k < 3; ++k) p[k] = (i >> k & 1) != 0 ? cell.max[k] : cell.min[k];
-    }
-  }
+  for (const LatticeBox& cell : cells) add_corners(cell, points);
   return *hull_of(points);
 }
 

@@ -12,7 +12,7 @@ namespace bp {
 namespace {
 
 double dense_faces(double area, const Bounds3d& bounds, double voxel) {
-  return 2 * kSlantedSteps * std::min(area, area_of(bounds)) / (voxel * voxel);
+  return kDensePerArea * std::min(area, area_of(bounds)) / (voxel * voxel);
 }
 
 PlannedLevel planned(const CutLevel& cut, double area, const Bounds3d& bounds) {

@@ -7,8 +7,6 @@ namespace bp {
 
 namespace {
 
-constexpr std::uint64_t kDefaultLevels = 4;
-
 std::size_t list_size(const LevelRequest& r) {
   return std::max({r.faces.size(), r.shares.size(), r.errors_world.size()});
 }
@@ -83,9 +81,8 @@ LodTarget level_target(const LevelRequest& r, std::size_t i, std::size_t since, 
 }
 
 bool clearly_fewer(std::uint64_t faces, std::uint64_t asked) {
-  constexpr double kClearly = 0.95;
   // A collapse removes two faces at a time, so merging may end one face below an odd number.
-  return faces + 2 <= asked && double(faces) < kClearly * double(asked);
+  return faces + 2 <= asked && double(faces) < kClearlyLess * double(asked);
 }
 
 }  // namespace bp

@@ -13,7 +13,7 @@ namespace bp {
 constexpr std::uint64_t kFacesPerTriangle = 4;
 constexpr std::uint64_t kLeastFirstFaces = 200;  ///< the least faces of a finest level whose budget is not given
 
-constexpr std::uint64_t kMostLevels = 32;
+constexpr std::uint64_t kDefaultLevels = 4, kMostLevels = 32;
 constexpr std::uint64_t kLeastFaces = kFacesOfBox;  ///< the least faces of a level whose budget is not given
 /// The most faces that are chosen without a budget: of a finest level, to save time; of a collision mesh, for physics
 /// engines; of a cage, since people edit it.

@@ -8,14 +8,12 @@
 #include "lib/core/error.h"
 #include "lib/core/parallel.h"
 #include "lib/levels/detail/level_search.h"
+#include "lib/levels/level_request.h"
 #include "lib/mesh/half_edge_mesh.h"
 
 namespace bp {
 
 namespace {
-
-// The most levels at once: the default list has four, and each level keeps about four threads busy.
-constexpr std::size_t kMostAtOnce = 4;
 
 /// Returns the context of one of n levels that are made at the same time. If its share of the memory is refused, no
 /// limit is computed, since the level is then made alone.
@@ -80,11 +78,12 @@ struct LodChain::State {
     return searched_level(scene, context, target, start_for(target));
   }
 
-  /// Returns how many levels surely fit into the memory at the same time.
+  /// Returns how many levels surely fit into the memory at the same time, at most as many as the default list has. Each
+  /// level keeps about four threads busy.
   [[nodiscard]] std::size_t most_at_once() const {
     const std::uint64_t each = scene.bytes_of_level(start ? start->mesh.triangles.size() : 0);
     const std::uint64_t fitting = scene.context().pieces.bytes() / std::max<std::uint64_t>(each, 1);
-    return std::clamp<std::size_t>(fitting, 1, std::min(kMostAtOnce, std::size_t(thread_count())));
+    return std::clamp<std::size_t>(fitting, 1, std::min(std::size_t(kDefaultLevels), std::size_t(thread_count())));
   }
 
   /// Makes the levels from number `first` on, several at the same time, each with its share of the memory. A level

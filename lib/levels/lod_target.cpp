@@ -9,14 +9,11 @@ namespace bp {
 
 namespace {
 
-constexpr double kScalesPerEdge = 4;
 constexpr double kLeastSideVox = 48;  // the longest side of a reduced grid has more
-// Voxels along the length that a rule by shape asks for, which is measured to within two voxels.
-constexpr double kVoxelsPerLength = 8;
 
 /// Returns the edge of `faces` equilateral triangles that together have the area of the scene's surface.
 double edge_of(const LodGround& ground, std::uint64_t faces) {
-  const double area = double(ground.dense_faces) / 2 / kSlantedSteps * ground.voxel * ground.voxel;
+  const double area = double(ground.dense_faces) / kDensePerArea * ground.voxel * ground.voxel;
   return std::sqrt(4 / std::sqrt(3.0) * area / double(faces));
 }
 
@@ -25,8 +22,8 @@ double edge_of(const LodGround& ground, std::uint64_t faces) {
 double first_scale(const LodGround& ground, const LodTarget& target, double least) {
   if (target.scale_world) return std::max(*target.scale_world, least);
   double scale = ground.diagonal;
-  if (target.faces > 0) scale = std::min(scale, edge_of(ground, target.faces) / kScalesPerEdge);
-  if (target.error_world > 0) scale = std::min(scale, target.error_world / kScalesPerError);
+  if (target.faces > 0) scale = std::min(scale, edge_of(ground, target.faces) / kScalesPerLength);
+  if (target.error_world > 0) scale = std::min(scale, target.error_world / kScalesPerLength);
   return std::max({scale, least, kLeastScaleVox * ground.voxel});
 }
 
@@ -38,7 +35,7 @@ int reductions_for(const LodGround& ground, const LodTarget& target, double scal
     coarsest = std::min(coarsest, std::sqrt(per_face / double(kDensePerFace)) * ground.voxel);
     coarsest = std::min(coarsest, std::sqrt(double(ground.dense_faces) / kLeastDenseFaces) * ground.voxel);
   }
-  if (target.error_world > 0) coarsest = std::min(coarsest, target.error_world / kVoxelsPerError);
+  if (target.error_world > 0) coarsest = std::min(coarsest, target.error_world / kVoxelsPerLength);
   int n = before;
   while (ground.voxel * std::ldexp(1.0, n + 1) <= coarsest) ++n;
   return n;

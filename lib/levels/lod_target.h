@@ -24,9 +24,11 @@ constexpr std::uint64_t kFacesOfTetrahedron = 4;  ///< no closed surface has few
 /// A budget never doubles the voxels, nor chooses larger ones, below this many triangles of the dense surface. Meshing
 /// so many takes one or two seconds, and larger voxels would add more error and volume than the budget does.
 constexpr double kLeastDenseFaces = 500000;
-/// Voxels in the target's error, which holds the voxels' diagonal, the closing and the simplification.
-constexpr double kVoxelsPerError = 8;
-constexpr double kScalesPerError = 4;  ///< scales in the target's error; the cube's dilation reaches sqrt(3) scales
+/// Voxels in a length that is asked for: the target's error, which holds the voxels' diagonal, the closing and the
+/// simplification; or the length of a rule by shape, which is measured to within two voxels.
+constexpr double kVoxelsPerLength = 8;
+/// Scales in the target's error, of which the cube's dilation reaches sqrt(3), or in the edge of its faces.
+constexpr double kScalesPerLength = 4;
 /// The least scale that a budget chooses, before smaller scales are tried. Closing below one voxel changes nothing.
 constexpr double kLeastScaleVox = 1 + kBeyondWholeVox;
 

@@ -27,7 +27,7 @@ double area_of_cube_like(const Bounds3d& b) {
 /// resolution, and at least that of the resolution `most`.
 double voxel_for(double dense_faces, double area, const Bounds3d& bounds, std::int64_t most) {
   const double coarse = voxel_size_of(bounds, kDefaultResolution);
-  const double fine = std::min(coarse, std::sqrt(2 * kSlantedSteps * area / dense_faces));
+  const double fine = std::min(coarse, std::sqrt(kDensePerArea * area / dense_faces));
   return std::min(coarse, std::max(fine, voxel_size_of(bounds, most)));
 }
 
@@ -50,7 +50,7 @@ double chosen_voxel(const VoxelRequest& voxels, const LevelRequest& levels, cons
   const Bounds3d& bounds = scene.bounds;
   if (voxels.voxel > 0) return voxels.voxel;
   if (voxels.resolution > 0) return voxel_size_of(bounds, voxels.resolution);
-  if (!levels.errors_world.empty()) return levels.errors_world.front() / kVoxelsPerError;
+  if (!levels.errors_world.empty()) return levels.errors_world.front() / kVoxelsPerLength;
   if (voxels.use == VoxelUse::occluder) return voxel_size_of(bounds, kOccluderResolution);
   if (voxels.use == VoxelUse::tiles) {
     if (!levels.faces.empty()) return voxel_size_of(bounds, kDefaultResolution);

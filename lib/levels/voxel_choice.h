@@ -6,9 +6,10 @@
 namespace bp {
 
 /// Voxels along the longest side.
-constexpr std::int64_t kDefaultResolution = 256, kMostResolution = 1024, kMostTilesetResolution = 4096;
+constexpr std::int64_t kDefaultResolution = 256;
+constexpr std::int64_t kMostResolution = 4 * kDefaultResolution, kMostTilesetResolution = 16 * kDefaultResolution;
 /// Finer than the default, since an occluder gives away one or two voxels at each wall.
-constexpr std::int64_t kOccluderResolution = 512;
+constexpr std::int64_t kOccluderResolution = 2 * kDefaultResolution;
 /// The most faces over the bounds that the voxels of a tileset are chosen for.
 constexpr std::uint64_t kTilesetFaces = 40000;
 

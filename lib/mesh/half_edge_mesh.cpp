@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "lib/core/error.h"
+#include "lib/mesh/lattice_geometry.h"
 
 namespace bp {
 
@@ -211,6 +212,15 @@ LatticeMesh HalfEdgeMesh::compact(const GridFrame& frame) const {
   mesh.frame = frame;
   mesh.triangles = live_faces([&](VertexId v, VertexId) { mesh.vertices.push_back(position_[v]); });
   return mesh;
+}
+
+Vec3d vertex_normal(const HalfEdgeMesh& mesh, VertexId v) {
+  Vec3d n{};
+  mesh.for_each_outgoing(v, [&](HalfEdgeId h) {
+    n = n + to_double(normal_of(mesh.position(v), mesh.position(mesh.to(h)), mesh.position(mesh.opposite(h))));
+  });
+  const double l = length(n);
+  return l > 0 ? Vec3d{n[0] / l, n[1] / l, n[2] / l} : n;
 }
 
 }  // namespace bp

@@ -166,4 +166,7 @@ std::vector<Triangle> HalfEdgeMesh::live_faces(Visit&& visit) const {
   return triangles;
 }
 
+/// Returns the unit normal at v, by the areas of its faces; zero if they cancel.
+[[nodiscard]] Vec3d vertex_normal(const HalfEdgeMesh& mesh, VertexId v);
+
 }  // namespace bp

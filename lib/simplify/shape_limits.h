@@ -8,6 +8,9 @@ namespace bp {
 
 class StepLimits;
 
+/// A result is clearly less than another one, in faces or lengths, if it is below this share of it.
+constexpr double kClearlyLess = 0.95;
+
 /// Limits that every step of simplification and tightening keeps, in addition to enclosing.
 struct ShapeLimits {
   EdgeLimit edge_limit;          ///< largest edge that a step may make, the paper's c * S; empty: no limit

@@ -3,18 +3,11 @@
 #include <unordered_map>
 
 #include "lib/core/error.h"
+#include "lib/grid/coord_hash.h"
 
 namespace bp {
 
 namespace {
-
-struct LatticeHash {
-  std::size_t operator()(const LatticeCoord& c) const {
-    const std::uint64_t h = std::uint64_t(c.x) * 0x9e3779b97f4a7c15u ^ std::uint64_t(c.y) * 0xc2b2ae3d27d4eb4fu ^
-                            std::uint64_t(c.z) * 0x165667b19e3779f9u;
-    return std::size_t(h ^ (h >> 29));
-  }
-};
 
 class Welder {
  public:
@@ -45,7 +38,7 @@ class Welder {
 
  private:
   Piece out_;
-  std::unordered_map<LatticeCoord, std::uint32_t, LatticeHash> rim_;
+  std::unordered_map<LatticeCoord, std::uint32_t, CoordHash> rim_;
   std::vector<std::uint32_t> ids_;  // numbers of the vertices of the piece that was added last
 };
 

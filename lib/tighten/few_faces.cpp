@@ -13,9 +13,8 @@ namespace bp {
 
 namespace {
 
-constexpr double kHopeless = 1.25;         // times the least volume so far: proxies of fewer faces will not hold less
-constexpr double kPromising = 1.5;         // the same for a hull that is not tightened yet
-constexpr std::uint64_t kFewForHull = 32;  // with more faces, another proxy is better than a convex one
+constexpr double kHopeless = 1.25;  // times the least volume so far: proxies of fewer faces will not hold less
+constexpr double kPromising = 1.5;  // the same for a hull that is not tightened yet
 /// Numbers of faces for which a proxy is also made anew from the first surface. This also happens when the sequence is
 /// stuck.
 constexpr std::array<std::uint64_t, 6> kFresh{48, 32, 24, 20, 8, 6};
@@ -105,9 +104,10 @@ class HullsWay {
     return tight_proxy(dense_, enclosed_, params);
   }
 
-  /// Returns a hull of at most n faces around the hull of the first proxy.
+  /// Returns a hull of at most n faces around the hull of the first proxy. Returns nothing for more than half of
+  /// kFewFaces: another proxy is better than a convex one then.
   [[nodiscard]] std::optional<TightProxy> convex(std::uint64_t n) {
-    if (hull_.empty() || n > kFewForHull) return {};
+    if (hull_.empty() || n > kFewFaces / 2) return {};
     keep_to_faces(hull_, n, kFarOut);
     TightProxy stop = at_;
     stop.mesh.vertices = hull_[0].vertices;

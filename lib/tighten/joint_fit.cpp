@@ -20,11 +20,9 @@ namespace {
 constexpr double kDeepest = 2;  // lattice units: a point that is so much above its face lies under another one
 constexpr double kRim = 8;      // lattice units: a point so near to the rim of its face lies under the neighbours, too
 constexpr double kLongest = 2;  // times the unhindered step: the largest shift that forces may cause
-constexpr int kRounds = 8;      // over all rows
-constexpr int kRoundsOn = 6;    // the same if it begins with the forces of an earlier fit
-constexpr int kPressingRounds = 8;    // after each round, over the rows with a force
+constexpr int kRounds = 8;      // over all rows; and after each of these, over the rows with a force
+constexpr int kRoundsOn = 6;    // over all rows, if it begins with the forces of an earlier fit
 constexpr double kLeastGive = 1e-30;  // so that its inverse is a float
-constexpr std::int64_t kFacesAtOnce = 128, kVerticesAtOnce = 512;
 
 FourFloats lanes_of(const Vec3d& v, double fourth) {
   return FourFloats{float(v[0]), float(v[1]), float(v[2]), float(fourth)};
@@ -94,7 +92,7 @@ void JointFit::Block::append(const Block& other) {
 
 void JointFit::gather_rows() {
   const auto faces = std::int64_t(mesh_.face_capacity());
-  const std::int64_t at_once = whole_ ? kFacesAtOnce : faces;
+  const std::int64_t at_once = whole_ ? kItemsAtOnce : faces;
   blocks_.resize(at_.count());
   parts_.resize(std::size_t((faces + at_once - 1) / at_once), std::vector<Block>(blocks_.size()));
   parallel_ranges(faces, at_once, [&](std::int64_t begin, std::int64_t end) {
@@ -128,7 +126,7 @@ void JointFit::relax(Block& block) {
     relax(block.rows[i]);
     if (block.rows[i].force > 0) block.pressing.push_back(i);
   }
-  for (int i = 0; i < kPressingRounds; ++i) {
+  for (int i = 0; i < kRounds; ++i) {
     for (const std::uint32_t r : block.pressing) relax(block.rows[r]);
   }
 }
@@ -140,7 +138,7 @@ void JointFit::set_free_shifts(double reach) {
   gradient_.assign(n, {});
   reach_.assign(n, 0);
   softness_.assign(n, 0);
-  parallel_ranges(std::int64_t(n), kVerticesAtOnce, [&](std::int64_t begin, std::int64_t end) {
+  parallel_ranges(std::int64_t(n), kItemsAtOnce, [&](std::int64_t begin, std::int64_t end) {
     for (auto v = VertexId(begin); v < VertexId(end); ++v) {
       if (mesh_.vertex_alive(v) && !mesh_.locked(v)) set_free_shift(v, reach);
     }

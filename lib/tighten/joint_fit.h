@@ -23,7 +23,7 @@ class JointFit {
   /// Solves the program for the present mesh. A vertex that nothing hinders would go `reach` times its mean spoke.
   /// Cost: linear in faces and points, where a point at a corner counts once for each face there; 150 bytes for each of
   /// these. Parallel for a large whole mesh; the result does not depend on the number of threads.
-  void solve(double reach);
+  void solve(double reach = 1);
 
   /// Where v should go from its place, lattice units.
   [[nodiscard]] const Vec3d& shift(VertexId v) const { return shift_[v]; }

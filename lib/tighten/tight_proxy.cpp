@@ -29,8 +29,6 @@ constexpr int kJamRounds = 4;
 constexpr std::uint64_t kSmall = 512;  // faces: smaller proxies get another sweep in (2), and grow on if they jam
 // Step (5): in volumes over faces squared; a collapse on a ball adds 7 on average.
 constexpr double kNeedless = 2;
-// Step (5): share of the faces; if more are left, the next round would drop only few.
-constexpr double kFewDropped = 0.95;
 
 /// Returns whether edges are collapsed by volume, which knows neither errors nor limits.
 bool by_volume(const SimplifyParams& params) {
@@ -97,7 +95,7 @@ class Steps {
  private:
   [[nodiscard]] std::uint64_t faces() const { return proxy_.mesh.triangles.size(); }
   [[nodiscard]] bool is_above_target() const { return bp::is_above_target(proxy_.mesh, params_); }
-  [[nodiscard]] TightenParams sweeps(int together, int alone, double least_gain) const {
+  [[nodiscard]] TightenParams sweeps(int together, int alone, double least_gain = TightenParams().least_gain) const {
     TightenParams some = tightening_of(params_);
     some.sweeps = together;
     some.final_sweeps = alone;
@@ -119,7 +117,7 @@ class Steps {
   void relax() {
     TightenCounts ignored;
     params_.limits->relax(true);
-    proxy_.mesh = tighten(proxy_.mesh, enclosed_, sweeps(1, 2, 5e-4), ignored);
+    proxy_.mesh = tighten(proxy_.mesh, enclosed_, sweeps(1, 2), ignored);
     params_.limits->relax(false);
   }
 
@@ -174,8 +172,8 @@ class Steps {
     }
   }
 
-  /// Does the first part of step (5): collapses that add almost nothing, in turns with sweeps while they drop many
-  /// faces. A flat side needs no vertex in its middle, and one that it has there sticks out.
+  /// Does the first part of step (5): collapses that add almost nothing, in turns with sweeps while they leave clearly
+  /// fewer faces. A flat side needs no vertex in its middle, and one that it has there sticks out.
   void drop_needless(ProxyEditor& editor) {
     const HalfEdgeMesh& mesh = editor.mesh();
     const std::uint64_t at_first = mesh.face_count();
@@ -186,7 +184,7 @@ class Steps {
       const SimplifyCounts now = thin_free(editor, kNeedless * std::abs(volume_of(mesh)) / (before * before));
       proxy_.simplified.collapses += now.collapses + drop_spikes(editor);
       proxy_.simplified.solved += now.solved;
-    } while (double(mesh.face_count()) <= kFewDropped * before);
+    } while (double(mesh.face_count()) <= kClearlyLess * before);
     if (mesh.face_count() == at_first) return;
     proxy_.simplified.faces_out = mesh.face_count();
     proxy_.simplified.stop = StopReason::least_volume;

@@ -16,7 +16,6 @@ namespace bp {
 
 namespace {
 
-constexpr double kJointReach = 1;  // of the mean spoke: the step of a vertex that nothing hinders
 constexpr std::size_t kMovesPerThread = 2, kFlipsPerThread = 64;
 constexpr int kSweepsPerRefresh = 8;
 
@@ -109,7 +108,7 @@ class Tightener {
   /// Moves all vertices by the joint fit. Vertices that go outwards are moved first, since the fit counts on the room
   /// that they make for others.
   void move_together() {
-    joint_.solve(kJointReach);
+    joint_.solve();
     order_.clear();
     for (VertexId v = 0; v < mesh_.vertex_capacity(); ++v) {
       if (is_free(v)) order_.emplace_back(joint_.growth(v), v);

@@ -7,8 +7,9 @@
 /// surface that lies in them.
 namespace bp {
 
-/// The area of a slanted plane's voxel faces over its own area, on average over angles.
-constexpr double kSlantedSteps = 1.5;
+/// Triangles of the dense surface for the area of a voxel's face: two for each face, and the faces of a slanted plane's
+/// voxels have 1.5 times its area, on average over angles.
+constexpr double kDensePerArea = 3;
 
 /// Returns true if the brick and its six neighbours are full. Then it has no boundary voxel.
 [[nodiscard]] bool is_buried(const BrickShelf& solid, BrickCoord brick);

@@ -2,8 +2,6 @@
 
 #include <string_view>
 
-#include "tools/cli/help/option_owners.h"
-
 namespace bp {
 
 namespace {
@@ -78,17 +76,17 @@ const char* text_of(Remedy remedy) {
   return "";
 }
 
-/// Returns whether an advice suits `tool`: it names an option of that tool, or no option, or an option of bpvox by its
+/// Returns whether an advice suits a tool: it names an option that the tool has, or no option, or one of bpvox by its
 /// name.
-bool is_for(const std::string& tool, std::string_view advice) {
+bool suits(const std::function<bool(const std::string&)>& has, std::string_view advice) {
   const std::size_t at = advice.find("--");
   if (at == std::string_view::npos || advice.find("bpvox") != std::string_view::npos) return true;
-  return may_have_option(tool, std::string(advice.substr(at, advice.find(' ', at) - at)));
+  return !has || has(std::string(advice.substr(at, advice.find(' ', at) - at)));
 }
 
 }  // namespace
 
-std::string advised(const Error& error, const std::string& tool) {
+std::string advised(const Error& error, const std::function<bool(const std::string&)>& has) {
   std::string text = error.what();
   const std::size_t fact = text.rfind(": ");
   // No advice has been added yet.
@@ -96,7 +94,7 @@ std::string advised(const Error& error, const std::string& tool) {
   std::string_view before;
   Remedies remedies;
   for (const Remedy remedy : error.remedies())
-    if (is_for(tool, text_of(remedy))) remedies.push_back(remedy);
+    if (suits(has, text_of(remedy))) remedies.push_back(remedy);
   for (const Remedy& remedy : remedies) {
     const bool last = &remedy == &remedies.back();
     text += first ? "; " : last ? ", or " : ", ";

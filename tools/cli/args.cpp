@@ -12,7 +12,6 @@
 #include "tools/cli/help/completion.h"
 #include "tools/cli/help/help.h"
 #include "tools/cli/help/nearest.h"
-#include "tools/cli/help/option_owners.h"
 #include "tools/cli/names.h"
 
 namespace bp {
@@ -189,9 +188,7 @@ Args::Option& Args::State::find(const std::string& name, const std::string& word
   }
   const std::string slip = word.empty() ? name : "-" + word;
   std::string hint = is_there(current) ? "; did you mean the file ./" + current + "?" : "";
-  if (hint.empty()) hint = owner_of(tool, slip, false);
   if (hint.empty()) hint = did_you_mean(slip, names);
-  if (hint.empty()) hint = owner_of(tool, slip, true);
   fail(ErrorCode::bad_argument, "there is no option {}{}", name, hint);
 }
 

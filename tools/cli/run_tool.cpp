@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
@@ -50,17 +51,23 @@ void install_handlers() {
 }
 
 /// Prints the message as one line, whatever characters a file name or a parser put into it.
-int complain(const char* tool, const std::string& message, int status) {
+int complain(const Args& args, const std::string& message, int status) {
   // Outputs are being removed because of a signal: wait for the thread that dies of it.
   while (making_has_ended()) ::pause();
-  const std::string line = fmt::format("{}: {}\n", tool, one_line(message));
+  const std::string line = fmt::format("{}: {}\n", args.tool(), one_line(message));
   (void)!::write(2, line.data(), line.size());
   return status;
 }
 
-int complain(const char* tool, const Error& e) {
+int complain(const Args& args, const Error& e) {
   if (e.code() == ErrorCode::closed_pipe) return exit_code(e.code());
-  return complain(tool, advised(e, tool), exit_code(e.code()));
+  const auto has_option = [tool = args.declaration()](const std::string& name) {
+    return std::any_of(tool.options.begin(), tool.options.end(), [&](const Declaration& option) {
+      const std::vector<std::string> names = parts_of(option.names, ',');
+      return std::find(names.begin(), names.end(), name) != names.end();
+    });
+  };
+  return complain(args, advised(e, has_option), exit_code(e.code()));
 }
 
 /// Forgets what was said about outputs, before a run of a tool and after it: this process may do something else then.
@@ -73,7 +80,7 @@ struct ForgetsOutputs {
 
 }  // namespace
 
-int guard(const char* tool, const std::function<int()>& body) {
+int guard(const Args& args, const std::function<int()>& body) {
   occupy_standard_streams();
   install_handlers();
   const KeepsInputs inputs;
@@ -83,17 +90,17 @@ int guard(const char* tool, const std::function<int()>& body) {
   } catch (const Args::Done&) {
     return 0;
   } catch (const Error& e) {
-    return complain(tool, e);
+    return complain(args, e);
   } catch (const std::bad_alloc&) {
-    return complain(tool, "out of memory; use a smaller --memory, fewer --threads or larger voxels", 4);
+    return complain(args, "out of memory; use a smaller --memory, fewer --threads or larger voxels", 4);
   } catch (const std::filesystem::filesystem_error& e) {
-    return complain(tool, e.what(), 1);
+    return complain(args, e.what(), 1);
   } catch (const std::system_error& e) {  // no thread could be started, for example
-    return complain(tool, e.what(), 4);
+    return complain(args, e.what(), 4);
   } catch (const std::exception& e) {
-    return complain(tool, std::string("unexpected: ") + e.what(), 1);
+    return complain(args, std::string("unexpected: ") + e.what(), 1);
   } catch (...) {
-    return complain(tool, "unexpected failure", 1);
+    return complain(args, "unexpected failure", 1);
   }
 }
 

@@ -11,18 +11,19 @@
 namespace bp {
 
 namespace detail {
-/// Runs `body`. An exception becomes one line on stderr, `tool: message`, and the exit status of its kind. SIGPIPE is
+/// Runs `body`. An exception becomes one line on stderr, `tool: message`, and the exit status of its kind. Advice names
+/// only options that are declared in `args` by then. SIGPIPE is
 /// ignored, so that a closed pipe is an error of write() and ends quietly with 141. On SIGINT, SIGTERM and SIGHUP
 /// partial outputs are removed and the process dies of the signal.
-int guard(const char* tool, const std::function<int()>& body);
+int guard(const Args& args, const std::function<int()>& body);
 }  // namespace detail
 
 /// parse: Options(Args&), opens nothing.   run: void(const Options&), or int(const Options&) for the exit status.
 /// If Options has a member `common`, its defaults are filled in, its checks made and its thread limit kept during run.
 template <class Parse, class Run>
 int run_tool(const char* tool, int argc, char** argv, Parse parse, Run run) {
-  return detail::guard(tool, [&]() -> int {
-    Args args(tool, argc, argv);
+  Args args(tool, argc, argv);
+  return detail::guard(args, [&]() -> int {
     auto options = parse(args);
     std::optional<ThreadLimit> limit;
     if constexpr (requires { options.common.prepare(); }) {

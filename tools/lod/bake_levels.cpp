@@ -66,9 +66,7 @@ bool is_plain(const TextureImage& image) {
 
 /// Encodes an image. A plain one becomes four texels, since places in it are shares of its size.
 ImageFile file_of(const TextureImage& image) {
-  constexpr int kPlainSide = 2;
-  EncodedImage file =
-      encode_texture(is_plain(image) ? TextureImage(kPlainSide, kPlainSide, image.texels.front()) : image);
+  EncodedImage file = encode_texture(is_plain(image) ? TextureImage(2, 2, image.texels.front()) : image);
   return {std::move(file.bytes), std::move(file.type)};
 }
 

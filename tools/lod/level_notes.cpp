@@ -17,7 +17,6 @@ namespace bp {
 
 namespace {
 
-constexpr double kMuchFuller = 2;  // times the volume of the scene's voxels
 // Errors below this, in voxels, are due to the rounding of vertices to the lattice.
 constexpr double kExactVox = 1.0 / 16;
 
@@ -195,7 +194,7 @@ SceneParts parts_of(const VoxelizedScene& scene, const BuildOptions& o, std::uin
 
 std::string joined_note(const LevelFacts& finest, std::uint64_t parts, const SceneParts& scene) {
   constexpr double kSame = 1.001;
-  if (parts >= scene.count || finest.volume < kMuchFuller * scene.volume) return "";
+  if (parts >= scene.count || finest.volume < kLoose * scene.volume) return "";
   if (!is_convex(finest) && finest.scale_world <= kSame * scene.named_scale) return "";  // as asked
   const std::uint64_t enough = scene.count * kFacesOfBox, faces = finest.target.faces;
   return fmt::format(

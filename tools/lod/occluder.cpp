@@ -9,7 +9,6 @@
 #include "io/files/file.h"
 #include "lib/check/counted.h"
 #include "lib/core/error.h"
-#include "lib/levels/footprints.h"
 #include "lib/volume/entered.h"
 #include "tools/lod/choices.h"
 #include "tools/lod/lod_outputs.h"
@@ -108,30 +107,6 @@ std::string filled_note(Build& build, const BuiltOccluder& built) {
                      scale, counted(rooms, "room"), volume, below);
 }
 
-/// Returns a note if large parts of the scene that stand apart, as houses, hide next to nothing.
-std::string apart_note(const BuiltOccluder& built) {
-  constexpr std::uint64_t kLarge = 10;  // one part in so many of the largest one's columns
-  constexpr double kInWalls = 0.1;      // of the part's columns, over its height: its walls alone may hide that
-  const int up = ground_of(built.scene.voxels.header.frame).axis;
-  const StreamHeader& header = built.scene.voxels.header;
-  std::vector<Footprint> parts = footprints(*built.scene.voxels.solid, *built.hidden.voxels.voxels, up);
-  std::uint64_t most = 0;
-  for (const Footprint& part : parts) most = std::max(most, part.columns);
-  std::erase_if(parts, [&](const Footprint& part) { return part.columns < most / kLarge; });
-  const auto bare = [&](const Footprint& part) {
-    return double(part.hidden) < kInWalls * double(part.columns) * double(part.box.size()[up]);
-  };
-  const auto first = std::find_if(parts.begin(), parts.end(), bare);
-  if (parts.size() < 2 || first == parts.end()) return "";
-  const VoxelCoord sum = first->box.min + first->box.max;
-  return fmt::format("{} of {} parts that stand apart hide next to nothing, as the one around {}{}",
-                     std::count_if(parts.begin(), parts.end(), bare), parts.size(),
-                     place_text(middle_of({sum.x / 2, sum.y / 2, sum.z / 2}, header.frame), header.frame),
-                     built.ground ? ": the ground is a plane at the lowest point of all, and a house above it is open "
-                                    "below; give houses on a slope one by one"
-                                  : "; bpinfo --leaks tells where parts are open");
-}
-
 /// Throws `failed` if the occluder holds less than --min-hidden.
 void require_hidden(Build& build, const BuiltOccluder& built, double volume) {
   const double share = volume / volume_of(built.scene.voxels.header.bounds);
@@ -176,7 +151,6 @@ void note(Build& build, const BuiltOccluder& built, double volume) {
                            made.level.mesh.triangles.size(), 100 * volume / hidden));
   if (build.options.closing.scale && built.hidden.scale_world > 0 && share < kMuch)
     build.note(filled_note(build, built));
-  build.note(apart_note(built));
   build.note(rooms_note(build.options, built));
   if (built.ground) build.note("the scene is open below: it is taken to stand on the ground, and eyes to be above it");
   if (built.hidden.scale_world > 0)

@@ -8,8 +8,6 @@ namespace bp {
 
 namespace {
 
-constexpr double kLoose = 2;  // volume over that of the voxels from which a mesh is loose
-
 /// Returns the effect of a larger scale: it joins parts and closes handles, or makes the form simpler.
 std::string scale_effect(std::uint64_t shells, std::uint64_t handles, bool inside) {
   if (shells <= 1 && handles == 0)

@@ -7,6 +7,9 @@
 /// Notes on a mesh that does not have the wanted number of faces.
 namespace bp {
 
+/// The volume of a mesh over that of the voxels from which the mesh is loose.
+constexpr double kLoose = 2;
+
 /// Facts that the advice of a note depends on.
 struct FaceAdvice {
   MeshMode mode = MeshMode::bounding;

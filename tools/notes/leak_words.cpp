@@ -10,8 +10,8 @@
 namespace bp {
 
 Vec3d middle_of(VoxelCoord p, const GridFrame& frame) {
-  constexpr std::int64_t kUnit = kLatticePerVoxel;
-  return frame.world({p.x * kUnit + kUnit / 2, p.y * kUnit + kUnit / 2, p.z * kUnit + kUnit / 2});
+  constexpr std::int64_t kHalf = kLatticePerVoxel / 2;
+  return frame.world(LatticeCoord{p.x, p.y, p.z} * kLatticePerVoxel + LatticeCoord{kHalf, kHalf, kHalf});
 }
 
 GroundSide ground_of(const GridFrame& frame) {

@@ -72,13 +72,13 @@ void question_scale(const char* option, const Length& scale, const Bounds3d& sce
 }
 
 std::string scale_share_note(const std::optional<Length>& scale, const Bounds3d& scene) {
-  constexpr double kPercent = 25;  // larger numbers are hardly meant as percentages
   const double diagonal = scene.empty() ? 0 : scene.diagonal();
   if (!scale || scale->unit != Length::Unit::scene || !(diagonal > 0) || scale->value < kNotedShare * diagonal)
     return "";
   const double value = scale->value;
-  const std::string percent =
-      value > kPercent ? "" : fmt::format("; --scale {}% would be {:.3g}", scale->text(), value / 100 * diagonal);
+  const std::string percent =  // larger numbers are hardly meant as percentages
+      value > 100 * kLargestShare ? ""
+                                  : fmt::format("; --scale {}% would be {:.3g}", scale->text(), value / 100 * diagonal);
   return fmt::format("--scale {}, and gaps up to {:.3g} are closed{}", share_text(*scale, diagonal), 2 * value,
                      percent);
 }

@@ -8,6 +8,7 @@
 #include "io/files/paths.h"
 #include "io/scene/part_names.h"
 #include "lib/core/error.h"
+#include "lib/levels/voxel_choice.h"
 #include "lib/pass/voxelize/stray_part.h"
 #include "tools/cli/names.h"
 #include "tools/notes/leak_words.h"
@@ -23,10 +24,9 @@ std::string point_text(const Vec3d& p) {
 
 /// Returns the voxel size that suits the rest of the scene, if the grid of the whole scene can have it.
 std::string voxel_for_the_rest(const StrayPart& stray, const Bounds3d& scene) {
-  constexpr double kAlong = 256;
-  const double voxel = stray.rest.longest_side() / kAlong;
+  const double voxel = stray.rest.longest_side() / double(kDefaultResolution);
   if (scene.longest_side() > kMostVoxels * voxel) return "";
-  return fmt::format(", or say --voxel {:.3g} for {} voxels along the rest", voxel, kAlong);
+  return fmt::format(", or say --voxel {:.3g} for {} voxels along the rest", voxel, kDefaultResolution);
 }
 
 /// Returns the names of the scene's parts that hold a triangle of `stray`. None if files cannot be read again, or name

@@ -8,12 +8,6 @@
 
 namespace bp {
 
-namespace {
-
-constexpr std::int64_t kGrain = 256;  // points per work item
-
-}  // namespace
-
 void FacePoints::assign(const HalfEdgeMesh& mesh) {
   std::vector<TriangleD> triangles;
   std::vector<FaceId> faces;
@@ -24,7 +18,7 @@ void FacePoints::assign(const HalfEdgeMesh& mesh) {
   }
   const TriangleBvh tree(triangles);
   pulls_.resize(points_.size());
-  parallel_ranges(std::int64_t(points_.size()), kGrain, [&](std::int64_t begin, std::int64_t end) {
+  parallel_ranges(std::int64_t(points_.size()), kItemsAtOnce, [&](std::int64_t begin, std::int64_t end) {
     std::uint32_t guess = 0;
     for (auto i = std::size_t(begin); i < std::size_t(end); ++i) {
       const Vec3d& p = points_[i].at;

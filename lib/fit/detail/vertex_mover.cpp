@@ -19,19 +19,6 @@ LatticeCoord part_of_way(const LatticeCoord& p, const LatticeCoord& q, double sh
 
 }  // namespace
 
-Vec3d vertex_normal(const HalfEdgeMesh& mesh, VertexId v) {
-  Vec3d sum{};
-  mesh.for_each_outgoing(v, [&](HalfEdgeId h) {
-    const Vec3d n = to_double(normal_of(mesh.position(v), mesh.position(mesh.to(h)), mesh.position(mesh.opposite(h))));
-    for (std::size_t i = 0; i < 3; ++i) sum[i] += n[i];
-  });
-  const double l = length(sum);
-  if (l > 0) {
-    for (double& x : sum) x /= l;
-  }
-  return sum;
-}
-
 bool VertexMover::draw(VertexId v, const LatticeCoord& q) {
   const LatticeCoord p = mesh_.position(v);
   for (const double share : {1.0, 0.5, 0.25}) {

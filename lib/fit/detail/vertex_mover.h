@@ -48,7 +48,4 @@ class VertexMover {
   std::vector<FaceId> replaced_;
 };
 
-/// Unit normal at v by the areas of its faces; zero if they cancel.
-[[nodiscard]] Vec3d vertex_normal(const HalfEdgeMesh& mesh, VertexId v);
-
 }  // namespace bp

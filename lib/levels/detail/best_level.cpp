@@ -3,18 +3,14 @@
 #include <cmath>
 #include <utility>
 
+#include "lib/levels/detail/voxel_distance.h"
 #include "lib/pass/mesh/mesh_measures.h"
 
 namespace bp {
 
-namespace {
-
-constexpr double kUnseenVox = 0.125;
-
-}  // namespace
-
+// Two measurements may differ by their tolerances.
 double BestLevel::unseen() const {
-  return kUnseenVox * ruler_.voxel();
+  return 2 * kTriangleTolerance * ruler_.voxel();
 }
 
 /// Returns the factor by which the price multiplies the error: the volume with its skin; 1 for fits.

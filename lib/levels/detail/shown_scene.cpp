@@ -99,11 +99,11 @@ std::vector<TriangleD> shown_points(std::span<const FaceRect> faces, const Trian
   const double share = double(kMostShownPoints) / double(std::max<std::uint64_t>(area, 1));
   const double most = std::pow(kFaceToVoxel * frame.voxel, 2);
   const auto n = std::int64_t(faces.size());
-  std::vector<std::vector<TriangleD>> found(std::size_t((n + kMeasuredAtOnce - 1) / kMeasuredAtOnce));
+  std::vector<std::vector<TriangleD>> found(std::size_t((n + kItemsAtOnce - 1) / kItemsAtOnce));
   std::vector<char> misses(found.size(), 0);
-  parallel_ranges(n, kMeasuredAtOnce, [&](std::int64_t begin, std::int64_t end) {
+  parallel_ranges(n, kItemsAtOnce, [&](std::int64_t begin, std::int64_t end) {
     std::uint32_t guess = 0;
-    const auto grain = std::size_t(begin / kMeasuredAtOnce);
+    const auto grain = std::size_t(begin / kItemsAtOnce);
     for (auto i = std::size_t(begin); i < std::size_t(end); ++i) {
       for_each_face(faces[i], [&](const LatticeCoord& middle) {
         if (share < 1 && !is_among(middle, share)) return;
@@ -127,8 +127,8 @@ double distance_beyond_mesh(std::span<const VoxelRun> runs, const std::vector<Tr
                             double at_least) {
   const std::vector<std::uint32_t> left = far_segments(segments, mesh, frame.voxel, at_least);
   const auto n = std::int64_t(left.size());
-  std::vector<double> largest(std::size_t((n + kMeasuredAtOnce - 1) / kMeasuredAtOnce), at_least);
-  parallel_ranges(n, kMeasuredAtOnce, [&](std::int64_t begin, std::int64_t end) {
+  std::vector<double> largest(std::size_t((n + kItemsAtOnce - 1) / kItemsAtOnce), at_least);
+  parallel_ranges(n, kItemsAtOnce, [&](std::int64_t begin, std::int64_t end) {
     Beyond beyond(mesh, at_least);
     std::vector<Polygon> parts;
     for (auto i = std::size_t(begin); i < std::size_t(end); ++i) {
@@ -146,7 +146,7 @@ double distance_beyond_mesh(std::span<const VoxelRun> runs, const std::vector<Tr
         for (const Polygon& part : parts) beyond.meet(part);
       }
     }
-    largest[std::size_t(begin / kMeasuredAtOnce)] = beyond.largest();
+    largest[std::size_t(begin / kItemsAtOnce)] = beyond.largest();
   });
   return largest.empty() ? at_least : *std::max_element(largest.begin(), largest.end());
 }

@@ -44,8 +44,8 @@ std::vector<TriangleD> pieces_of(const std::vector<TriangleD>& triangles, double
 /// distance.
 double distance_at_middles(const std::vector<TriangleD>& from, const TriangleBvh& to) {
   const auto n = std::int64_t(from.size());
-  std::vector<double> largest(std::size_t((n + kMeasuredAtOnce - 1) / kMeasuredAtOnce));
-  parallel_ranges(n, kMeasuredAtOnce, [&](std::int64_t begin, std::int64_t end) {
+  std::vector<double> largest(std::size_t((n + kItemsAtOnce - 1) / kItemsAtOnce));
+  parallel_ranges(n, kItemsAtOnce, [&](std::int64_t begin, std::int64_t end) {
     std::uint32_t guess = 0;
     for (auto i = std::size_t(begin); i < std::size_t(end); ++i) {
       Vec3d c{};
@@ -53,8 +53,8 @@ double distance_at_middles(const std::vector<TriangleD>& from, const TriangleBvh
         for (std::size_t k = 0; k < 3; ++k) c[k] += p[k] / 3;
       const TriangleBvh::Nearest found = to.nearest(c, guess);
       guess = found.item;
-      largest[std::size_t(begin / kMeasuredAtOnce)] =
-          std::max(largest[std::size_t(begin / kMeasuredAtOnce)], found.distance_squared);
+      largest[std::size_t(begin / kItemsAtOnce)] =
+          std::max(largest[std::size_t(begin / kItemsAtOnce)], found.distance_squared);
     }
   });
   return std::sqrt(*std::max_element(largest.begin(), largest.end()));
@@ -63,7 +63,7 @@ double distance_at_middles(const std::vector<TriangleD>& from, const TriangleBvh
 /// Returns the numbers of the triangles of `from` that are not surely within `limit`, in their order.
 std::vector<std::uint32_t> which_are_farther(double limit, const std::vector<TriangleD>& from, const TriangleBvh& to) {
   std::vector<char> far(from.size());
-  parallel_ranges(std::int64_t(from.size()), kMeasuredAtOnce, [&](std::int64_t begin, std::int64_t end) {
+  parallel_ranges(std::int64_t(from.size()), kItemsAtOnce, [&](std::int64_t begin, std::int64_t end) {
     NearSurface near(to, limit / 2, kPlaces);
     for (auto i = std::size_t(begin); i < std::size_t(end); ++i) far[i] = !near.holds(from[i], limit);
   });
@@ -93,10 +93,10 @@ double upper_bound(const std::vector<TriangleD>& from, const TriangleBvh& to, do
 double distance_of_centres(const std::vector<TriangleD>& segments, const TriangleBvh& mesh, double voxel,
                            double known) {
   const auto n = std::int64_t(segments.size());
-  std::vector<double> largest(std::size_t((n + kMeasuredAtOnce - 1) / kMeasuredAtOnce), known);
-  parallel_ranges(n, kMeasuredAtOnce, [&](std::int64_t begin, std::int64_t end) {
+  std::vector<double> largest(std::size_t((n + kItemsAtOnce - 1) / kItemsAtOnce), known);
+  parallel_ranges(n, kItemsAtOnce, [&](std::int64_t begin, std::int64_t end) {
     std::uint32_t guess = 0;
-    double& far = largest[std::size_t(begin / kMeasuredAtOnce)];
+    double& far = largest[std::size_t(begin / kItemsAtOnce)];
     for (auto i = std::size_t(begin); i < std::size_t(end); ++i) {
       Vec3d centre = segments[i][0];
       for (centre[0] += voxel / 2; centre[0] < segments[i][1][0]; centre[0] += voxel) {

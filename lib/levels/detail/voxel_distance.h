@@ -8,7 +8,6 @@
 /// upper bounds, up to the rounding of doubles.
 namespace bp {
 
-constexpr std::int64_t kMeasuredAtOnce = 256;    ///< triangles, segments or faces that one thread takes at a time
 constexpr double kTriangleTolerance = 1.0 / 16;  ///< of distances to the scene's triangles, in voxels
 
 /// Returns the runs as segments through the middles of their voxels, scene units. A segment is a triangle of no width.

@@ -20,8 +20,7 @@ constexpr std::uint64_t kBytesPerTriangle = 2 * sizeof(TriangleD) + EnclosedTria
 /// Returns the bytes of four copies of a tile's voxels, as leave_out_fringes() needs them.
 std::uint64_t voxel_bytes(const Cells& cells) {
   const auto edge = std::uint64_t(cells.edge_vox);
-  constexpr std::uint64_t brick = kBrickEdge;
-  return 4 * (edge + 2 * brick) * (edge + 2) * (edge + 2) / 8 + kBytesPerTile;
+  return 4 * (edge + 2 * kBrickEdge) * (edge + 2) * (edge + 2) / 8 + kBytesPerTile;
 }
 
 void check_cells(const Cells& cells, const MemoryShare& memory) {

@@ -10,7 +10,7 @@ namespace {
 
 double scale_of(const LodTarget& target, double voxel) {
   if (target.scale_world) return *target.scale_world;
-  if (target.error_world > 0) return std::max(target.error_world / kScalesPerError, (1 + kBeyondWholeVox) * voxel);
+  if (target.error_world > 0) return std::max(target.error_world / kScalesPerLength, (1 + kBeyondWholeVox) * voxel);
   return TilesetPlan::kScaleVox * voxel;
 }
 

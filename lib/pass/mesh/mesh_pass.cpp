@@ -34,12 +34,11 @@ constexpr double kReachOfScale = 0.25;
 /// Returns the edge of the voxels around a level. It is the stream's, or larger: so large that the next level's dense
 /// surface has just enough faces, but at most a quarter of its share of the error.
 double level_voxel(const LatticeMesh& inner, double voxel, std::uint64_t faces, double error_share) {
-  constexpr double kFacesPerVoxelFace = 2 * kSlantedSteps;
   // Dense faces for each face, since there is no finer surface to tighten against.
   constexpr double kFacesPerFace = 200;
   constexpr double kVoxelsPerShare = 4;  // a touched voxel reaches as far as its diagonal
   const double most = error_share > 0 ? error_share / kVoxelsPerShare : HUGE_VAL;
-  const double enough = std::sqrt(kFacesPerVoxelFace * area_world(inner) / (kFacesPerFace * double(faces)));
+  const double enough = std::sqrt(kDensePerArea * area_world(inner) / (kFacesPerFace * double(faces)));
   return std::max(voxel, std::min(enough, most));
 }
 

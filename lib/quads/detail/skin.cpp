@@ -4,7 +4,6 @@
 
 #include "lib/core/parallel.h"
 #include "lib/mesh/lattice_geometry.h"
-#include "lib/quads/detail/vertex_normal.h"
 #include "lib/quads/quads.h"
 
 namespace bp {

@@ -5,7 +5,6 @@
 #include <set>
 
 #include "lib/mesh/lattice_geometry.h"
-#include "lib/quads/detail/vertex_normal.h"
 
 namespace bp {
 

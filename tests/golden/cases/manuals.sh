@@ -11,20 +11,8 @@ for tool in $tools; do
   for help in '' all; do
     $tool --help $help | awk -v t=$tool '/^Example/ { exit } length > 80 { print t ": too long: " $0 }'
   done
-  $tool --help all | grep -oE '^  (-., )?--[a-z-]+' | grep -oE -e '--[a-z-]+' | sed "s/^/$tool /" >> options
 done
-# An option of another tool of the pipe: the message says whose it is.
-cut -d ' ' -f 2 options | sort -u | while read -r option; do
-  for tool in $tools; do
-    grep -qx -e "$tool $option" options && continue
-    said=$($tool $option 2>&1)
-    [[ $said == *"there is no option $option any more; "* ]] && continue
-    for other in $(sed -n "s/ $option\$//p" options); do
-      [[ $said == *"; $option is an option of "*"$other"* ]] || echo "$tool $option: does not name $other: $said"
-    done
-  done
-done
-rm options short
+rm short
 # A man page fits 80 columns, and names no page that is not there.
 if command -v pandoc > /dev/null && command -v mandoc > /dev/null; then
   for tool in $tools; do

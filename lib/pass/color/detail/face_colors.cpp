@@ -201,7 +201,7 @@ bool differ(const FaceFit& a, std::size_t in_a, const FaceFit& b, std::size_t in
 
 std::vector<FaceColors> face_colors(const LatticeMesh& mesh, const NearbyColors& colors) {
   std::vector<FaceColors> faces(mesh.triangles.size());
-  parallel_ranges(std::int64_t(faces.size()), 256, [&](std::int64_t begin, std::int64_t end) {
+  parallel_ranges(std::int64_t(faces.size()), kItemsAtOnce, [&](std::int64_t begin, std::int64_t end) {
     for (auto f = std::size_t(begin); f < std::size_t(end); ++f) faces[f] = sampled(corners_of(mesh, f), colors);
   });
   return faces;

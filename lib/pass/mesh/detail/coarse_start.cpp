@@ -1,6 +1,7 @@
 #include "lib/pass/mesh/detail/coarse_start.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "lib/surface/repair.h"
 #include "lib/volume/reduce.h"
@@ -13,10 +14,10 @@ namespace {
 /// that edge whose middle it holds. For cubes an edge of S would suffice, but the proxy would have no room for
 /// tightening then.
 double largest_voxel(const StreamHeader& header) {
-  constexpr double kPerCube = 1.25, kPerBall = 1.7320508075688772;
+  constexpr double kPerCube = 1.25;
   if (!header.has_closing || !header.scale.constant()) return 0;
   const bool straight = header.element == StructuringElement::cube && header.orientation.empty();
-  return header.scale.base / (straight ? kPerCube : kPerBall);
+  return header.scale.base / (straight ? kPerCube : std::sqrt(3.0));
 }
 
 }  // namespace

@@ -7,15 +7,15 @@
 #include <vector>
 
 #include "lib/hulls/convex_budget.h"
-#include "lib/mesh/box_group.h"
+#include "lib/hulls/hull_sides.h"
 #include "lib/mesh/lattice_geometry.h"
+#include "lib/simplify/shape_limits.h"
 
 namespace bp {
 
 namespace {
 
-constexpr double kClearly = 0.97;        // share of the proxy's volume in the skin
-constexpr double kNearer = 0.95;         // share of the length of the proxy's box: a shorter box has no spikes
+constexpr double kLessInSkin = 0.97;     // share of the proxy's volume in the skin
 constexpr std::size_t kMostFaces = 512;  // of a hull; a hull of more faces is round, and a proxy is as good there
 
 struct Rating {
@@ -33,43 +33,10 @@ Rating rate(const Mesh& mesh) {
   return {mesh.triangles.size(), volume, volume + kSkin * area, length(to_double(box.max - box.min))};
 }
 
-/// The planes of a hull.
-class Sides {
- public:
-  explicit Sides(const ConvexHull& hull) {
-    for (const auto& t : hull.triangles) {
-      const LatticeCoord a = hull.vertices[t[0]];
-      sides_.push_back({a, normal_of(a, hull.vertices[t[1]], hull.vertices[t[2]])});
-    }
-  }
-  /// Returns whether the whole box lies in the hull.
-  [[nodiscard]] bool hold(const LatticeBox& box) const {
-    return std::all_of(sides_.begin(), sides_.end(), [&](const Side& side) {
-      LatticeCoord farthest;
-      for (int k = 0; k < 3; ++k) farthest[k] = side.normal[k] > 0 ? box.max[k] : box.min[k];
-      return side_along(side.normal, farthest - side.point) <= 0;
-    });
-  }
-
- private:
-  struct Side {
-    LatticeCoord point, normal;
-  };
-  std::vector<Side> sides_;
-};
-
-void add_corners(const LatticeBox& box, std::vector<LatticeCoord>& points) {
-  if (box.min == box.max) return points.push_back(box.min);
-  for (int i = 0; i < 8; ++i) {
-    LatticeCoord& p = points.emplace_back();
-    for (int k = 0; k < 3; ++k) p[k] = (i >> k & 1) != 0 ? box.max[k] : box.min[k];
-  }
-}
-
 /// Replaces `hull` by the hull of itself and the boxes.
 void add_outer(std::span<const LatticeBox> boxes, ConvexHull& hull) {
   constexpr std::size_t kAtOnce = 32;
-  const Sides sides(hull);
+  const HullSides sides(hull);
   std::vector<LatticeCoord> points = hull.vertices;
   while (!boxes.empty()) {
     const auto some = boxes.first(std::min(kAtOnce, boxes.size()));
@@ -120,10 +87,10 @@ ConvexHull box_around(const ConvexHull& hull) {
 }
 
 /// Returns whether one of two meshes is better; both have few enough faces. It has clearly less volume in the skin, and
-/// also less volume or no spikes; or it has fewer faces and less of both volumes.
+/// also less volume or, with a clearly shorter box, no spikes; or it has fewer faces and less of both volumes.
 bool is_better(const Rating& one, const Rating& other) {
-  const bool less = one.volume < other.volume, nearer = one.diagonal < kNearer * other.diagonal;
-  if (one.in_skin < kClearly * other.in_skin && (less || nearer)) return true;
+  const bool less = one.volume < other.volume, nearer = one.diagonal < kClearlyLess * other.diagonal;
+  if (one.in_skin < kLessInSkin * other.in_skin && (less || nearer)) return true;
   return less && one.faces < other.faces && one.in_skin < other.in_skin;
 }
 

@@ -64,7 +64,7 @@ std::uint64_t least_limit(const LevelInputs& in, const PieceMemory& pieces, cons
   const bool is_limited = in.params.error_world > 0 || in.params.volume_ratio > 0;
   const SurfaceWork work = is_limited ? flat : first_work(in, pieces, meshed, dense);
   std::uint64_t held = ground_bytes(shelves, in.params, triangles, flat.flat_faces);
-  if (in.params.error_world > 0) held += ProxyLimits::kMostBytes;
+  if (in.params.error_world > 0) held += ProxyLimits::most_bytes();
   held += in.edge_bytes(dense.frame(), in.near_of(*shelves.meshed));
   const std::uint64_t faces = in.inside() ? count_faces(dense) : 0;
   return std::max(pieces.without(held + faces * kBytesPerKeptFace).limit_for(work.whole_bytes, work.cell_bytes),

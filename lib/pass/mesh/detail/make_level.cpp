@@ -9,8 +9,8 @@ namespace bp {
 
 namespace {
 
-/// Uses the room below the limits that tightening has made: collapses and tightens in turn, until a round removes less
-/// than 5 % of the faces.
+/// Uses the room below the limits that tightening has made: collapses and tightens in turn, as long as a round leaves
+/// clearly fewer faces.
 LatticeMesh use_room(LatticeMesh proxy, const Enclosed& enclosed, SimplifyParams params, LevelCounts& counts) {
   constexpr int kRounds = 8;
   params.dense = false;
@@ -22,7 +22,7 @@ LatticeMesh use_room(LatticeMesh proxy, const Enclosed& enclosed, SimplifyParams
     SimplifyCounts more;
     proxy = simplify(proxy, params, more);
     counts.simplify.add(more);
-    if (proxy.triangles.size() * 20 > before * 19) break;
+    if (double(proxy.triangles.size()) > kClearlyLess * double(before)) break;
     proxy = tighten(proxy, enclosed, tightening, counts.tighten);
   }
   return proxy;

@@ -6,8 +6,6 @@
 
 namespace bp {
 
-constexpr std::int64_t kItemsAtOnce = 256;  ///< faces or vertices that one thread takes at a time
-
 /// Makes a closed mesh around `scene` embedded, if few of its faces are at fault: have no area, meet others, touch the
 /// scene, or come as near to it as it may be off. A disc of faces around each fault is replaced by a tent: faces
 /// between the disc's rim and an apex outside. If no tent fits, a wider one is tried. Returns whether the mesh is then

@@ -31,7 +31,7 @@ class ProxyLimits final : public StepLimits {
   [[nodiscard]] static std::uint64_t bytes_needed(const ProxyBounds& bounds, const GridFrame& frame,
                                                   const TriangleBvh* enclosed);
   /// The largest possible result of bytes_needed().
-  static constexpr std::uint64_t kMostBytes = (std::uint64_t(1) << 20) * NearSurface::kBytesPerPlace;
+  [[nodiscard]] static std::uint64_t most_bytes() { return kMostPlaces * NearSurface::kBytesPerPlace; }
   void begin(int128 volume6) override { volume6_ = volume6; }
   void relax(bool on) override { relaxed_ = on; }
   bool take(std::span<const LatticeTriangle> before, std::span<const LatticeTriangle> after) override;

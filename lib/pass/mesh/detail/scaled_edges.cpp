@@ -12,14 +12,14 @@
 
 #include "lib/core/vec3.h"
 #include "lib/enclosed/near_masks.h"
+#include "lib/grid/coord_hash.h"
 #include "lib/grid/scale_field.h"
 
 namespace bp {
 
 namespace {
 
-/// Answers like ScaleField::reaches_along(), but keeps bounds of S for cells of space, instead of finding them for each
-/// line. Both evaluate S at the same points of the line; here some points are skipped since a bound decides.
+/// Finds whether S is large enough along lines. Bounds of S are kept for cells of space.
 class ScaleLines {
  public:
   ScaleLines(const ScaleField& field, double voxel, ScaledEdgeWork* work) : field_(field), voxel_(voxel), work_(work) {}
@@ -27,8 +27,17 @@ class ScaleLines {
   /// Returns whether S is at least `scale` along the line. S is evaluated at points at most a voxel apart, where no
   /// bound decides.
   [[nodiscard]] bool reach(const Vec3d& a, const Vec3d& b, double scale) {
-    if (field_.rules.size() < kFewRules) return field_.reaches_along(a, b, scale, voxel_);
-    return reach_between(a, b, scale);
+    const Vec3d middle = 0.5 * (a + b);
+    const double line = length(a - b);
+    const Part part = part_of(cell_of(middle, line));
+    if (part->range.least >= scale) return true;
+    if (part->range.most < scale) return false;
+    if (line > kShortVox * voxel_)
+      return value_at(*part, middle) >= scale && reach(a, middle, scale) && reach(middle, b, scale);
+    const Point from{a, value_at(*part, a)};
+    if (from.s < scale) return false;
+    const Point to{b, value_at(*part, b)};
+    return to.s >= scale && reach_within(*part, from, to, scale);
   }
 
  private:
@@ -59,7 +68,7 @@ class ScaleLines {
     std::mutex mutex;
     std::unordered_map<Cell, Part, CellHash> parts;
   };
-  static constexpr std::size_t kFewRules = 8, kShards = 32, kMostCells = 1024;  // cells kept in a shard, at most
+  static constexpr std::size_t kShards = 32, kMostCells = 1024;  // cells kept in a shard, at most
   static constexpr double kShortVox = 8;  // lines of at most so many voxels are followed within one part
   static constexpr int kCoarse = 6;       // cells of this level or above evaluate all rules
   // Radius of the part in edges: it holds a line as long as two edges whose middle lies in the cell.
@@ -69,20 +78,6 @@ class ScaleLines {
   static bool is_too_near_to_fall(const Point& a, const Point& b, double line, double slope, double scale) {
     constexpr double kRounding = 1e-9;  // relative, as that of ranges
     return a.s + b.s - slope * line >= 2 * scale + kRounding * (a.s + b.s + slope * line);
-  }
-
-  bool reach_between(const Vec3d& a, const Vec3d& b, double scale) {
-    const Vec3d middle = 0.5 * (a + b);
-    const double line = length(a - b);
-    const Part part = part_of(cell_of(middle, line));
-    if (part->range.least >= scale) return true;
-    if (part->range.most < scale) return false;
-    if (line > kShortVox * voxel_)
-      return value_at(*part, middle) >= scale && reach_between(a, middle, scale) && reach_between(middle, b, scale);
-    const Point from{a, value_at(*part, a)};
-    if (from.s < scale) return false;
-    const Point to{b, value_at(*part, b)};
-    return to.s >= scale && reach_within(*part, from, to, scale);
   }
 
   /// Returns whether S reaches the scale between two points that do, in the ball of the part.
@@ -151,9 +146,6 @@ class ScaleLines {
   std::array<Shard, kShards> shards_;
 };
 
-// The least S, in voxels, for which an edge may lie farther from the voxels than a voxel.
-constexpr double kLeastNearVox = 1;
-
 double largest_of(const ScaleField& field) {
   double largest = field.base;
   for (const ScaleRule& rule : field.rules) largest = std::max(largest, rule.scale);
@@ -177,7 +169,7 @@ class ScaledEdges {
     if (scale > largest_ && !near_) return false;
     const bool is_turned = std::tie(b.x, b.y, b.z) < std::tie(a.x, a.y, a.z);
     const Edge ends = is_turned ? Edge{b, a} : Edge{a, b};
-    const std::size_t place = hash_of(ends) % kKept;
+    const std::size_t place = (3 * CoordHash()(ends[0]) + CoordHash()(ends[1])) % kKept;
     std::mutex& mutex = mutexes_[place % mutexes_.size()];
     {
       const std::lock_guard lock(mutex);
@@ -197,19 +189,12 @@ class ScaledEdges {
   };
   static constexpr std::size_t kKept = std::size_t(1) << 15;  // 1.8 MB
 
-  static std::size_t hash_of(const Edge& edge) {
-    std::uint64_t h = 0;
-    for (const LatticeCoord& p : edge)
-      for (const std::int64_t x : {p.x, p.y, p.z}) h = (h ^ std::uint64_t(x)) * 0x9E3779B97F4A7C15ULL;
-    return std::size_t(h ^ h >> 29);
-  }
-
   /// Returns whether the edge lies near the voxels, for the least S along it. S is taken as the power of two below it,
-  /// so that a few masks serve all edges.
+  /// in voxels, so that a few masks serve all edges; below one voxel as 0.
   [[nodiscard]] bool is_near(const LatticeCoord& a, const LatticeCoord& b) {
     if (!near_) return false;
     const Vec3d from = frame_.world(a), to = frame_.world(b);
-    for (double s = 0, next = kLeastNearVox;; s = next, next *= 2) {
+    for (double s = 0, next = 1;; s = next, next *= 2) {
       if (near_->is_near(a, b, (kNearOfEdge * factor_ * s + 1) * kLatticePerVoxel)) return true;
       if (next * frame_.voxel > largest_ || !lines_.reach(from, to, next * frame_.voxel)) return false;
     }
@@ -238,7 +223,7 @@ EdgeLimit scaled_edges(const ScaleField& scale, const GridFrame& frame, double f
 
 std::uint64_t bytes_of_near_edges(const ScaleField& scale, const GridFrame& frame, const BrickShelf& near) {
   std::uint64_t masks = 1;
-  for (double s = kLeastNearVox * frame.voxel; s <= largest_of(scale); s *= 2) ++masks;
+  for (double s = frame.voxel; s <= largest_of(scale); s *= 2) ++masks;
   return masks * NearMasks::bytes_of_mask(near);
 }
 

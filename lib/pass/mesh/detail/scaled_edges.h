@@ -15,9 +15,9 @@ struct ScaledEdgeWork {
 };
 
 /// Returns a limit on edges: `factor` times the least S along the edge. Edges up to two voxels are always allowed,
-/// since nothing could be merged where the scale vanishes. Keeps references; thread-safe. Cost: as
-/// ScaleField::reaches_along(), for the rules near the edge; nothing for one of the last edges. `work`: counts the work
-/// of fields of many rules; may be null.
+/// since nothing could be merged where the scale vanishes. Keeps references; thread-safe. Cost: a
+/// bound of S near the edge, or some points of S along it, for the rules near the edge; nothing for one of the last
+/// edges. `work`: counts the work; may be null.
 /// `near`: the voxels that a surface lies around, in `frame`; may be null. Edges of any length are allowed within
 /// `factor` / 8 times the least S along the edge, and a voxel, of these voxels. So a smooth place takes no more faces
 /// than its shape needs, however fine it is. Inside of the voxels everything is near: this suits surfaces that enclose

@@ -8,6 +8,18 @@
 using namespace bp;
 using namespace bp::test;
 
+namespace {
+
+/// Returns whether S reaches the scale at the ends of a line and at points of it that are at most a voxel apart.
+bool reaches_along(const ScaleField& field, const Vec3d& a, const Vec3d& b, double scale, double voxel) {
+  const Vec3d middle = 0.5 * (a + b);
+  if (field.evaluate(middle) < scale) return false;
+  if (length(a - b) <= voxel) return field.evaluate(a) >= scale && field.evaluate(b) >= scale;
+  return reaches_along(field, a, middle, scale, voxel) && reaches_along(field, middle, b, scale, voxel);
+}
+
+}  // namespace
+
 TEST_CASE("an edge is as long as the scale allows all along it, for few rules and for many", "[quick][mesh]") {
   const auto seed = GENERATE(range(0u, 12u));
   ScaleField field = random_field(seed);
@@ -27,9 +39,9 @@ TEST_CASE("an edge is as long as the scale allows all along it, for few rules an
     };
     const LatticeCoord a = corner(60 * kLatticePerVoxel), b = a + corner(i % 50 == 0 ? 5000 : 6 * kLatticePerVoxel);
     const double edge = length(to_double(b - a));
-    const bool expected = edge <= 2 * kLatticePerVoxel ||
-                          field.reaches_along(frame.world(a), frame.world(b),
-                                              edge / kLatticePerVoxel * frame.voxel / factor, frame.voxel);
+    const bool expected =
+        edge <= 2 * kLatticePerVoxel || reaches_along(field, frame.world(a), frame.world(b),
+                                                      edge / kLatticePerVoxel * frame.voxel / factor, frame.voxel);
     CHECK(limit(a, b) == expected);
     allowed += expected ? 1 : 0;
   }
@@ -118,4 +130,17 @@ TEST_CASE("the part of a field near a place evaluates as all of it, also found w
       CHECK(inner.range.most >= s);
     }
   }
+}
+
+TEST_CASE("a thin box of a small scale is found between the ends of an edge", "[quick][mesh]") {
+  ScaleField field;
+  field.base = 8;
+  field.rules.push_back(box_rule({-0.1, -1, -1}, {0.1, 1, 1}, 2));
+  GridFrame frame;
+  frame.voxel = 0.1;
+  const EdgeLimit limit = scaled_edges(field, frame, 1);
+  constexpr std::int64_t kUnit = 10 * kLatticePerVoxel;
+  CHECK_FALSE(limit({-3 * kUnit, 0, 0}, {3 * kUnit, 0, 0}));
+  CHECK(limit({-kUnit / 2, 0, 0}, {kUnit / 2, 0, 0}));
+  CHECK(limit({-3 * kUnit, 0, 2 * kUnit}, {3 * kUnit, 0, 2 * kUnit}));
 }

@@ -6,9 +6,10 @@ using namespace bp;
 
 namespace {
 
-/// Where an error with this remedy and no other ends, told by `tool`.
-std::string advice_on(Remedy remedy, const char* tool) {
-  return advised(Error(ErrorCode::failed, "a fact", {remedy}), tool).substr(6);
+/// Where an error with this remedy and no other ends, told by a tool with all options or with none.
+std::string advice_on(Remedy remedy, bool has_options) {
+  return advised(Error(ErrorCode::failed, "a fact", {remedy}), [=](const std::string&) { return has_options; })
+      .substr(6);
 }
 
 }  // namespace
@@ -22,8 +23,9 @@ TEST_CASE("the advice on an error names the options that would help", "[quick][t
   CHECK(advised(Error(ErrorCode::bad_argument, "a; b.bpv: exists", {Remedy::overwrite})) ==
         "a; b.bpv: exists; add --overwrite to replace it");
   const Error tiles(ErrorCode::bad_argument, "too many", {Remedy::larger_voxels, Remedy::larger_tiles});
-  CHECK(advised(tiles, "bpclose") == "too many; use larger voxels");  // it has no --tile
-  CHECK(advised(tiles, "bplod") == "too many; use larger voxels, or a larger --tile");
+  CHECK(advised(tiles, [](const std::string& name) { return name != "--tile"; }) == "too many; use larger voxels");
+  CHECK(advised(tiles, [](const std::string& name) { return name == "--tile"; }) ==
+        "too many; use larger voxels, or a larger --tile");
   const std::uint64_t mib = std::uint64_t(1) << 20;
   CHECK(advised(NeedsMemory("closing a tile", 7 * mib, 3 * mib, 0)) ==
         "closing a tile takes 8 MiB, and the limit on memory leaves 3 MiB for it; raise --memory");
@@ -37,41 +39,43 @@ TEST_CASE("the advice on an error names the options that would help", "[quick][t
 TEST_CASE("every remedy has its words, and is told only by tools that have the option", "[quick][tools]") {
   const struct {
     Remedy remedy;
-    const char *words, *with, *without;  ///< tools with the option, and without; null: there is none
-  } table[] = {{Remedy::more_memory, "raise --memory", "bpcheck", nullptr},
-               {Remedy::larger_voxels, "use larger voxels", "bpmesh", nullptr},
-               {Remedy::smaller_voxels, "use smaller voxels", "bpmesh", nullptr},
-               {Remedy::coarser_grid, "use a larger --voxel or a smaller --resolution", "bpvox", "bpmesh"},
-               {Remedy::units_of_scene, "give --voxel in the units of the scene", "bplod", "bpclose"},
-               {Remedy::other_units, "convert the scene to another unit of length", "bpvox", nullptr},
-               {Remedy::smaller_scale, "use a smaller --scale", "bpclose", "bpvox"},
-               {Remedy::smaller_tiles, "use a smaller --tile", "bplod", "bpmesh"},
-               {Remedy::larger_tiles, "use a larger --tile", "bplod", "bpclose"},
-               {Remedy::fewer_faces, "use fewer faces", "bpmesh", nullptr},
-               {Remedy::split_scene, "split it", "bpvox", nullptr},
-               {Remedy::move_scene, "move the scene near to its origin", "bpvox", nullptr},
-               {Remedy::repair_file, "repair or re-export the file", "bpcheck", nullptr},
-               {Remedy::flood_fill, "use --fill flood", "bpvox", "bpmesh"},
-               {Remedy::fill_inside, "voxelize with bpvox --fill inside", "bpmesh", nullptr},
-               {Remedy::mode_inside, "use --mode inside", "bpmesh", "bpvox"},
-               {Remedy::enclose_closing, "use --enclose closing", "bpmesh", "bpvox"},
-               {Remedy::enclose_input, "use --enclose input", "bpmesh", "bpvox"},
-               {Remedy::enclose_own_scene, "name with --enclose the scene that bpvox read", "bpmesh", nullptr},
-               {Remedy::no_volume, "leave out --volume", "bpmesh", "bpvox"},
-               {Remedy::fewer_users_of_device, "run fewer tools on this GPU", "bpclose", nullptr},
-               {Remedy::use_cpu, "use --device cpu", "bpclose", "bpinfo"},
-               {Remedy::other_scratch_folder, "choose another --temp", "bpvox", nullptr},
-               {Remedy::other_output, "name another output", "bpvox", nullptr},
-               {Remedy::overwrite, "add --overwrite to replace it", "bpvox", nullptr},
-               {Remedy::name_format, "name it with --format", "bpinfo", "bpclose"},
-               {Remedy::set_origin, "set --origin", "bpmesh", "bpvox"},
-               {Remedy::double_format, "write GLB, PLY or OBJ", "bpmesh", nullptr},
-               {Remedy::ply_format, "write PLY", "bpmesh", nullptr},
-               {Remedy::free_space, "free some space", "bpvox", nullptr}};
+    const char* words;
+    bool needs_option;  ///< of the tool that tells it
+  } table[] = {{Remedy::more_memory, "raise --memory", true},
+               {Remedy::larger_voxels, "use larger voxels", false},
+               {Remedy::smaller_voxels, "use smaller voxels", false},
+               {Remedy::coarser_grid, "use a larger --voxel or a smaller --resolution", true},
+               {Remedy::units_of_scene, "give --voxel in the units of the scene", true},
+               {Remedy::other_units, "convert the scene to another unit of length", false},
+               {Remedy::smaller_scale, "use a smaller --scale", true},
+               {Remedy::smaller_tiles, "use a smaller --tile", true},
+               {Remedy::larger_tiles, "use a larger --tile", true},
+               {Remedy::fewer_faces, "use fewer faces", false},
+               {Remedy::split_scene, "split it", false},
+               {Remedy::move_scene, "move the scene near to its origin", false},
+               {Remedy::repair_file, "repair or re-export the file", false},
+               {Remedy::flood_fill, "use --fill flood", true},
+               {Remedy::fill_inside, "voxelize with bpvox --fill inside", false},
+               {Remedy::mode_inside, "use --mode inside", true},
+               {Remedy::enclose_closing, "use --enclose closing", true},
+               {Remedy::enclose_input, "use --enclose input", true},
+               {Remedy::enclose_own_scene, "name with --enclose the scene that bpvox read", false},
+               {Remedy::no_volume, "leave out --volume", true},
+               {Remedy::fewer_users_of_device, "run fewer tools on this GPU", false},
+               {Remedy::use_cpu, "use --device cpu", true},
+               {Remedy::other_scratch_folder, "choose another --temp", true},
+               {Remedy::other_output, "name another output", false},
+               {Remedy::overwrite, "add --overwrite to replace it", true},
+               {Remedy::name_format, "name it with --format", true},
+               {Remedy::set_origin, "set --origin", true},
+               {Remedy::double_format, "write GLB, PLY or OBJ", false},
+               {Remedy::ply_format, "write PLY", false},
+               {Remedy::free_space, "free some space", false}};
   for (const auto& row : table) {
     CAPTURE(row.words);
-    CHECK(advice_on(row.remedy, row.with) == std::string("; ") + row.words);
-    if (row.without != nullptr) CHECK(advice_on(row.remedy, row.without).empty());
+    const std::string told = std::string("; ") + row.words;
+    CHECK(advice_on(row.remedy, true) == told);
+    CHECK(advice_on(row.remedy, false) == (row.needs_option ? "" : told));
   }
 }
 
