@@ -65,6 +65,7 @@ struct InBatch {
   std::vector<BrickBits> mixed;  ///< at least one for each mixed record; further ones are left from earlier batches
   StreamTotals totals;
   std::string fault;  ///< why it cannot be used; empty if it can
+  SideWork decoding;
 
   [[nodiscard]] std::span<const std::byte> planes() const {
     return std::span(raw).subspan(records.size() * kRecordBytes);
@@ -136,16 +137,15 @@ struct BrickReader::State {
   InputFile file;
   StreamHeader header;
   StreamTotals totals;
-  std::vector<InBatch> batches = std::vector<InBatch>(batches_ahead());  // kept, with their memory
-  std::size_t ready = 0;                                                 // number of batches with bricks
-  std::size_t at_batch = 0, at_record = 0, at_mixed = 0;                 // position of the next brick to hand out
-  std::exception_ptr pending;  // found while reading ahead; thrown when its turn comes
+  std::vector<InBatch> batches = std::vector<InBatch>(batches_ahead());  // a ring; kept, with their memory
+  std::size_t at_batch = 0, ahead = 0;   // of the ring: the batch whose bricks are handed out, and how many were read
+  bool accepted = false, ended = false;  // that batch; the end record, which has been read
+  std::size_t at_record = 0, at_mixed = 0;  // position of the next brick to hand out
+  std::exception_ptr pending;               // found while reading ahead; thrown when its turn comes
   std::uint64_t index_offset = 0;
   std::uint32_t index_size = 0;  // not 0: the index has begun
   std::optional<Record> previous;
-  IndexEntry slab;  // the slab in progress, if it has a batch
-  std::uint32_t slabs = 0;
-  Digest index;  // the index as it should be
+  SlabIndex index;
 
   explicit State(const std::string& path) : file(path) {}
 
@@ -173,11 +173,10 @@ struct BrickReader::State {
   void read_payload(std::vector<std::byte>& payload, std::size_t known);
   bool fetch(InBatch& batch);
   void accept(const InBatch& batch);
-  void close_slab();
   void read_index();
   void read_end();
   void fetch_ahead();
-  void decode_ahead();
+  bool next_batch();
 };
 
 /// Refuses bytes that are not the beginning of a brick stream, as far as they go.
@@ -285,29 +284,18 @@ void BrickReader::State::accept(const InBatch& batch) {
   if (previous && !before(header.slab_axis, *previous, first))
     refuse(batch.offset, "brick {}: is out of order; the stream is damaged", brick_name(first.coord));
   const std::int32_t at = first.coord[header.slab_axis];
-  if (slab.batches > 0 && slab.slab != at) close_slab();
-  if (slab.batches++ == 0) slab = {at, 1, batch.offset, 0};
-  slab.records += batch.records.size();
+  index.add(at, batch.offset, batch.records.size());
   previous = batch.records.back();
   totals.add(batch.totals);
 }
 
-void BrickReader::State::close_slab() {
-  if (slab.batches == 0) return;
-  ByteSink bytes;
-  put_index_entry(bytes, slab);
-  index.add(bytes.bytes());
-  ++slabs;
-  slab = {};
-}
-
 /// Reads the index (section 8) after its tag. It is compared by hash, since a copy of the index could be large.
 void BrickReader::State::read_index() {
-  close_slab();
+  index.end();
   const auto count = take<4>("index");
   const auto n = ByteSource(count).get<std::uint32_t>();
-  if (n != slabs || index_size != 8 + std::uint64_t(n) * kIndexEntryBytes + kHashBytes)
-    refuse(index_offset, "the index is of {} slabs, the stream of {}; it is damaged", n, slabs);
+  if (n != index.slabs() || index_size != 8 + std::uint64_t(n) * kIndexEntryBytes + kHashBytes)
+    refuse(index_offset, "the index is of {} slabs, the stream of {}; it is damaged", n, index.slabs());
   Digest found;
   for (std::uint32_t i = 0; i < n; ++i) found.add(take<kIndexEntryBytes>("index"));
   const auto hash = take<kHashBytes>("index");
@@ -334,29 +322,42 @@ void BrickReader::State::read_end() {
            "bytes follow the end record; streams cannot be joined by writing one after the other");
 }
 
-/// Reads some batches. An error waits in `pending` until the bricks before it were handed out, so that a stream gives
-/// the same bricks before the same error for any number of threads.
+/// Reads as many batches as the ring holds. An error waits in `pending` until the bricks before it were handed out, so
+/// that a stream gives the same bricks before the same error for any number of threads.
 void BrickReader::State::fetch_ahead() {
-  ready = at_batch = at_record = at_mixed = 0;
   try {
-    while (ready < batches.size() && fetch(batches[ready])) ++ready;
+    while (ahead < batches.size() && index_size == 0 && !pending) {
+      InBatch& batch = batches[(at_batch + ahead) % batches.size()];
+      if (!fetch(batch)) return;
+      batch.decoding.begin([this, &batch] { decode(header, batch); });
+      ++ahead;
+    }
   } catch (const Error&) {
     pending = std::current_exception();
   }
 }
 
-void BrickReader::State::decode_ahead() {
-  parallel_for(std::int64_t(ready), [&](std::int64_t i) { decode(header, batches[std::size_t(i)]); });
-  std::size_t good = 0;
-  try {
-    for (; good < ready; ++good) accept(batches[good]);
-    if (index_size == 0) return;
+/// Makes the next batch ready to hand out. Returns false at the end of the stream.
+bool BrickReader::State::next_batch() {
+  if (accepted) {
+    at_batch = (at_batch + 1) % batches.size();
+    --ahead;
+    accepted = false;
+  }
+  fetch_ahead();
+  if (ahead > 0) {
+    batches[at_batch].decoding.wait();
+    accept(batches[at_batch]);
+    at_record = at_mixed = 0;
+    return accepted = true;
+  }
+  if (pending) std::rethrow_exception(pending);
+  if (!ended) {
     read_index();
     read_end();
-  } catch (const Error&) {
-    pending = std::current_exception();
-    ready = good;
   }
+  ended = true;
+  return false;
 }
 
 BrickReader::BrickReader(const std::string& path) : state_(std::make_unique<State>(path)) {
@@ -374,12 +375,7 @@ const StreamTotals& BrickReader::totals() const {
 
 bool BrickReader::read(Brick& out) {
   State& s = *state_;
-  while (s.at_batch == s.ready) {
-    if (s.pending) std::rethrow_exception(s.pending);
-    if (s.index_size > 0) return false;
-    s.fetch_ahead();
-    s.decode_ahead();
-  }
+  if ((!s.accepted || s.at_record == s.batches[s.at_batch].records.size()) && !s.next_batch()) return false;
   const InBatch& batch = s.batches[s.at_batch];
   const Record& record = batch.records[s.at_record++];
   out.coord = record.coord;
@@ -389,10 +385,6 @@ bool BrickReader::read(Brick& out) {
     out.bits = batch.mixed[s.at_mixed++];
   } else {
     out.bits.fill(~std::uint64_t(0));
-  }
-  if (s.at_record == batch.records.size()) {
-    ++s.at_batch;
-    s.at_record = s.at_mixed = 0;
   }
   return true;
 }

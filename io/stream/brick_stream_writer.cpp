@@ -19,6 +19,7 @@ struct OutBatch {
   std::vector<BrickBits> mixed;
   std::vector<std::byte> raw, packed;
   StreamTotals totals;
+  SideWork encoding;
 
   [[nodiscard]] bool full() const { return records.size() == kMaxRecords || mixed.size() == kMaxMixed; }
 };
@@ -55,8 +56,8 @@ struct BrickWriter::State {
   StreamHeader header;
   int level;
   std::uint64_t bytes = 0;
-  std::vector<OutBatch> batches = std::vector<OutBatch>(batches_ahead());  // kept, with their memory
-  std::size_t filling = 0;                                                 // the batch that gets bricks
+  std::vector<OutBatch> batches = std::vector<OutBatch>(batches_ahead());  // a ring; kept, with their memory
+  std::size_t filling = 0;  // the batch that gets bricks; those after it are being encoded, the oldest first
   std::optional<Record> previous;
   std::vector<IndexEntry> slabs;
   StreamTotals totals;
@@ -68,7 +69,7 @@ struct BrickWriter::State {
   }
   void check(const Record& record) const;
   void next_batch();
-  void write_batches();
+  void write_batch(OutBatch& batch);
 };
 
 void BrickWriter::State::check(const Record& r) const {
@@ -82,26 +83,28 @@ void BrickWriter::State::check(const Record& r) const {
   if (previous && !before(header.slab_axis, *previous, r)) refuse("is out of order");
 }
 
-/// Closes the batch that is being filled. Where batches are cut depends only on the bricks.
+/// Closes the batch that is being filled, and makes room for the next. Where batches are cut depends only on the
+/// bricks.
 void BrickWriter::State::next_batch() {
-  if (++filling == batches.size()) write_batches();
+  OutBatch& full = batches[filling];
+  if (!full.records.empty()) full.encoding.begin([&full, l = level] { encode(full, l); });
+  filling = (filling + 1) % batches.size();
+  write_batch(batches[filling]);
 }
 
-/// Writes the batches before the one that is being filled, which has no bricks or does not exist.
-void BrickWriter::State::write_batches() {
-  parallel_for(std::int64_t(filling), [&](std::int64_t i) { encode(batches[std::size_t(i)], level); });
-  for (OutBatch& batch : std::span(batches).first(filling)) {
-    const std::int32_t slab = batch.records.front().coord[header.slab_axis];
-    if (slabs.empty() || slabs.back().slab != slab) slabs.push_back({slab, 0, bytes, 0});
-    ++slabs.back().batches;
-    slabs.back().records += batch.records.size();
-    write(head_of(batch));
-    write(batch.packed);
-    totals.add(batch.totals);
-    batch.records.clear();
-    batch.mixed.clear();
-  }
-  filling = 0;
+/// Writes a closed batch, and empties it. Does nothing if it has no bricks.
+void BrickWriter::State::write_batch(OutBatch& batch) {
+  if (batch.records.empty()) return;
+  batch.encoding.wait();
+  const std::int32_t slab = batch.records.front().coord[header.slab_axis];
+  if (slabs.empty() || slabs.back().slab != slab) slabs.push_back({slab, 0, bytes, 0});
+  ++slabs.back().batches;
+  slabs.back().records += batch.records.size();
+  write(head_of(batch));
+  write(batch.packed);
+  totals.add(batch.totals);
+  batch.records.clear();
+  batch.mixed.clear();
 }
 
 BrickWriter::BrickWriter(OutputFile& out, const StreamHeader& header, int level)
@@ -129,8 +132,7 @@ void BrickWriter::write(const Brick& brick) {
 
 void BrickWriter::finish() {
   State& s = *state_;
-  if (!s.batches[s.filling].records.empty()) ++s.filling;
-  s.write_batches();
+  for (std::size_t i = 0; i < s.batches.size(); ++i) s.next_batch();
   const std::uint64_t index_offset = s.bytes;
   ByteSink index, entries;
   for (const IndexEntry& entry : s.slabs) put_index_entry(entries, entry);

@@ -233,6 +233,21 @@ void put_index_entry(ByteSink& sink, const IndexEntry& entry) {
   sink.put(entry.records);
 }
 
+void SlabIndex::add(std::int32_t slab, std::uint64_t offset, std::uint64_t records) {
+  if (last_.batches > 0 && last_.slab != slab) end();
+  if (last_.batches++ == 0) last_ = {slab, 1, offset, 0};
+  last_.records += records;
+}
+
+void SlabIndex::end() {
+  if (last_.batches == 0) return;
+  ByteSink bytes;
+  put_index_entry(bytes, last_);
+  digest_.add(bytes.bytes());
+  ++slabs_;
+  last_ = {};
+}
+
 std::vector<std::byte> encode_end(const StreamTotals& totals, std::uint64_t index_offset, std::uint64_t bytes) {
   ByteSink out;
   out.put_text(kEndTag);

@@ -60,6 +60,21 @@ struct IndexEntry {
 };
 void put_index_entry(ByteSink& sink, const IndexEntry& entry);
 
+/// The index of a stream (docs/brick-stream.md, section 8), made batch by batch. It is compared by its hash, since a
+/// copy could be large.
+class SlabIndex {
+ public:
+  void add(std::int32_t slab, std::uint64_t offset, std::uint64_t records);
+  void end();  ///< ends the slab in progress, if it has a batch
+  [[nodiscard]] std::uint32_t slabs() const { return slabs_; }
+  [[nodiscard]] std::uint64_t hash() const { return digest_.hash(); }
+
+ private:
+  IndexEntry last_;
+  std::uint32_t slabs_ = 0;
+  Digest digest_;
+};
+
 [[nodiscard]] std::vector<std::byte> encode_end(const StreamTotals& totals, std::uint64_t index_offset,
                                                 std::uint64_t bytes);
 

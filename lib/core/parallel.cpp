@@ -7,6 +7,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
+#include <tbb/task_group.h>
 
 #include <algorithm>
 #include <array>
@@ -250,6 +251,39 @@ void parallel_ranges(std::int64_t n, std::int64_t grain, const std::function<voi
 void isolated(const std::function<void()>& body) {
   if (threads_are_lost()) return body();
   tbb::this_task_arena::isolate(body);
+}
+
+struct SideWork::State {
+  explicit State(std::function<void()> what) : body(std::move(what)), group(loop.context()) {}
+
+  const std::function<void()> body;
+  Loop loop;
+  tbb::task_group group;
+  bool begun = false;  // by oneTBB; otherwise wait() calls the body
+};
+
+SideWork::SideWork() = default;
+SideWork::SideWork(SideWork&&) noexcept = default;
+
+SideWork::~SideWork() {
+  try {
+    wait();
+  } catch (...) {
+  }
+}
+
+void SideWork::begin(std::function<void()> body) {
+  state_ = std::make_unique<State>(std::move(body));
+  if (threads_are_lost()) return;
+  state_->group.run([s = state_.get()]() BP_UNSEEN { run_item(s->loop, s->body); });
+  state_->begun = true;
+}
+
+void SideWork::wait() {
+  if (!state_) return;
+  const std::unique_ptr<State> done = std::move(state_);
+  if (!done->begun) return run_item(done->loop, done->body);
+  done->group.wait();
 }
 
 namespace detail {

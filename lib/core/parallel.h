@@ -65,6 +65,25 @@ void parallel_ranges(std::int64_t n, std::int64_t grain, const std::function<voi
 /// Calls body(). While its parallel loops wait, this thread begins no other work, so body() may hold a lock.
 void isolated(const std::function<void()>& body);
 
+/// Work that another thread does while the caller goes on. What was begun outside of isolated() or of a job of
+/// run_jobs() must not be waited for within: without other threads, it would never be done.
+class SideWork {
+ public:
+  SideWork();
+  ~SideWork();  ///< waits, and drops what the body threw
+  SideWork(SideWork&&) noexcept;
+  SideWork& operator=(SideWork&&) = delete;
+  /// Begins body(). The caller has waited for what it began before.
+  void begin(std::function<void()> body);
+  /// Returns once the body has returned, at once if there is none. Rethrows what it threw. Where no other thread is
+  /// free, this one calls the body.
+  void wait();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;  ///< null: nothing was begun
+};
+
 /// Runs a pipeline with at most `in_flight` items: produce() in order on one thread at a time until it returns false,
 /// work() in parallel, consume() in the order of production. `Item` is default-constructible and movable.
 ///   produce: bool(Item&)   work: void(Item&)   consume: void(Item&)

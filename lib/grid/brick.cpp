@@ -3,12 +3,14 @@
 namespace bp {
 
 BrickFill classify(const BrickBits& bits) {
-  std::uint64_t any = 0, all = ~std::uint64_t(0);
-  for (const std::uint64_t w : bits) {
-    any |= w;
-    all &= w;
+  const std::uint64_t first = bits[0];
+  if (first != 0 && first != ~std::uint64_t(0)) return BrickFill::mixed;
+  for (std::size_t z = 0; z < kBrickWords; z += kBrickEdge) {
+    std::uint64_t other = 0;
+    for (std::size_t i = z; i < z + kBrickEdge; ++i) other |= bits[i] ^ first;
+    if (other != 0) return BrickFill::mixed;
   }
-  return any == 0 ? BrickFill::empty : all == ~std::uint64_t(0) ? BrickFill::full : BrickFill::mixed;
+  return first == 0 ? BrickFill::empty : BrickFill::full;
 }
 
 }  // namespace bp

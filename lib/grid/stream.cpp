@@ -1,7 +1,11 @@
 #include "lib/grid/stream.h"
 
 #include <cstring>
+#include <span>
 #include <tuple>
+#include <vector>
+
+#include "lib/core/parallel.h"
 
 namespace bp {
 
@@ -28,6 +32,29 @@ bool slab_order(int slab_axis, BrickCoord a, BrickCoord b) {
 
 bool slab_order(int slab_axis, const Brick& a, const Brick& b) {
   return std::pair(slab_key(slab_axis, a.coord), a.layer) < std::pair(slab_key(slab_axis, b.coord), b.layer);
+}
+
+void for_bricks(BrickSource& source, const std::function<void(const Brick&)>& take) {
+  for_bricks([&](Brick& brick) { return source.read(brick); }, take);
+}
+
+void for_bricks(const std::function<bool(Brick&)>& next, const std::function<void(const Brick&)>& take) {
+  struct Some {
+    std::vector<Brick> bricks = std::vector<Brick>(8);  // 256 KiB
+    SideWork taking;
+  };
+  auto ring = std::vector<Some>(std::size_t(thread_count()));
+  bool more = true;
+  for (std::size_t i = 0; more; i = (i + 1) % ring.size()) {
+    Some& some = ring[i];
+    some.taking.wait();
+    std::size_t count = 0;
+    while (count < some.bricks.size() && (more = next(some.bricks[count]))) ++count;
+    some.taking.begin([&take, bricks = std::span(some.bricks).first(count)] {
+      for (const Brick& brick : bricks) take(brick);
+    });
+  }
+  for (Some& some : ring) some.taking.wait();
 }
 
 void load_voxels(const BrickShelf& shelf, BitBox& box) {

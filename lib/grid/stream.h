@@ -70,6 +70,12 @@ class BrickSource {
   virtual bool read(Brick& out) = 0;
 };
 
+/// Calls take(brick) for all bricks of a stream, some of them at the same time, each on any thread. take() must be
+/// thread-safe for distinct bricks, as BrickShelf::put() is. Bricks are read in their order, while others are taken.
+void for_bricks(BrickSource& source, const std::function<void(const Brick&)>& take);
+/// Calls take(brick) in this way for bricks that next() gives, one after the other, until it returns false.
+void for_bricks(const std::function<bool(Brick&)>& next, const std::function<void(const Brick&)>& take);
+
 class BrickSink {
  public:
   virtual ~BrickSink() = default;

@@ -74,8 +74,7 @@ class FullDevice {
 
 }  // namespace
 
-TEST_CASE("on a device that is nearly full, tiles are closed and voxelized in parts, to the same bits",
-          "[quick][gpu]") {
+TEST_CASE("on a device that is nearly full, tiles are closed in parts, to the same bits", "[quick][gpu]") {
   if (gpus_or_skip().empty()) return;
   constexpr std::size_t kLeft = std::size_t(48) << 20;
   reference::Random random{11};

@@ -49,9 +49,9 @@ ScalePlan RuledSource::read_rules(const RulesText& rules, bool may_orient) {
 
 void RuledSource::shelve() {
   shelf_ = measure_.context.make_shelf();
-  for (Brick brick; source_.read(brick);) {
+  for_bricks(source_, [&](const Brick& brick) {
     if (brick.layer == Layer::solid) shelf_->put(brick.coord, brick.fill, brick.bits);
-  }
+  });
   shelved_ = std::make_unique<ShelfSource>(header(), *shelf_, nullptr, ShelfSource::Keep::all);
 }
 

@@ -1,10 +1,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <stdexcept>
 #include <thread>
+#include <vector>
 
 #include "lib/core/parallel.h"
 #include "tests/catch.h"
@@ -128,6 +130,38 @@ bool works_alone() {
 }
 
 }  // namespace
+
+TEST_CASE("side work is done when it is waited for, with any number of threads", "[quick][core]") {
+  for (const int threads : {1, 2, 4}) {
+    const ThreadLimit limit(threads);
+    std::vector<SideWork> ring(3);
+    std::vector<int> done(50, 0);
+    for (std::size_t i = 0; i < done.size(); ++i) {
+      ring[i % 3].wait();
+      CHECK((i < 3 || done[i - 3] == 1));
+      ring[i % 3].begin([&done, i] { done[i] = 1; });
+    }
+    for (SideWork& work : ring) work.wait();
+    CHECK(std::count(done.begin(), done.end(), 1) == 50);
+    CHECK_NOTHROW(ring[0].wait());
+  }
+}
+
+TEST_CASE("the exception of side work reaches who waits for it, and is dropped with the object", "[quick][core]") {
+  SideWork work;
+  work.begin([] { throw std::runtime_error("aside"); });
+  CHECK_THROWS_AS(work.wait(), std::runtime_error);
+  CHECK_NOTHROW(work.wait());
+  std::atomic<bool> ran{false};
+  {
+    SideWork dropped;
+    dropped.begin([&] {
+      ran = true;
+      throw std::runtime_error("nobody waits");
+    });
+  }
+  CHECK(ran);
+}
 
 TEST_CASE("a child of fork() does all work on its only thread", "[quick][core]") {
   parallel_for(100, [](std::int64_t) {});

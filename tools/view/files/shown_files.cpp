@@ -99,9 +99,9 @@ ShownMesh voxels_of_stream(const ShownFile& file, const Vec3d& middle, std::uint
   const StreamHeader header = reader.header();
   const Layer layer = header.has_closing ? Layer::closing : Layer::solid;
   const auto shelf = make_shelf(options.memory_bytes, options.temp_dir);
-  for (Brick brick; reader.read(brick);) {
+  for_bricks(reader, [&](const Brick& brick) {
     if (brick.layer == layer) shelf->put(brick.coord, brick.fill, brick.bits);
-  }
+  });
   const std::vector<BrickCoord> bricks = shelf->coords();
   std::vector<SurfacePiece> pieces(bricks.size());
   std::atomic<std::uint64_t> faces = 0;

@@ -8,7 +8,7 @@ namespace bp {
 
 TileReader::TileReader(BrickSource& source, BrickShelf& solid, const TileGrid& tiles, const Halo& widest)
     : source_(source), solid_(solid), tiles_(tiles), widest_(widest), axis_(source.header().slab_axis) {
-  more_ = source_.read(brick_);
+  more_ = source_.read(next_brick_);
 }
 
 bool TileReader::next(TileCoord& tile) {
@@ -34,20 +34,25 @@ void TileReader::read_rest() {
 /// Takes the bricks that begin before `end_vox` across the slab axis.
 void TileReader::read_before(std::int64_t end_vox) {
   const Stopwatch watch(seconds);
-  while (more_ && std::int64_t(brick_.coord[axis_]) * kBrickEdge < end_vox) {
-    take_brick();
-    more_ = source_.read(brick_);
-  }
+  const auto next = [&](Brick& brick) {
+    if (!more_ || std::int64_t(next_brick_.coord[axis_]) * kBrickEdge >= end_vox) return false;
+    brick = next_brick_;
+    more_ = source_.read(next_brick_);
+    list_tiles(brick);
+    return true;
+  };
+  for_bricks(next, [&](const Brick& brick) {
+    if (brick.layer == Layer::solid) solid_.put(brick.coord, brick.fill, brick.bits);
+  });
 }
 
-void TileReader::take_brick() {
-  if (brick_.layer != Layer::solid) {
+void TileReader::list_tiles(const Brick& brick) {
+  if (brick.layer != Layer::solid) {
     ++ignored_bricks;
     return;
   }
-  solid_.put(brick_.coord, brick_.fill, brick_.bits);
-  const BrickCoord next{brick_.coord.x + 1, brick_.coord.y + 1, brick_.coord.z + 1};
-  const VoxelBox reach = intersect(voxels_of({brick_.coord, next}).grown(widest_.dilation_vox), tiles_.voxels);
+  const BrickCoord end{brick.coord.x + 1, brick.coord.y + 1, brick.coord.z + 1};
+  const VoxelBox reach = intersect(voxels_of({brick.coord, end}).grown(widest_.dilation_vox), tiles_.voxels);
   const std::lock_guard lock(mutex_);
   for_each(tiles_.tiles_of(reach), [&](TileCoord t) { slabs_[t[axis_]].insert(t); });
 }

@@ -35,7 +35,7 @@ class TileReader {
 
  private:
   void read_before(std::int64_t end_vox);
-  void take_brick();
+  void list_tiles(const Brick& brick);
   /// Returns the first voxel across the slab axis that is no longer in the slab.
   [[nodiscard]] std::int64_t end_of(std::int32_t slab) const {
     return tiles_.voxels.min[axis_] + (std::int64_t(slab) + 1) * tiles_.edge_vox;
@@ -46,7 +46,7 @@ class TileReader {
   const TileGrid& tiles_;
   const Halo widest_;
   const int axis_;
-  Brick brick_;  ///< read from the source, and not yet taken
+  Brick next_brick_;  ///< read from the source, and not yet taken
   bool more_ = true;
   std::vector<TileCoord> queue_;  ///< tiles of the slab that is given out now, last first
   std::int32_t next_slab_ = 0;

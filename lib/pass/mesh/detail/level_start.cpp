@@ -1,5 +1,6 @@
 #include "lib/pass/mesh/detail/level_start.h"
 
+#include <atomic>
 #include <cmath>
 
 #include "lib/core/error.h"
@@ -32,12 +33,14 @@ namespace {
 Shelves read_layers(BrickSource& source, const ShelfFactory& make_shelf, bool want_input, MeshCounts& counts) {
   const Layer layer = source.header().has_closing ? Layer::closing : Layer::solid;
   Shelves shelves{make_shelf(), want_input ? make_shelf() : nullptr};
-  for (Brick brick; source.read(brick);) {
+  std::atomic<std::uint64_t> voxels{0};
+  for_bricks(source, [&](const Brick& brick) {
     if (shelves.input && brick.layer == Layer::solid) shelves.input->put(brick.coord, brick.fill, brick.bits);
-    if (brick.layer != layer) continue;
-    counts.voxels += count_bits(std::as_bytes(std::span(brick.bits)));
+    if (brick.layer != layer) return;
+    voxels += count_bits(std::as_bytes(std::span(brick.bits)));
     shelves.meshed->put(brick.coord, brick.fill, brick.bits);
-  }
+  });
+  counts.voxels += voxels;
   if (counts.voxels == 0) fail_empty(source.header());
   if (shelves.input && shelves.input->coords().empty())
     fail(ErrorCode::bad_input, {Remedy::enclose_closing}, "the stream's solid layer holds no voxel to keep inside");
