@@ -48,7 +48,7 @@ std::vector<bp::WrittenFile> write_files(bp::Build& build, const bp::MadeChain& 
   }
   build.report.begin("write");
   if (o.obj) return bp::write_obj_levels(o, levels, origin, out);
-  bp::LeafLooks looks{chain.scene.textures.get(), {}, o.colors() && chain.scene.has_colors()};
+  bp::LeafLooks looks{chain.scene.textures.get(), {}, o.colors() && chain.scene.has_colors(), o.compression()};
   looks.broken = chain.made.broken;
   looks.spare_places = true;
   return bp::write_profile(o, chain.made, chain.scene.voxels.header.bounds.diagonal(), origin, looks, out);

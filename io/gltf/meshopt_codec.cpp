@@ -2,6 +2,10 @@
 
 #include <meshoptimizer.h>
 
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
 #include <limits>
 
 namespace bp {
@@ -112,6 +116,29 @@ std::string octahedral(const std::vector<std::array<float, 4>>& tangents) {
   std::string out(4 * tangents.size(), '\0');
   if (!tangents.empty()) meshopt_encodeFilterOct(out.data(), tangents.size(), 4, 8, tangents[0].data());
   return out;
+}
+
+std::string exponential(const std::string& numbers) {
+  constexpr int kBits = 24, kMostExponent = 100;  // of the format: a signed integer, and what decoders must take
+  std::vector<float> all(numbers.size() / sizeof(float));
+  std::memcpy(all.data(), numbers.data(), numbers.size());
+  int least = kMostExponent, most = -kMostExponent;
+  for (const float x : all) {
+    if (x == 0) continue;
+    int exponent = 0;
+    const auto mantissa = std::uint32_t(std::ldexp(std::abs(std::frexp(x, &exponent)), kBits));
+    least = std::min(least, exponent - kBits + std::countr_zero(mantissa));
+    most = std::max(most, exponent);
+  }
+  if (least > most) least = most = 0;  // no number but 0
+  if (most - least > kBits - 1 || std::abs(least) > kMostExponent) return {};
+  std::vector<std::uint32_t> words;
+  words.reserve(all.size());
+  for (const float x : all) {
+    const auto multiple = std::int32_t(std::ldexp(x, -least));
+    words.push_back(std::uint32_t(least) << kBits | (std::uint32_t(multiple) & 0xffffff));
+  }
+  return {reinterpret_cast<const char*>(words.data()), numbers.size()};
 }
 
 std::string encode_triangles(const TriangleIndices& triangles, std::size_t vertices) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 /// The byte codecs of EXT_meshopt_compression (Khronos, glTF extension registry), by meshoptimizer. Lossless except for
-/// normals: no other filter is used when encoding.
+/// normals.
 namespace bp {
 
 using TriangleIndices = std::vector<std::array<std::uint32_t, 3>>;
@@ -24,6 +24,9 @@ using TriangleIndices = std::vector<std::array<std::uint32_t, 3>>;
 [[nodiscard]] std::string octahedral(const std::vector<std::array<float, 3>>& normals);
 /// As above, with a fourth number from -1 to 1, as tangents have it.
 [[nodiscard]] std::string octahedral(const std::vector<std::array<float, 4>>& tangents);
+/// Returns float32 numbers as whole multiples of one power of two: the input of encode_attributes() for a view with the
+/// filter EXPONENTIAL, which decodes them to equal numbers. Empty if a multiple would have more than 24 bits.
+[[nodiscard]] std::string exponential(const std::string& numbers);
 /// Encodes triangles. Decoding may rotate a triangle's corners.
 [[nodiscard]] std::string encode_triangles(const TriangleIndices& triangles, std::size_t vertices);
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "io/mesh/tile_compression.h"
+#include "io/mesh/compression.h"
 #include "lib/core/texture.h"
 
 namespace bp {
@@ -25,7 +25,7 @@ struct LeafLooks {
   const TextureSet* images = nullptr;  ///< null: no images
   LeafImageName name_of;               ///< null: images are part of the file
   bool colors = true;                  ///< false: the leaf is grey
-  TileCompression compression = TileCompression::meshopt;
+  Compression compression = Compression::none;
   bool spare_places = false;            ///< places that no image uses are kept, for those of an engine
   std::set<std::uint32_t> broken = {};  ///< images that are left out
 };

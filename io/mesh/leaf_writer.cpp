@@ -8,7 +8,7 @@ namespace bp {
 std::string leaf_glb(const std::string& name, const SceneLeaf& leaf, const LeafLooks& looks, UpAxis up,
                      const std::vector<Provenance>& provenance, bool is_scene) {
   using Json = GltfOutJson;
-  GlbData data(looks.compression == TileCompression::meshopt);
+  GlbData data(looks.compression == Compression::meshopt);
   GlbLooks all(data);
   const auto in_units = [](const std::array<std::int32_t, 3>& at) {
     return GlbLeaves::Position{float(at[0]), float(at[1]), float(at[2])};

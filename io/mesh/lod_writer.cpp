@@ -102,20 +102,28 @@ void check_mesh(const NamedMesh& named) {
 }
 
 template <class Number>
-std::size_t add_positions(GlbData& data, const Positions<Number>& p, std::size_t stride, int type, std::size_t count) {
-  return data.add_attributes(
-      p.bytes, stride, {{"componentType", type}, {"count", count}, {"type", "VEC3"}, {"min", p.min}, {"max", p.max}});
+Json positions_accessor(const Positions<Number>& p, std::size_t count) {
+  return {{"count", count}, {"type", "VEC3"}, {"min", p.min}, {"max", p.max}};
+}
+
+/// Adds positions. at(v): the float32 numbers of vertex v.
+template <class At>
+std::size_t add_positions(GlbData& data, const LatticeMesh& mesh, const std::vector<std::uint32_t>& order,
+                          const At& at) {
+  const Positions<float> p(mesh, order, 12, at);
+  return data.add_floats(p.bytes, 12, positions_accessor(p, order.size()));
 }
 
 std::size_t add_tile_positions(GlbData& data, const LatticeMesh& mesh, const std::vector<std::uint32_t>& order,
                                const TilePlace& place) {
   if (!data.is_compressed() || place.reach() > kShortInteger) {
-    const auto at = [&](LatticeCoord v) { return place.at<float>(v); };
-    return add_positions(data, Positions<float>(mesh, order, 12, at), 12, kGltfFloat, order.size());
+    return add_positions(data, mesh, order, [&](LatticeCoord v) { return place.at<float>(v); });
   }
   data.quantize();
-  const auto at = [&](LatticeCoord v) { return place.at<std::int16_t>(v); };
-  return add_positions(data, Positions<std::int16_t>(mesh, order, 8, at), 8, kGltfShort, order.size());
+  const Positions<std::int16_t> p(mesh, order, 8, [&](LatticeCoord v) { return place.at<std::int16_t>(v); });
+  Json accessor = positions_accessor(p, order.size());
+  accessor["componentType"] = kGltfShort;
+  return data.add_attributes(p.bytes, 8, std::move(accessor));
 }
 
 /// Returns the texture coordinates of the copies in `order`. If `compressed`: 16-bit integers for [0, 1], a
@@ -148,22 +156,26 @@ Vec3d offset_of(const SceneLeaf& leaf, const Vec3d& origin) {
   return offset;
 }
 
+/// Returns the power of two that positions of a compressed level from the scene are multiples of: a 131,072nd of the
+/// level's longest side, or up to twice as fine.
+double step_of(const SceneLeaf& leaf) {
+  int exponent = 0;
+  (void)std::frexp(leaf.bounds.longest_side(), &exponent);
+  return std::ldexp(1.0, exponent - 18);
+}
+
 class GlbBuilder {
  public:
-  enum class Data { plain, compressed };
-
   /// `origin`: is subtracted from all coordinates, and noted in the file. Throws if the subtraction rounds.
-  explicit GlbBuilder(const std::string& file, Data data, const Vec3d& origin = {})
-      : file_(file), data_(data == Data::compressed), looks_(data_), origin_(origin) {}
+  explicit GlbBuilder(const std::string& file, Compression compression, const Vec3d& origin = {})
+      : file_(file), data_(compression == Compression::meshopt), looks_(data_), origin_(origin) {}
 
   /// Adds mesh and node; returns the node's number. `offset`: gltf_offset() of all meshes of the file.
   std::size_t add(const NamedMesh& named, const std::optional<Vec3d>& offset) {
     check_mesh(named);
     const LatticeMesh& mesh = *named.mesh;
     const GltfPlace place(mesh, origin_, offset, file_);
-    add_mesh(named, [&](const auto& order) {
-      return add_positions(data_, Positions<float>(mesh, order, 12, place), 12, kGltfFloat, order.size());
-    });
+    add_mesh(named, [&](const auto& order) { return add_positions(data_, mesh, order, place); });
     Json node = node_of(named);
     place.place(node);
     json()["nodes"].push_back(std::move(node));
@@ -193,9 +205,13 @@ class GlbBuilder {
   std::size_t add_scene(const NamedMesh& named, const LeafLooks& looks, UpAxis up) {
     const SceneLeaf& leaf = *named.scene;
     const Vec3d offset = offset_of(leaf, origin_);
+    const double step = data_.is_compressed() ? step_of(leaf) : 0;
     const auto place = [&](const std::array<std::int32_t, 3>& at) {
       GlbLeaves::Position p;
-      for (std::size_t i = 0; i < 3; ++i) p[i] = float(leaf.origin[i] + leaf.unit * at[i] - origin_[i] - offset[i]);
+      for (std::size_t i = 0; i < 3; ++i) {
+        const double x = leaf.origin[i] + leaf.unit * at[i] - origin_[i] - offset[i];
+        p[i] = float(step > 0 ? std::nearbyint(x / step) * step : x);
+      }
       return p;
     };
     if (!leaves_) leaves_.emplace(data_, looks_, looks, up);  // levels share their images
@@ -306,7 +322,7 @@ std::optional<Vec3d> offset_of(std::span<const NamedMesh> all, const Vec3d& orig
 
 void write_lod_glb(std::span<const NamedMesh> levels, std::span<const double> coverage, OutputFile& out,
                    const MeshWriteOptions& options, const LeafLooks& looks) {
-  GlbBuilder builder(out.name(), GlbBuilder::Data::plain, options.origin);
+  GlbBuilder builder(out.name(), looks.compression, options.origin);
   const std::optional<Vec3d> offset = offset_of(levels, options.origin);
   const auto add = [&](const NamedMesh& level) {
     return level.scene != nullptr ? builder.add_scene(level, looks, level.mesh->frame.up) : builder.add(level, offset);
@@ -323,16 +339,15 @@ void write_lod_glb(std::span<const NamedMesh> levels, std::span<const double> co
 }
 
 void write_parts_glb(std::span<const NamedMesh> parts, OutputFile& out, const MeshWriteOptions& options) {
-  GlbBuilder builder(out.name(), GlbBuilder::Data::plain, options.origin);
+  GlbBuilder builder(out.name(), Compression::none, options.origin);
   const std::optional<Vec3d> offset = offset_of(parts, options.origin);
   std::vector<std::size_t> roots;
   for (const NamedMesh& part : parts) roots.push_back(builder.add(part, offset));
   builder.write(*parts.front().mesh, roots, contract_name(options), out);
 }
 
-std::string tile_glb(const NamedMesh& tile, LatticeCoord origin, TileCompression compression, Contract contract) {
-  const bool plain = compression == TileCompression::none;
-  GlbBuilder builder(tile.name + ".glb", plain ? GlbBuilder::Data::plain : GlbBuilder::Data::compressed);
+std::string tile_glb(const NamedMesh& tile, LatticeCoord origin, Compression compression, Contract contract) {
+  GlbBuilder builder(tile.name + ".glb", compression);
   builder.add_tile(tile, origin);
   return builder.tile_bytes(*tile.mesh, tile.mesh->frame.world(origin), contract);
 }

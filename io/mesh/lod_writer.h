@@ -3,10 +3,10 @@
 #include <string>
 
 #include "io/files/file.h"
+#include "io/mesh/compression.h"
 #include "io/mesh/contract.h"
 #include "io/mesh/leaf_looks.h"
 #include "io/mesh/mesh_writer.h"
-#include "io/mesh/tile_compression.h"
 #include "lib/mesh/lattice_mesh.h"
 #include "lib/pass/leaf/scene_leaf.h"
 
@@ -30,7 +30,8 @@ struct NamedMesh {
 /// extension show the finest level, if they read only the nodes of the scene (Blender imports every node).
 ///   coverage  one for each level: the least share of the screen's area, covered by the level's bounding sphere, at
 ///             which it is drawn; falling
-///   looks     images of the levels that are triangles of the scene
+///   looks     images of the levels that are triangles of the scene, and the storage of all levels. Compressed,
+///             positions are the same float32, normals are octahedral with 8 bits, and places in baked images have 16.
 void write_lod_glb(std::span<const NamedMesh> levels, std::span<const double> coverage, OutputFile& out,
                    const MeshWriteOptions& options = {}, const LeafLooks& looks = {});
 
@@ -43,8 +44,7 @@ void write_parts_glb(std::span<const NamedMesh> parts, OutputFile& out, const Me
 /// glTF's y up, which 3D Tiles turns back; unlike in other files of this suite, extras.up does not ask a reader to.
 /// `contract`: what the file claims.
 [[nodiscard]] std::string tile_glb(const NamedMesh& tile, LatticeCoord origin,
-                                   TileCompression compression = TileCompression::meshopt,
-                                   Contract contract = Contract::tile);
+                                   Compression compression = Compression::meshopt, Contract contract = Contract::tile);
 
 /// Returns the lattice point of `frame` that lies at `p`. Throws `failed` if there is none.
 [[nodiscard]] LatticeCoord lattice_point(const GridFrame& frame, const Vec3d& p);

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Levels to look at against those of gltfpack, in pictures:  peers.py BIN GLTFPACK FOLDER SCENE.obj...
 BIN: the folder of bplod and bpinfo. For a quarter and a tenth of a scene's triangles, gltfpack makes a level (-si), and `bplod --mode visual` two:
-one with as many triangles, and one whose file has as many bytes without images (gltfpack quantizes then). Pictures are as large as a level is seen
+one with as many triangles, and one whose file has as many bytes without images: of gltfpack -c and of bplod --compression meshopt. Pictures are as large as a level is seen
 where it is switched to: bplod's error is a pixel, and the picture has 48 to 400. Rows: scene, share, what is equal, pixels, and for both programs
 triangles, bytes, PSNR, SSIM and FLIP (images.py)."""
 import json
@@ -31,16 +31,16 @@ class Peers:
         self.bin, self.gltfpack, self.folder, self.scene = Path(bin_folder), gltfpack, Path(folder), Path(scene)
         self.triangles = images.compare(self.bin / "bpinfo", 48, scene, [scene])[0][1]
 
-    def packed(self, share, quantized):
+    def packed(self, share, small):
         # Its images are named relative to its file.
         out = self.scene.parent / f"peer_{self.scene.stem}.glb"
-        run(self.gltfpack, "-i", self.scene, "-o", out, "-si", share, *([] if quantized else ["-noq"]))
+        run(self.gltfpack, "-i", self.scene, "-o", out, "-si", share, "-c" if small else "-noq")
         return out
 
-    def ours(self, faces):
+    def ours(self, faces, *options):
         report = self.folder / "report.json"
         run(self.bin / "bplod", self.scene, "--mode", "visual", "--faces", max(4, int(faces)), "--up", "y", "-o", self.folder, "--name", "own",
-            "--overwrite", "-q", "--report", report)
+            "--overwrite", "-q", "--report", report, *options)
         return self.folder / "own_LOD0.glb", json.loads(report.read_text())["counts"]["levels"][0]
 
     def row(self, share, what, own, level, packed):
@@ -63,7 +63,7 @@ class Peers:
         packed = self.packed(share, True)
         wanted, faces = geometry_bytes(packed), count
         for _ in range(4):
-            own, level = self.ours(faces)
+            own, level = self.ours(faces, "--compression", "meshopt")
             have = geometry_bytes(own)
             if .95 * wanted <= have <= wanted:
                 break

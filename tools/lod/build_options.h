@@ -54,8 +54,8 @@ struct BuildOptions {
   std::int64_t hulls = 0;                                  ///< most hulls of a collision mesh; 0: as HullLimits::hulls
   std::int64_t hull_corners = std::int64_t(kMostCorners);  ///< most corners of a hull
   HullFiles hull_files = HullFiles::none;
-  std::string cache;                                       ///< folder with the results of earlier runs; empty: none
-  TileCompression compression = TileCompression::meshopt;  ///< of a tileset's contents
+  std::string cache;  ///< folder with the results of earlier runs; empty: none
+  std::optional<Compression> asked_compression;
   /// Below the finest level are tiles with the scene's own triangles.
   bool leaves = false;
   PlaceOptions place;             ///< where on the globe a tileset stands
@@ -64,6 +64,10 @@ struct BuildOptions {
   std::string inputs;             ///< file for the names of what was read; empty: none
   Appearance appearance = Appearance::automatic;
 
+  /// Returns how GLB files are stored: if nothing was asked for, tiles are small, and every program reads levels.
+  [[nodiscard]] Compression compression() const {
+    return asked_compression.value_or(is_tileset() ? Compression::meshopt : Compression::none);
+  }
   [[nodiscard]] bool colors() const { return appearance != Appearance::off; }
   [[nodiscard]] bool full() const { return appearance == Appearance::full; }
   [[nodiscard]] bool may_have_textures() const { return appearance >= Appearance::texture; }

@@ -109,7 +109,7 @@ OptionText option_text(const BuildOptions& o, Enclose enclosed, const LodTarget&
       .add("up", name_of(frame.up))
       .add("tighten", true);
   if (o.profile == LodProfile::cage) text.add("quads", true);
-  if (o.compression == TileCompression::none) text.add("compression", "none");
+  if (o.is_tileset() && o.compression() == Compression::none) text.add("compression", "none");
   return text;
 }
 

@@ -52,7 +52,7 @@ class LeafMaker {
         names_(looks_.images()) {
     OptionText text;
     text.add("leaves", "scene").add("tile", build.options.tile_vox);
-    if (build.options.compression == TileCompression::none) text.add("compression", "none");
+    if (build.options.compression() == Compression::none) text.add("compression", "none");
     provenance_ = {make_provenance("bplod", text)};
   }
 
@@ -166,7 +166,7 @@ class LeafMaker {
     KeptLeaf made{cut.bounds, cut.triangles(), ""};
     if (made.triangles == 0) return made;
     const LeafLooks looks{looks_.images(), [this](std::uint32_t image) { return names_.name_of(image); },
-                          build_.options.colors(), build_.options.compression};
+                          build_.options.colors(), build_.options.compression()};
     made.content = leaf_glb(build_.options.name + "_" + leaf.name, cut, looks, task_.frame.up, provenance_);
     return made;
   }

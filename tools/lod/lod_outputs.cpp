@@ -168,7 +168,7 @@ WholeLevels encoded(const BuildOptions& options, const CompleteLevels& made, std
     const LatticeMesh& mesh = made.levels[i].mesh;
     std::string content =
         tile_glb({level_name(options.name, first + i), &mesh}, lattice_point(mesh.frame, whole.origin),
-                 options.compression, contract_of_tiles(options));
+                 options.compression(), contract_of_tiles(options));
     whole.levels.push_back({std::move(content), bounds_of(mesh), made.facts[i], mesh.provenance});
   }
   return whole;

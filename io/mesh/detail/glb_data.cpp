@@ -45,6 +45,15 @@ std::size_t GlbData::add_attributes(const std::string& bytes, std::size_t stride
   return add_accessor(std::move(placed));
 }
 
+std::size_t GlbData::add_floats(const std::string& bytes, std::size_t stride, Json accessor) {
+  accessor["componentType"] = kGltfFloat;
+  if (compressed_) {
+    if (const std::string multiples = exponential(bytes); !multiples.empty())
+      return add_attributes(multiples, stride, std::move(accessor), "EXPONENTIAL");
+  }
+  return add_attributes(bytes, stride, std::move(accessor));
+}
+
 std::size_t GlbData::add_normals(const std::vector<std::array<float, 3>>& normals) {
   return add_directions(normals, "VEC3");
 }

@@ -25,6 +25,8 @@ class GlbData {
   /// Adds an accessor in a new view; `accessor` has all but the view. `filter`: of EXT_meshopt_compression.
   std::size_t add_attributes(const std::string& bytes, std::size_t stride, GltfOutJson accessor,
                              const char* filter = nullptr);
+  /// Adds vectors of float32, without loss.
+  std::size_t add_floats(const std::string& bytes, std::size_t stride, GltfOutJson accessor);
   std::size_t add_indices(const TriangleIndices& triangles, std::size_t vertices);
   /// Adds the bytes of an image; returns the number of their view.
   std::size_t add_image_bytes(const std::string& bytes);

@@ -14,6 +14,12 @@ void append(std::string& bytes, const Number& x) {
   bytes.append(reinterpret_cast<const char*>(&x), sizeof x);
 }
 
+/// Rounds a place in an image to a 16th of a texel of 4096. Images that repeat more than a hundred times keep theirs.
+float rounded(float place) {
+  constexpr float kSteps = 65536;
+  return std::abs(place) < 128 ? std::nearbyint(place * kSteps) / kSteps : place;
+}
+
 /// The arrays of one primitive: vertices in the order of the file.
 class LeafPrimitive {
  public:
@@ -50,9 +56,7 @@ class LeafPrimitive {
       }
       append(bytes, p);
     }
-    return data_.add_attributes(
-        bytes, 12,
-        {{"componentType", kGltfFloat}, {"count", order_.size()}, {"type", "VEC3"}, {"min", min}, {"max", max}});
+    return data_.add_floats(bytes, 12, {{"count", order_.size()}, {"type", "VEC3"}, {"min", min}, {"max", max}});
   }
   std::size_t add_normals() {
     std::vector<std::array<float, 3>> normals;
@@ -67,8 +71,10 @@ class LeafPrimitive {
   }
   std::size_t add_uv(Places places) {
     std::string bytes;
-    for (const std::uint32_t i : order_) append(bytes, part_.vertices[i].*places);
-    return data_.add_attributes(bytes, 8, {{"componentType", kGltfFloat}, {"count", order_.size()}, {"type", "VEC2"}});
+    for (const std::uint32_t i : order_) {
+      for (const float x : part_.vertices[i].*places) append(bytes, data_.is_compressed() ? rounded(x) : x);
+    }
+    return data_.add_floats(bytes, 8, {{"count", order_.size()}, {"type", "VEC2"}});
   }
   std::size_t add_colors() {
     std::string bytes;

@@ -83,6 +83,7 @@ void take_obj_name(const Args& args, BuildOptions& o) {
       out.stem().string().starts_with('.') || std::filesystem::is_directory(out, none))
     return;
   if (args.given("--name")) fail(ErrorCode::bad_argument, "--name: -o {} names the files already", o.out);
+  if (o.asked_compression) fail(ErrorCode::bad_argument, "--compression is of GLB files; give -o a folder");
   o.obj = true;
   o.name = out.stem().string();
   o.out = out.has_parent_path() ? out.parent_path().string() : ".";
@@ -115,7 +116,9 @@ void check_profile(const Args& args, const BuildOptions& o) {
       if (args.given(name) && o.profile != profile)
         fail(ErrorCode::bad_argument, "{} needs --profile {}", name, name_of(profile));
   };
-  needs({"--tile", "--tiles", "--cache", "--leaves", "--tile-compression", "--place", "--crs"}, LodProfile::tiles);
+  needs({"--tile", "--tiles", "--cache", "--leaves", "--place", "--crs"}, LodProfile::tiles);
+  if (o.asked_compression && o.profile != LodProfile::gltf && !o.is_tileset())
+    fail(ErrorCode::bad_argument, "--compression needs --profile gltf or 3dtiles");
   needs({"--hulls", "--hull-corners", "--hull-files"}, LodProfile::collision);
   needs({"--margin", "--symmetry"}, LodProfile::cage);
   needs({"--min-hidden", "--rooms"}, LodProfile::occluder);
@@ -188,6 +191,22 @@ void check_jobs(const BuildOptions& o) {
     fail(ErrorCode::bad_argument, "--tiles writes no tileset; leave -o to the run that puts the tiles together");
 }
 
+void declare_looks(Args& args, BuildOptions& o) {
+  args.option(
+      "--appearance",
+      {{"auto", Appearance::automatic, "a texture if the scene has textures, else colours"},
+       {"texture", Appearance::texture, "a texture with what the scene's textures and colours show, if it has any"},
+       {"full", Appearance::full, "and normals, roughness, metal and light, as images"},
+       {"color", Appearance::color, "colours on vertices, of the scene's materials and vertices, if it has any"},
+       {"off", Appearance::off, "neither"}},
+      o.appearance, "textures or colours of the levels");
+  args.option("--compression,--tile-compression",
+              {{"auto", std::optional<Compression>{}, "meshopt for 3dtiles, none for levels"},
+               {"meshopt", {Compression::meshopt}, "small, with EXT_meshopt_compression"},
+               {"none", {Compression::none}, "plain glTF, for programs without a decoder"}},
+              o.asked_compression, "how GLB files are stored");
+}
+
 void declare_profile(Args& args, BuildOptions& o) {
   args.group("Profile");
   args.option("--profile",
@@ -218,14 +237,7 @@ void declare_profile(Args& args, BuildOptions& o) {
       "--rooms", "filled|open|HEIGHT", [&o](const std::string& text) { o.rooms = parse_rooms(text); },
       "occluder: fill rooms, or leave those open that a person so high can enter (default: filled)");
   args.option("--margin", "LENGTH", o.margin, "cage: least distance from the scene");
-  args.option(
-      "--appearance",
-      {{"auto", Appearance::automatic, "a texture if the scene has textures, else colours"},
-       {"texture", Appearance::texture, "a texture with what the scene's textures and colours show, if it has any"},
-       {"full", Appearance::full, "and normals, roughness, metal and light, as images"},
-       {"color", Appearance::color, "colours on vertices, of the scene's materials and vertices, if it has any"},
-       {"off", Appearance::off, "neither"}},
-      o.appearance, "textures or colours of the levels");
+  declare_looks(args, o);
 }
 
 void declare_tileset(Args& args, BuildOptions& o) {
@@ -235,10 +247,6 @@ void declare_tileset(Args& args, BuildOptions& o) {
               {{"none", false, "the finest level ends the tileset"},
                {"scene", true, "the scene's own triangles and images, for close views"}},
               o.leaves, "what lies below the finest level");
-  args.option("--tile-compression",
-              {{"meshopt", TileCompression::meshopt, "small, with EXT_meshopt_compression"},
-               {"none", TileCompression::none, "plain glTF, for viewers without a decoder"}},
-              o.compression, "how contents are stored");
   o.place.add_to(args);
   args.option("--cache", "DIR", o.cache, "keep the results of all jobs in DIR, and reuse what has not changed");
   args.option(
@@ -356,7 +364,7 @@ Json options_json(const BuildOptions& o) {
           {"place", o.place.place ? Json(*o.place.place) : Json(nullptr)},
           {"crs", o.place.crs.empty() ? Json(nullptr) : Json(o.place.crs)},
           {"leaves", o.leaves ? "scene" : "none"},
-          {"tile_compression", o.compression == TileCompression::none ? "none" : "meshopt"},
+          {"compression", o.compression() == Compression::none ? "none" : "meshopt"},
           {"tiles", o.tiles ? Json{o.tiles->begin, o.tiles->end} : Json(nullptr)},
           {"explain", o.explain},
           {"scale", optional_json(o.closing.scale)},

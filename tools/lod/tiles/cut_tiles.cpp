@@ -104,7 +104,7 @@ class CutTiles {
       mesh.texture = level_texture(shop_.build, made_.scene, mesh, {0, 0, cut.scale_world}, *made_.looks(),
                                    texture_memory(shop_.build));
     return tile_glb({level.folder + "_" + name_of(cell), &mesh}, tile_origin(shop_.cells(), cell),
-                    shop_.options().compression, contract_of_tiles(shop_.options()));
+                    shop_.options().compression(), contract_of_tiles(shop_.options()));
   }
 
   void take_kept(std::size_t job) {

@@ -47,7 +47,7 @@ class VisualTiles {
         octree_(leaf_tree(looks, cube_.box, most_), most_) {
     OptionText text;
     text.add("mode", "visual").add("faces", most_);
-    if (build.options.compression == TileCompression::none) text.add("compression", "none");
+    if (build.options.compression() == Compression::none) text.add("compression", "none");
     provenance_ = {make_provenance("bplod", text)};
     if (results == nullptr) return;
     kept_.emplace(*results, looks, cube_.box);
@@ -183,7 +183,7 @@ class VisualTiles {
       const auto found = images.find(image);
       return found == images.end() ? std::string() : found->second;
     };
-    const LeafLooks looks{looks_.images(), name_of_image, build_.options.colors(), build_.options.compression};
+    const LeafLooks looks{looks_.images(), name_of_image, build_.options.colors(), build_.options.compression()};
     return leaf_glb(build_.options.name + "_0" + tile.box.path, shape.leaf, looks, up(), provenance_, false);
   }
   Tile tile_of(const VisualTile& made, const Vec3d& parent) const {

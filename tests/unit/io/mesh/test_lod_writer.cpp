@@ -111,6 +111,23 @@ TEST_CASE("a tile read back is the mesh, to the bit, relative to its origin", "[
   CHECK(bytes_of_file(path).size() < 20000);
 }
 
+TEST_CASE("compressed levels have the same triangles, and are smaller", "[quick][io][lod]") {
+  const TempDir dir;
+  const LatticeMesh mesh = random_level(frame_at({1000, -3, 7}, 0.37, UpAxis::z), 20000, 5);
+  const NamedMesh named{"a", &mesh};
+  const auto write = [&](Compression compression) {
+    LeafLooks looks;
+    looks.compression = compression;
+    return written(dir, [&](OutputFile& out) { write_lod_glb({&named, 1}, {}, out, {}, looks); });
+  };
+  const std::size_t plain = bytes_of_file(write(Compression::none)).size();
+  const std::string path = write(Compression::meshopt);
+  CHECK(canonical(soup(read_mesh(path))) == canonical(soup(mesh)));
+  CHECK(bytes_of_file(path).size() < plain * 2 / 3);  // random corners; those of a surface take a third
+  const Json doc = json_of(path);
+  CHECK(doc["extensionsRequired"] == Json{"EXT_meshopt_compression", "KHR_mesh_quantization"});
+}
+
 TEST_CASE("colours and normals of vertices come back, turned with the mesh, and change no position",
           "[quick][io][lod]") {
   const UpAxis up = UpAxis(GENERATE(range(0, 6)));
