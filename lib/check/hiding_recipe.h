@@ -21,7 +21,9 @@ struct HidingRecipe {
   GridFrame frame;
   double scale_world = 0;
   StructuringElement element = StructuringElement::cube;
-  double body_world = 0;  ///< height of a body that enters, along frame.up; 0: P is empty
+  double body_world = 0;     ///< height of a body that enters, along frame.up; 0: P is empty
+  bool opaque_only = false;  ///< transparent triangles hide nothing, and may meet the proxy
+  bool ground = false;       ///< the scene stands on the ground (tools/run/grounded_source.h), along frame.up
   /// Returns the width, scene units, below which gaps of the scene may count as closed. `off`: what points of the scene
   /// may be off by. Let a line keep a distance r from all triangles, and let it pass a voxel p. A voxel of G, grown by
   /// `off` along each axis, holds a point of a triangle as read, which is off by no more. So the voxel is at least r -

@@ -88,7 +88,11 @@ Json answers_of(const CheckReport& r) {
 Json recipe_json(const CheckReport& r) {
   Json json = {{"voxel", r.recipe.frame.voxel},
                {"scale", r.recipe.scale_world},
-               {"closed_gap", r.recipe.closed_gap(r.hidden_off)}};
+               {"closed_gap", r.recipe.closed_gap(r.hidden_off)},
+               {"element", r.recipe.element == StructuringElement::ball ? "ball" : "cube"},
+               {"walls", r.recipe.opaque_only ? "opaque" : "all"},
+               {"ground", r.recipe.ground},
+               {"up", name_of(r.recipe.frame.up)}};
   if (r.recipe.body_world > 0) json["body"] = r.recipe.body_world;
   return json;
 }

@@ -55,12 +55,19 @@ std::string row(const char* question, Answer answer, const std::string& why) {
 }
 
 /// Returns the recipe that the proxy's file names, on which the answer depends.
-std::string recipe_text(const HidingRecipe& recipe) {
+std::string recipe_text(const CheckReport& r) {
+  const HidingRecipe& recipe = r.recipe;
   std::string text = fmt::format("its file names voxels of {:.4g}", recipe.frame.voxel);
   if (recipe.scale_world > 0) text += fmt::format(" and a closing scale of {:.4g}", recipe.scale_world);
+  if (recipe.ground)
+    text += fmt::format("; the scene is taken to stand on the ground, {} up", name_of(recipe.frame.up));
+  // A triangle lies within hidden_off of where it was read, and G within as much of that: on both sides of a body.
+  const double doubt = 4 * r.hidden_off;
   if (recipe.body_world > 0)
-    text += fmt::format("; rooms count as outside if a body {:.4g} high and {:.4g} wide can enter", recipe.body_world,
-                        recipe.body_world * kBodyWidth);
+    text +=
+        fmt::format("; rooms count as outside if a body {:.4g} high, {} up, and {:.4g} wide along the axes can enter",
+                    recipe.body_world + doubt, name_of(recipe.frame.up), recipe.body_world * kBodyWidth + doubt);
+  if (!recipe.opaque_only) text += "; transparent triangles are walls";
   return text;
 }
 
@@ -76,7 +83,7 @@ std::string inside_rows(const CheckReport& r) {
   if (!r.asks_hidden) return text;
   if (r.hiddenness() != Answer::proven) return text + row("hidden from outside", r.hiddenness(), hidden_doubt(r));
   return text + fmt::format("  {:<28}yes, if gaps narrower than {:.4g} count as closed: {}\n", "hidden from outside",
-                            r.recipe.closed_gap(r.hidden_off), recipe_text(r.recipe));
+                            r.recipe.closed_gap(r.hidden_off), recipe_text(r));
 }
 
 /// Returns whether a finding is no failure: because the question asked instead is decided, or because triangles that

@@ -66,7 +66,6 @@ struct Corners {
 [[nodiscard]] inline CellRange voxel_range(const Corners& t) {
   CellRange r{};
   for (int axis = 0; axis < 3; ++axis) {
-    // Returns n . p, saturated to +-2^126, without overflow: |n| < 2^96, |p| < 2^49.
     r.min[axis] = (t.low(axis) - t.slack - 1) >> kFixedBits;
     r.max[axis] = ((t.high(axis) + t.slack) >> kFixedBits) + 1;
   }

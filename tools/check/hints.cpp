@@ -27,14 +27,14 @@ bool is_file(const std::string& path) {
 /// Returns the VoxelizeCounts::input_hash of these scenes, read as the tool that made a proxy read them. Empty if they
 /// cannot be read.
 std::string hash_of(const std::vector<std::string>& scenes, SceneOptions options,
-                    const std::optional<OccluderRecipe>& recipe) {
+                    const std::optional<HidingRecipe>& recipe) {
   options.walls_only = recipe && recipe->opaque_only;
   options.keep_degenerate = true;
   options.keep_extremes = false;
   ContentHash hash;
   try {
     std::unique_ptr<TriangleSource> scene = open_scenes(scenes, options);
-    if (recipe && recipe->ground) scene = std::make_unique<GroundedSource>(std::move(scene), recipe->up);
+    if (recipe && recipe->ground) scene = std::make_unique<GroundedSource>(std::move(scene), recipe->frame.up);
     for (std::vector<TriangleD> chunk; scene->read(chunk);) hash.add(std::as_bytes(std::span(chunk)));
   } catch (const Error&) {
     return "";

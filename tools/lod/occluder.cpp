@@ -22,8 +22,8 @@ namespace {
 constexpr double kLittle = 5e-3;  // of the bounds' volume
 constexpr double kMuch = 0.3;     ///< of the bounds' volume: then no large rooms are missing
 constexpr double kHalf = 0.5;     ///< of the hidden volume
-// The share of hidden voxels that a note tells of if a body can enter them. It is 0.3 and more in houses, and less than
-// this in the inlets and wheels of machines (openfoam_motorBike, engine_2cylinder).
+// The share of hidden voxels that a note tells of if a body can enter them. It is 0.3 and more in houses. Inlets and
+// wheels of machines are about at this share, and cabins above (docs/decisions/0019-occluders-behind-openings.md).
 constexpr double kMuchEntered = 0.1;
 
 double hidden_volume(const BuiltOccluder& built) {
@@ -34,10 +34,10 @@ double volume_of(const Bounds3d& b) {
   return (b.max[0] - b.min[0]) * (b.max[1] - b.min[1]) * (b.max[2] - b.min[2]);
 }
 
-OccluderRecipe recipe_of(const BuildOptions& o, const BuiltOccluder& built) {
+HidingRecipe recipe_of(const BuildOptions& o, const BuiltOccluder& built) {
   const GridFrame& frame = built.scene.voxels.header.frame;
   const double body = o.rooms ? built.rooms.body_world : 0;
-  return {{frame, built.hidden.scale_world, o.closing.element, body}, true, built.ground, frame.up};
+  return {frame, built.hidden.scale_world, o.closing.element, body, true, built.ground};
 }
 
 OptionText option_text(const BuildOptions& o, const BuiltOccluder& built) {
@@ -48,7 +48,7 @@ OptionText option_text(const BuildOptions& o, const BuiltOccluder& built) {
 }
 
 double closed_gap(const BuildOptions& o, const BuiltOccluder& built) {
-  return recipe_of(o, built).hiding.closed_gap();  // as bpcheck says
+  return recipe_of(o, built).closed_gap();  // as bpcheck says
 }
 
 Json json_of(const BuildOptions& o, const BuiltOccluder& built) {
@@ -121,8 +121,9 @@ std::string rooms_note(const BuildOptions& o, const BuiltOccluder& built) {
   const GridFrame& frame = built.scene.voxels.header.frame;
   if (o.rooms && body_world == 0)
     return "--rooms open leaves no room open: none is so high that voxels could show its doors; name a height";
-  const std::string body = fmt::format("a body {:.3g} high and {:.3g} wide", body_world, body_world * kBodyWidth);
-  if (o.rooms) return fmt::format("rooms that {} can enter are left open", body);
+  const std::string body =
+      fmt::format("a body {:.3g} high and {:.3g} wide, along the axes,", body_world, body_world * kBodyWidth);
+  if (o.rooms) return fmt::format("rooms that {} can enter or reach into are left open", body);
   const double share = double(entrance.hidden) / double(built.hidden.voxels.count);
   if (share < kMuchEntered) return "";
   const VoxelBox& door = entrance.opening;

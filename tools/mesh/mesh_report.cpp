@@ -72,7 +72,7 @@ Provenance mesh_provenance(const MeshOptions& o, const GridFrame& frame, const s
   if (o.edge_factor) text.add("edge_factor", *o.edge_factor);
   if (o.quads) text.add("quads", o.quads);
   if (o.levels.faces.size() > 1) text.add("level", level);
-  if (o.proxy.mode == MeshMode::inside) add_recipe({{frame}, false, false, frame.up}, text);
+  if (o.proxy.mode == MeshMode::inside) add_recipe({frame}, text);
   return make_provenance("bpmesh", text, input);
 }
 

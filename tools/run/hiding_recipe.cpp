@@ -24,10 +24,9 @@ double number_or_0(const std::string& line, const std::string& key) {
   return line.find(" " + key + "=") == std::string::npos ? 0 : parse_number(value_of(line, key));
 }
 
-OccluderRecipe parsed(const std::string& line) {
+HidingRecipe parsed(const std::string& line) {
   constexpr std::int64_t kMost = std::int64_t(1) << 50;
-  OccluderRecipe whole;
-  HidingRecipe& recipe = whole.hiding;
+  HidingRecipe recipe;
   recipe.frame.voxel = parse_number(value_of(line, "voxel"));
   recipe.scale_world = parse_number(value_of(line, "openings"));
   recipe.element = value_of(line, "element") == "ball" ? StructuringElement::ball : StructuringElement::cube;
@@ -38,40 +37,47 @@ OccluderRecipe parsed(const std::string& line) {
     recipe.frame.origin[i++] = parse_integer(number, -kMost, kMost);
   });
   if (i != 3) fail(ErrorCode::bad_argument, "a grid of fewer than three numbers");
-  whole.opaque_only = value_of(line, "walls") == "opaque";
-  whole.ground = value_of(line, "ground") == "yes";
+  recipe.opaque_only = value_of(line, "walls") == "opaque";
+  recipe.ground = value_of(line, "ground") == "yes";
   const std::optional<UpAxis> up = up_axis_named(value_of(line, "up"));
   if (!up) fail(ErrorCode::bad_argument, "no axis that points up");
-  whole.up = recipe.frame.up = *up;
-  return whole;
+  recipe.frame.up = *up;
+  return recipe;
+}
+
+/// Returns whether the axis of a recipe has a meaning, and is not the one by which the file was turned.
+bool is_turned(const HidingRecipe& recipe, const MeshExtras& extras) {
+  const bool has_up = recipe.ground || recipe.body_world > 0;
+  return has_up && extras.up.value_or(name_of(UpAxis::y)) != name_of(recipe.frame.up);
 }
 
 }  // namespace
 
-void add_recipe(const OccluderRecipe& recipe, OptionText& text) {
-  const auto& [frame, scale_world, element, body_world] = recipe.hiding;
-  text.add("openings", scale_world).add("element", name_of(element));
-  if (body_world > 0) text.add("body", body_world);
-  text.add("walls", recipe.opaque_only ? "opaque" : "all").add("ground", recipe.ground).add("up", name_of(recipe.up));
+void add_recipe(const HidingRecipe& recipe, OptionText& text) {
+  const GridFrame& frame = recipe.frame;
+  text.add("openings", recipe.scale_world).add("element", name_of(recipe.element));
+  if (recipe.body_world > 0) text.add("body", recipe.body_world);
+  text.add("walls", recipe.opaque_only ? "opaque" : "all").add("ground", recipe.ground).add("up", name_of(frame.up));
   text.add("voxel", frame.voxel);
   text.add("grid", fmt::format("{},{},{}", frame.origin[0], frame.origin[1], frame.origin[2]));
 }
 
-std::optional<OccluderRecipe> hiding_recipe(const MeshExtras& extras) {
+std::optional<HidingRecipe> hiding_recipe(const MeshExtras& extras) {
   if (mode_of(extras) != "inside") return {};
   try {
-    return parsed(extras.provenance.back());
+    const HidingRecipe recipe = parsed(extras.provenance.back());
+    return is_turned(recipe, extras) ? std::nullopt : std::optional(recipe);
   } catch (const Error&) {
     return {};
   }
 }
 
 Walls walls_of(const MeshExtras& extras, const std::function<std::unique_ptr<TriangleSource>(bool opaque_only)>& open) {
-  const std::optional<OccluderRecipe> recipe = hiding_recipe(extras);
+  const std::optional<HidingRecipe> recipe = hiding_recipe(extras);
   if (!recipe) return {};
   Walls walls{open(recipe->opaque_only), {}};
-  if (recipe->ground) walls.source = std::make_unique<GroundedSource>(std::move(walls.source), recipe->up);
-  walls.question = HidingQuestion{recipe->hiding, walls.source.get(), !recipe->opaque_only};
+  if (recipe->ground) walls.source = std::make_unique<GroundedSource>(std::move(walls.source), recipe->frame.up);
+  walls.question = HidingQuestion{*recipe, walls.source.get(), !recipe->opaque_only};
   return walls;
 }
 

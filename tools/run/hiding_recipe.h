@@ -9,19 +9,12 @@
 
 namespace bp {
 
-struct OccluderRecipe {
-  HidingRecipe hiding;
-  bool opaque_only = false;  ///< transparent triangles hide nothing, and may meet the proxy
-  bool ground = false;       ///< the scene stands on the ground (tools/run/grounded_source.h), along the axis `up`
-  UpAxis up = UpAxis::y;
-};
-
 /// Adds the recipe to the options in the provenance of a file.
-void add_recipe(const OccluderRecipe& recipe, OptionText& text);
+void add_recipe(const HidingRecipe& recipe, OptionText& text);
 
 /// Returns the recipe that bpmesh --mode inside or bplod --profile occluder wrote into its output; nothing if another
-/// tool made the file, or if the recipe cannot be read or understood.
-[[nodiscard]] std::optional<OccluderRecipe> hiding_recipe(const MeshExtras& extras);
+/// tool made the file, if the recipe cannot be read or understood, or if another axis points up in it than in the file.
+[[nodiscard]] std::optional<HidingRecipe> hiding_recipe(const MeshExtras& extras);
 
 /// The question how a proxy is hidden, with the scene that hides it.
 struct Walls {

@@ -216,6 +216,7 @@ void Server::State::add_geometry() {
   made("/api/layer", kBytes, [this](const Request& request) {
     return session.layer(number_in(request, "file"), number_in(request, "level"), number_in(request, "distances") == 1);
   });
+  made("/api/parts", kJson, [this](const Request&) { return session.scene().part_names(); });
   made("/api/part", kJson, [this](const Request& request) { return session.scene().part_at(point_in(request)); });
 }
 
@@ -230,7 +231,6 @@ void Server::State::add_routes() {
     http.Get(path, [make](const Request&, Response& response) { response.set_content(make(), kJson); });
   };
   json("/api/state", [this] { return session.state(); });
-  json("/api/parts", [this] { return session.scene().part_names(); });
   json("/api/rules", [this] { return session.rules(); });
   http.Get("/api/events", [this](const Request& request, Response& response) { listen(request, response); });
   http.Post("/api/edit", [this](const Request& request, Response& response) {

@@ -118,14 +118,14 @@ BitBox behind_openings(const BitBox& closing, const BitBox& touched, BitBox outs
   return rooms;
 }
 
-/// Returns the hidden voxels by their definition, set by set. The border of the box is empty.
-BitBox hidden_voxels(const BitBox& touched, const HidingRecipe& recipe) {
+/// Returns the hidden voxels by their definition, in a box with an empty border. `body`: reach of one that enters.
+BitBox hidden_voxels(const BitBox& touched, const HidingRecipe& recipe, VoxelCoord body) {
   BitBox closing = closing_of(touched, recipe);
   BitBox reached(touched.box());
   reached.set(touched.box().min);
   std::optional<BitBox> entered;  // the set P
   if (recipe.body_world > 0) {
-    entered = entered_voxels(touched, body_reach(recipe.frame, recipe.body_world));
+    entered = entered_voxels(touched, body);
     combine(reached, *entered, either);
     combine(reached, closing, less);
   }
@@ -178,7 +178,7 @@ class HiddenCheck {
  private:
   /// `slack`: that voxels are grown by when they are tested for triangles.
   void check(std::int64_t slack) {
-    const BitBox hidden = hidden_voxels(touched_voxels(slack), recipe_);
+    const BitBox hidden = hidden_voxels(touched_voxels(slack), recipe_, body_);
     check_faces(hidden);
     check_swallowed(hidden);
   }
@@ -230,23 +230,22 @@ class HiddenCheck {
     report_.off = walls_.counts().rounding.of(bounds);
     if (fixed_slack(recipe_.frame, report_.off) > kMostFixedSlack)
       return undecided(fmt::format("coordinates are read to within {:.2g}, too much for these voxels", report_.off));
-    const double reach = std::max(recipe_.scale_world, recipe_.body_world / 2) / recipe_.frame.voxel;
-    double bytes = double(kSetsAtOnce + (recipe_.body_world > 0)) / 8;
     for (const Vec3d& p : {bounds.min, bounds.max}) {
       for (const double x : recipe_.frame.to_voxels(p))
         if (!(std::abs(x) < kMostWideVoxels))
           return undecided("the scene reaches far beyond the voxels that the file names");
     }
-    box_ = voxel_bounds(recipe_.frame, bounds).grown(std::int32_t(std::ceil(reach)) + 2);
+    box_ = voxel_bounds(recipe_.frame, bounds);
+    body_ = body_reach(recipe_.frame, recipe_.body_world, box_.size());
+    box_ = box_for_bodies(box_, body_, std::int32_t(std::ceil(recipe_.scale_world / recipe_.frame.voxel)) + 2);
     box_.min.x = floor_div(box_.min.x, 64) * 64;  // whole words, as sets of voxels have them
     box_.max.x = ceil_div(box_.max.x, 64) * 64;
-    for (int i = 0; i < 3; ++i) bytes *= double(box_.size()[i]);
-    if (bytes > double(memory_bytes)) {
-      report_.memory_bytes = std::uint64_t(bytes);
-      return undecided(fmt::format("the voxels take {} MiB, and the limit on memory leaves {} MiB for them",
-                                   std::uint64_t(bytes) / (1 << 20) + 1, memory_bytes >> 20));
-    }
-    return true;
+    const VoxelCoord size = box_.size();
+    const double bytes = double(kSetsAtOnce + (recipe_.body_world > 0)) / 8 * size.x * size.y * size.z;
+    if (bytes <= double(memory_bytes)) return true;
+    report_.memory_bytes = std::uint64_t(bytes);
+    return undecided(fmt::format("the voxels take {} MiB, and the limit on memory leaves {} MiB for them",
+                                 std::uint64_t(bytes) / (1 << 20) + 1, memory_bytes >> 20));
   }
 
   BitBox touched_voxels(std::int64_t slack) {
@@ -346,6 +345,7 @@ class HiddenCheck {
   const Surface& surface_;
   TriangleSource& walls_;
   const HidingRecipe& recipe_;
+  VoxelCoord body_{};  ///< reach of the body that enters
   const std::size_t max_examples_;
   std::vector<LatticeCoord> corners_;  // per_voxel_ units are a voxel
   std::int64_t per_voxel_ = kLatticePerVoxel;

@@ -63,7 +63,8 @@ std::unique_ptr<BrickShelf> LevelVoxels::with_rooms(const Solid& solid, const Sc
     scales.insert(scales.begin(), scale);
   HiddenOptions options;
   options.context = context;
-  const std::vector<bool> possible = possible_rooms(solid.header, *solid.shelf, scales, options);
+  const std::vector<bool> possible = field.constant() ? possible_rooms(solid.header, *solid.shelf, scales, options)
+                                                      : std::vector<bool>(scales.size(), true);
   std::unique_ptr<BrickShelf> all;
   for (std::size_t i = 0; i < scales.size(); ++i) {
     if (!possible[i]) continue;

@@ -1,6 +1,5 @@
 #include "lib/pass/hide/entered_rooms.h"
 
-#include <algorithm>
 #include <limits>
 #include <numeric>
 #include <vector>
@@ -25,7 +24,9 @@ void keep(BitBox& a, const BitBox& b, bool in_b) {
 }
 
 void check_memory(const VoxelBox& box, const PassContext& context) {
-  const auto needed = std::uint64_t(double(box.volume()) / 8 * kSetsForRooms);
+  constexpr double kWord = 64;  // a row of bits has whole words
+  const VoxelCoord size = box.size();
+  const auto needed = std::uint64_t((size.x + 2 * kWord) * size.y * size.z / 8 * kSetsForRooms);
   if (needed > context.memory.bytes)
     throw NeedsMemory("finding the rooms that can be entered", needed, context.memory.bytes,
                       context.memory.limit_for(needed), {Remedy::larger_voxels});
@@ -92,8 +93,11 @@ std::optional<Entered> entered_by(const StreamHeader& header, const BrickShelf& 
     fail(ErrorCode::bad_argument, {Remedy::smaller_voxels}, "a body {:.4g} high is less than two voxels of {:.4g} wide",
          body_world, frame.voxel);
   }
-  const VoxelCoord reach = body_reach(frame, out.body_world);
-  const VoxelBox box = bounds.grown(std::max({reach.x, reach.y, reach.z}) + 1);
+  if (out.body_world > kMostBodyVox * frame.voxel)
+    fail(ErrorCode::bad_argument, {Remedy::larger_voxels}, "a body {:.4g} high is more than {} voxels of {:.4g}",
+         out.body_world, kMostBodyVox, frame.voxel);
+  const VoxelCoord reach = body_reach(frame, out.body_world, bounds.size());
+  const VoxelBox box = box_for_bodies(bounds, reach);
   check_memory(box, context);
   out.voxels = entered_voxels(loaded(touched, box), reach);
   return out;

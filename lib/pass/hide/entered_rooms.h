@@ -10,6 +10,9 @@ namespace bp {
 /// windows less than 1.5 m.
 constexpr double kBodyOfRoom = 0.6;
 
+/// The most voxels that a body is high: bpcheck makes no larger sets.
+constexpr std::int32_t kMostBodyVox = 4000;
+
 /// The voxels that a body enters, the set P.
 struct Entered {
   double body_world = 0;  ///< height of the body, scene units
@@ -17,7 +20,7 @@ struct Entered {
 };
 /// Returns what bodies of a height enter. `touched`: the bricks of `header`. `body_world`: 0: kBodyOfRoom of the usual
 /// height. Nothing if the scene has no such height. Throws NeedsMemory, and bad_argument if a body is less than two
-/// voxels wide: it might pass an opening that the voxels do not show.
+/// voxels wide, since it might pass an opening that the voxels do not show, or more than kMostBodyVox high.
 [[nodiscard]] std::optional<Entered> entered_by(const StreamHeader& header, const BrickShelf& touched,
                                                 double body_world, const PassContext& context);
 

@@ -12,8 +12,7 @@
 ///   R       added voxels that lie in no gap and are nearer to C than to O, along paths over faces of such voxels, at
 ///           most 2 ceil(S) long: what the closing adds along the edges of rooms
 ///   O'      P, and what the outside or P reach through faces of voxels not in G, C or R. So it has everything that the
-///   closing
-///           adds in corners, niches, alleys and openings; but no room behind them
+///           closing adds in corners, niches, alleys and openings; but no room behind them
 ///   T       voxels of G next to O', and voxels of G next to these; over faces, edges and corners. Each point of the
 ///           scene that is seen from O' lies in T alone
 ///   hidden  all other voxels

@@ -76,12 +76,32 @@ TEST_CASE("a body enters by a door, not by a window, and not if it is too tall",
   CHECK(enters({1, 1, 2}, shut));  // by the window
 }
 
+TEST_CASE("a body larger than the solid enters what one as large as the solid does", "[quick][volume][occluder]") {
+  const int seed = GENERATE(range(0, 6));
+  const VoxelBox bounds{{0, 0, 0}, {7, 6, 5}};
+  std::mt19937 random(unsigned(seed) + 1);
+  const auto entered_of = [&](const BitBox& touched, VoxelCoord reach) {
+    BitBox solid(bounds.grown(31)), inside(bounds);
+    copy_voxels(touched, solid);
+    copy_voxels(entered_voxels(solid, reach), inside);
+    return inside;
+  };
+  BitBox touched(bounds);
+  for_each(bounds, [&](VoxelCoord p) {
+    if (random() % 12 == 0) touched.set(p);
+  });
+  for (const VoxelCoord reach : {VoxelCoord{30, 1, 1}, {1, 20, 0}, {9, 8, 7}, {0, 0, 30}}) {
+    const VoxelCoord clamped{std::min(reach.x, 7), std::min(reach.y, 6), std::min(reach.z, 5)};
+    CHECK(entered_of(touched, reach) == entered_of(touched, clamped));
+  }
+}
+
 TEST_CASE("a body holds its whole voxels wherever it stands", "[quick][volume][occluder]") {
   GridFrame frame;
   frame.voxel = 0.25;
   frame.up = GENERATE(UpAxis::y, UpAxis::minus_z);
   const double height = GENERATE(1.5, 1.8, 2.9, 6.0);
-  const VoxelCoord reach = body_reach(frame, height);
+  const VoxelCoord reach = body_reach(frame, height, {100, 100, 100});
   const int up = frame.up == UpAxis::y ? 1 : 2;
   for (int axis = 0; axis < 3; ++axis) {
     const double width = axis == up ? height : height * kBodyWidth;

@@ -76,8 +76,10 @@ std::string ShownScene::part_at(const Vec3d& point) const {
     return false;  // a later triangle of the part may be nearer
   };
   const auto source = open_scenes(options_.voxels.scenes, scene);
-  for (std::vector<TriangleD> some; !events_.ended() && source->read(some);) {
-  }
+  std::uint64_t triangles = 0;
+  for (std::vector<TriangleD> some; !events_.ended() && source->read(some);) triangles += some.size();
+  if (!events_.ended() && triangles != header_.scene.triangles)
+    fail(ErrorCode::bad_input, "{}: has changed since it was opened", source->name());
   return text_of({{"part", part}});
 }
 
