@@ -31,7 +31,7 @@ class CudaBackend final : public Backend {
   ~CudaBackend() override { (void)cudaStreamSynchronize(stream_.get()); }
 
   [[nodiscard]] std::string name() const override { return name_; }
-  [[nodiscard]] std::uint64_t pinned_bytes() const override { return cuda_pinned_bytes(); }
+  [[nodiscard]] std::uint64_t pinned_bytes() const override { return 2 * kStagingBytes; }
 
   void close(const BitBox& solid, const ScaleLattice& scale, const Halo& halo, const ClosingParams& params,
              const VoxelBox& interior, BitBox& closed) override {
@@ -87,10 +87,6 @@ class CudaBackend final : public Backend {
 };
 
 }  // namespace
-
-std::uint64_t cuda_pinned_bytes() {
-  return 2 * kStagingBytes;
-}
 
 std::unique_ptr<Backend> make_cuda_backend(int device) {
   return std::make_unique<CudaBackend>(device);

@@ -1,5 +1,4 @@
 #pragma once
-#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -23,7 +22,5 @@ struct CudaDevice {
 /// with the tiles and are kept. A tile that does not fit in device memory is closed in parts. Throws DeviceError if
 /// there is no such device, or if this build holds no code for it. Later failures of the device are DeviceErrors, too.
 [[nodiscard]] std::unique_ptr<Backend> make_cuda_backend(int device);
-/// Returns what pinned_bytes() of each of them is.
-[[nodiscard]] std::uint64_t cuda_pinned_bytes();
 
 }  // namespace bp

@@ -124,6 +124,7 @@ std::string exponential(const std::string& numbers) {
   std::memcpy(all.data(), numbers.data(), numbers.size());
   int least = kMostExponent, most = -kMostExponent;
   for (const float x : all) {
+    if (!std::isfinite(x)) return {};
     if (x == 0) continue;
     int exponent = 0;
     const auto mantissa = std::uint32_t(std::ldexp(std::abs(std::frexp(x, &exponent)), kBits));

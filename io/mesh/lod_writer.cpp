@@ -156,12 +156,12 @@ Vec3d offset_of(const SceneLeaf& leaf, const Vec3d& origin) {
   return offset;
 }
 
-/// Returns the power of two that positions of a compressed level from the scene are multiples of: a 131,072nd of the
+/// Returns the power of two that positions of a compressed level from the scene are multiples of: a 524,288th of the
 /// level's longest side, or up to twice as fine.
 double step_of(const SceneLeaf& leaf) {
   int exponent = 0;
   (void)std::frexp(leaf.bounds.longest_side(), &exponent);
-  return std::ldexp(1.0, exponent - 18);
+  return std::ldexp(1.0, exponent - 20);
 }
 
 class GlbBuilder {

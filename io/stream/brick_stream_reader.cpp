@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <exception>
 #include <optional>
+#include <utility>
 
 #include "io/stream/brick_stream.h"
 #include "io/stream/stream_format.h"
@@ -339,25 +340,25 @@ void BrickReader::State::fetch_ahead() {
 
 /// Makes the next batch ready to hand out. Returns false at the end of the stream.
 bool BrickReader::State::next_batch() {
-  if (accepted) {
-    at_batch = (at_batch + 1) % batches.size();
-    --ahead;
-    accepted = false;
-  }
+  if (std::exchange(accepted, false)) at_batch = (at_batch + 1) % batches.size(), --ahead;
+  if (ended) return false;
   fetch_ahead();
-  if (ahead > 0) {
-    batches[at_batch].decoding.wait();
-    accept(batches[at_batch]);
-    at_record = at_mixed = 0;
-    return accepted = true;
-  }
-  if (pending) std::rethrow_exception(pending);
-  if (!ended) {
+  if (ahead == 0 && pending) std::rethrow_exception(pending);
+  try {
+    if (ahead > 0) {
+      batches[at_batch].decoding.wait();
+      accept(batches[at_batch]);
+      at_record = at_mixed = 0;
+      return accepted = true;
+    }
     read_index();
     read_end();
+  } catch (...) {  // the next call says the same
+    ahead = 0;
+    pending = std::current_exception();
+    throw;
   }
-  ended = true;
-  return false;
+  return !(ended = true);
 }
 
 BrickReader::BrickReader(const std::string& path) : state_(std::make_unique<State>(path)) {

@@ -65,8 +65,8 @@ void parallel_ranges(std::int64_t n, std::int64_t grain, const std::function<voi
 /// Calls body(). While its parallel loops wait, this thread begins no other work, so body() may hold a lock.
 void isolated(const std::function<void()>& body);
 
-/// Work that another thread does while the caller goes on. What was begun outside of isolated() or of a job of
-/// run_jobs() must not be waited for within: without other threads, it would never be done.
+/// Work that another thread does while the caller goes on. It is begun and waited for in the same WorkArena::run(),
+/// isolated() or job of run_jobs(), and in the same process: elsewhere it may never be done.
 class SideWork {
  public:
   SideWork();

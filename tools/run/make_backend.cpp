@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
-#include <future>
 #include <mutex>
 #include <numeric>
+#include <optional>
 #include <string_view>
 
 #include "lib/core/error.h"
@@ -15,7 +15,6 @@
 #include "lib/device/cpu/cpu_backend.h"
 #include "lib/device/cpu/fallback_backend.h"
 #include "lib/device/device_error.h"
-#include "lib/device/late_backend.h"
 #ifdef BP_HAVE_CUDA
 #include "gpu/cuda_backend.h"
 #endif
@@ -63,34 +62,11 @@ std::vector<CudaDevice> begin_gpus() {
 constexpr double kGpuStartSeconds = 0.25;  ///< start of the driver, about
 constexpr int kBackendsPerGpu = 8;         ///< while some copy and compute, others gather and scatter bricks
 
-/// Starts the first of these GPUs that works, on a thread of its own. The result is its index, or the DeviceError of
-/// the first, if none works.
-std::shared_future<int> start_first(const std::vector<int>& devices) {
-  const auto start = [devices] {
-    std::exception_ptr first;
-    for (const int device : devices) {
-      try {
-        (void)make_cuda_backend(device);
-        return device;
-      } catch (const DeviceError&) {
-        if (!first) first = std::current_exception();
-      }
-    }
-    std::rethrow_exception(first);
-  };
-  return std::async(std::launch::async, start).share();
-}
-
-/// Makes backends on GPUs that are being started, in an order in which neighbours belong to different GPUs.
-Backends make_backends_on(const std::vector<std::shared_future<int>>& starts, const std::vector<CudaDevice>& devices) {
+/// Makes backends in an order in which neighbours belong to different GPUs.
+Backends make_backends_on(const std::vector<int>& devices) {
   Backends backends;
   for (int i = 0; i < kBackendsPerGpu; ++i) {
-    for (std::size_t k = 0; k < starts.size(); ++k) {
-      const CudaDevice& device = devices[k];
-      backends.push_back(std::make_unique<LateBackend>([start = starts[k]] { return make_cuda_backend(start.get()); },
-                                                       fmt::format("cuda:{} {}", device.index, device.name),
-                                                       cuda_pinned_bytes()));
-    }
+    for (const int device : devices) backends.push_back(make_cuda_backend(device));
   }
   return backends;
 }
@@ -110,29 +86,34 @@ Backends make_gpu_backends(const Wish& wish) {
   const std::vector<CudaDevice> there = begin_gpus();
   if (there.empty())
     fail(ErrorCode::out_of_resource, "{0} cuda: no GPU was found; check the driver, or use {0} cpu", wish.by);
-  std::vector<CudaDevice> used;
-  for (const int id : wish.choice.ids) {
+  std::vector<int> ids = wish.choice.ids;
+  for (const int id : ids) {
     if (id >= int(there.size()))
       fail(ErrorCode::out_of_resource, "{} cuda:{}: no such GPU; here are {}", wish.by, id, list_of(there));
-    used.push_back(there[std::size_t(id)]);
   }
-  if (used.empty()) used = there;
-  std::vector<std::shared_future<int>> starts;
-  for (const CudaDevice& device : used) starts.push_back(start_first({device.index}));
-  return make_backends_on(starts, used);
+  if (ids.empty()) {
+    for (const CudaDevice& device : there) ids.push_back(device.index);
+  }
+  return make_backends_on(ids);
 }
 
-/// Makes backends on the first GPU that works; empty if there is no GPU.
+/// Makes backends on the first GPU that works; empty if there is no GPU. If none of several works, throws the
+/// DeviceError of the first.
 Backends make_on_first_gpu() {
-  const std::vector<CudaDevice> there = begin_gpus();
-  if (there.empty()) return {};
-  std::vector<int> ids;
-  for (const CudaDevice& device : there) ids.push_back(device.index);
-  return make_backends_on({start_first(ids)}, there);
+  std::optional<DeviceError> first;
+  for (const CudaDevice& device : begin_gpus()) {
+    try {
+      return make_backends_on({device.index});
+    } catch (const DeviceError& e) {
+      if (!first) first = e;
+    }
+  }
+  if (first) throw DeviceError(*first);
+  return {};
 }
 
-/// Makes backends for --device auto: on a GPU, if the cores would need longer than the GPU takes to start. Empty if
-/// there is no GPU.
+/// Makes backends for --device auto: on a GPU, if the cores would need longer than the GPU takes to start. Empty if no
+/// GPU works.
 Backends make_gpu_backends_if_worth(const CommonOptions& common, double core_seconds, Report* report) {
   if (report == nullptr || gpu_is_lost || core_seconds / thread_count() < kGpuStartSeconds) return {};
   Backends backends;

@@ -117,7 +117,9 @@ void Session::open_stream() {
   BrickReader reader(stream_.path());
   header_ = reader.header();
   solid_ = make_shelf(options_.common.memory_bytes / 8, options_.common.temp);
-  for_bricks(reader, [&](const Brick& brick) { solid_->put(brick.coord, brick.fill, brick.bits); });
+  for_bricks(reader, [&](const Brick& brick) {
+    if (brick.layer == Layer::solid) solid_->put(brick.coord, brick.fill, brick.bits);
+  });
   for (std::size_t i = 0; i < 3; ++i) middle_[i] = header_.bounds.min[i] / 2 + header_.bounds.max[i] / 2;
 }
 

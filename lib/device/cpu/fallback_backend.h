@@ -15,7 +15,7 @@ class FallbackBackend final : public Backend {
   FallbackBackend(std::unique_ptr<Backend> device, std::function<void(const DeviceError&)> warn)
       : device_(std::move(device)), warn_(std::move(warn)), name_(device_->name()) {}
 
-  [[nodiscard]] std::string name() const override { return device_ ? device_->name() : name_ + ", then cpu"; }
+  [[nodiscard]] std::string name() const override { return device_ ? name_ : name_ + ", then cpu"; }
   [[nodiscard]] std::uint64_t pinned_bytes() const override { return device_ ? device_->pinned_bytes() : 0; }
   void close(const BitBox& solid, const ScaleLattice& scale, const Halo& halo, const ClosingParams& params,
              const VoxelBox& interior, BitBox& closed) override;

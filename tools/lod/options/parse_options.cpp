@@ -201,9 +201,9 @@ void declare_looks(Args& args, BuildOptions& o) {
        {"off", Appearance::off, "neither"}},
       o.appearance, "textures or colours of the levels");
   args.option("--compression,--tile-compression",
-              {{"auto", std::optional<Compression>{}, "meshopt for 3dtiles, none for levels"},
+              {{"auto", std::optional<Compression>{}, "meshopt for 3dtiles only"},
                {"meshopt", {Compression::meshopt}, "small, with EXT_meshopt_compression"},
-               {"none", {Compression::none}, "plain glTF, for programs without a decoder"}},
+               {"none", {Compression::none}, "plain glTF"}},
               o.asked_compression, "how GLB files are stored");
 }
 

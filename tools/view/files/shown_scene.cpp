@@ -7,6 +7,7 @@
 #include "io/scene/scene_reader.h"
 #include "lib/core/error.h"
 #include "lib/geometry/triangle_bvh.h"
+#include "tools/cli/report.h"
 #include "tools/run/memory_shares.h"
 #include "tools/run/scene_budget.h"
 #include "tools/view/geometry/shown_mesh.h"

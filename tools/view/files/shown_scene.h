@@ -3,6 +3,7 @@
 #include <string>
 
 #include "io/scene/part_names.h"
+#include "io/scene/scene_options.h"
 #include "lib/grid/stream.h"
 #include "tools/view/events.h"
 #include "tools/view/view_options.h"

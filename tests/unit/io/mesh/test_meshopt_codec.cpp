@@ -1,3 +1,4 @@
+#include <cmath>
 #include <cstring>
 #include <span>
 
@@ -26,6 +27,6 @@ TEST_CASE("multiples of a power of two come back from the exponential filter", "
   come_back({0x1p-90F, -0x1.8p-80F});
   come_back({0x1p90F, 0x1.fffffcp90F});
   for (const std::vector<float>& x :
-       std::vector<std::vector<float>>{{8388608, 1}, {1e-6F, 1e6F}, {0x1p-120F}, {0x1p126F}})
+       std::vector<std::vector<float>>{{8388608, 1}, {1e-6F, 1e6F}, {0x1p-120F}, {0x1p126F}, {INFINITY, 1}, {NAN}})
     CHECK(exponential(bytes_of(x)).empty());
 }
