@@ -290,7 +290,7 @@ void BrickReader::State::accept(const InBatch& batch) {
   totals.add(batch.totals);
 }
 
-/// Reads the index (section 8) after its tag. It is compared by hash, since a copy of the index could be large.
+/// Reads the index (section 8) after its tag.
 void BrickReader::State::read_index() {
   index.end();
   const auto count = take<4>("index");

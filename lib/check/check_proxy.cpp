@@ -143,8 +143,8 @@ void check_scene_around(const WeldedMesh& mesh, const Surface& surface, Triangle
   report.undecidable_scene = inside.undecidable;
   check_rounding(mesh, surface, nullptr, scene, options, report);
   if (report.inside() || !options.hidden) return;
-  const auto& [recipe, walls, free_of_scene] = *options.hidden;
-  if (free_of_scene && (report.free_of_scene() != Answer::proven || report.undecidable_scene.count > 0)) return;
+  const auto& [recipe, walls] = *options.hidden;
+  if (!recipe.opaque_only && (report.free_of_scene() != Answer::proven || report.undecidable_scene.count > 0)) return;
   const HiddenReport hidden =
       check_hidden(mesh, surface, *walls, recipe, options.max_examples, options.scene_memory_bytes);
   report.asks_hidden = true;

@@ -8,11 +8,11 @@
 /// floating point.
 namespace bp {
 
-/// The question whether a proxy is hidden, as an occluder's file says that it was made.
+/// The question whether a proxy is hidden, as an occluder's file says that it was made. Where transparent triangles are
+/// walls, too, it is asked only if no triangle of the scene meets the proxy.
 struct HidingQuestion {
   HidingRecipe recipe;
   TriangleSource* walls = nullptr;  ///< the scene, perhaps without what can be seen through
-  bool free_of_scene = false;       ///< asked only if no triangle of the scene meets the proxy
 };
 
 struct CheckOptions {

@@ -39,8 +39,9 @@ void for_bricks(BrickSource& source, const std::function<void(const Brick&)>& ta
 }
 
 void for_bricks(const std::function<bool(Brick&)>& next, const std::function<void(const Brick&)>& take) {
+  constexpr std::size_t kTogether = 8;  // 256 KiB
   struct Some {
-    std::vector<Brick> bricks = std::vector<Brick>(8);  // 256 KiB
+    std::vector<Brick> bricks;  // made for those of the ring that are used: a slab may have few bricks
     SideWork taking;
   };
   auto ring = std::vector<Some>(std::size_t(thread_count()));
@@ -48,8 +49,9 @@ void for_bricks(const std::function<bool(Brick&)>& next, const std::function<voi
   for (std::size_t i = 0; more; i = (i + 1) % ring.size()) {
     Some& some = ring[i];
     some.taking.wait();
+    some.bricks.resize(kTogether);
     std::size_t count = 0;
-    while (count < some.bricks.size() && (more = next(some.bricks[count]))) ++count;
+    while (count < kTogether && (more = next(some.bricks[count]))) ++count;
     some.taking.begin([&take, bricks = std::span(some.bricks).first(count)] {
       for (const Brick& brick : bricks) take(brick);
     });

@@ -13,6 +13,9 @@ namespace bp {
 /// windows are less high than a body.
 constexpr double kBodyWidth = 1.0 / 3;
 
+/// The most voxels that a body is high, in what bplod makes and bpcheck proves.
+constexpr std::int32_t kMostBodyVox = 4000;
+
 /// Returns how many voxels a body holds on each side of the one in its middle, along each axis. The body is an upright
 /// box, `height_world` high, with its sides along the axes. Wherever a box of width w stands, it holds at least floor(w
 /// / voxel) - 1 whole voxels in a row. So it holds 2 reach + 1 of them if reach is at most w / (2 voxel) - 1. At least

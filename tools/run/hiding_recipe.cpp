@@ -77,7 +77,7 @@ Walls walls_of(const MeshExtras& extras, const std::function<std::unique_ptr<Tri
   if (!recipe) return {};
   Walls walls{open(recipe->opaque_only), {}};
   if (recipe->ground) walls.source = std::make_unique<GroundedSource>(std::move(walls.source), recipe->frame.up);
-  walls.question = HidingQuestion{*recipe, walls.source.get(), !recipe->opaque_only};
+  walls.question = HidingQuestion{*recipe, walls.source.get()};
   return walls;
 }
 

@@ -151,8 +151,8 @@ BitBox hidden_voxels(const BitBox& touched, const HidingRecipe& recipe, VoxelCoo
 
 /// Returns whether the voxel, the scale and the body of a recipe are such that its sets can be made.
 bool is_in_range(const HidingRecipe& r) {
-  const auto may_be = [&](double length) { return length >= 0 && length <= kMostScaleVox * r.frame.voxel; };
-  return r.frame.voxel > 0 && may_be(r.scale_world) && may_be(r.body_world);
+  const auto may_be = [&](double length, double most_vox) { return length >= 0 && length <= most_vox * r.frame.voxel; };
+  return r.frame.voxel > 0 && may_be(r.scale_world, kMostScaleVox) && may_be(r.body_world, kMostBodyVox);
 }
 
 class HiddenCheck {

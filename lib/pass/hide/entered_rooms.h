@@ -10,9 +10,6 @@ namespace bp {
 /// windows less than 1.5 m.
 constexpr double kBodyOfRoom = 0.6;
 
-/// The most voxels that a body is high: bpcheck makes no larger sets.
-constexpr std::int32_t kMostBodyVox = 4000;
-
 /// The voxels that a body enters, the set P.
 struct Entered {
   double body_world = 0;  ///< height of the body, scene units

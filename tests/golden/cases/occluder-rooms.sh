@@ -41,7 +41,7 @@ occluder shut --rooms 0.8
 occluder house --rooms open --scale 0.3
 # The occluder of the filled rooms does not hold for one who enters: the file's own words are changed to those.
 said 'bplod house.obj --profile occluder --resolution 160 --up z --rooms filled -o filled -q > /dev/null; sed -i "s/tighten=yes/body=1.8000/" filled/house_occluder.glb; bpcheck --inside house.obj filled/house_occluder.glb | grep -E "hidden|hold"'
-# Neither for one who lies on his side, nor on a ground that its maker did not know: the recipe's axis is that of the file, and is told.
+# Nor for one who lies on his side: another axis than the file's makes no recipe. A ground that is added is told.
 said 'sed -i "s/ up=z / up=x /" filled/house_occluder.glb; bpcheck --inside house.obj filled/house_occluder.glb | grep -E "hidden|hold|inside"'
 said 'sed "s/ground=no /ground=yes /; s/tighten=yes/tighten=ye/" house/house_occluder.glb > y.glb; bpcheck --inside house.obj y.glb | grep -E "hidden|hold"'
 # A body taller than all of the scene, and one beyond all voxels.

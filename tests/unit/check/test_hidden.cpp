@@ -36,6 +36,7 @@ CheckReport hidden_in(const IndexedMesh& scene, const IndexedMesh& proxy, double
   recipe.scale_world = scale;
   recipe.body_world = body;
   recipe.frame.up = UpAxis::z;
+  recipe.opaque_only = true;
   options.hidden = HidingQuestion{recipe, &walls};
   return check_proxy(proxy, &source, options);
 }
